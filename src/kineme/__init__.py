@@ -1,0 +1,1 @@
+"""Cut recordings of human motion into activities, transitions and primitives."""

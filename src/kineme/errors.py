@@ -1,0 +1,73 @@
+"""Every exception and warning the package raises, on one page.
+
+::
+
+    Exception
+      KinemeError
+        FileError               a file, a line in it, and what is wrong there
+          ReadError             cannot be read or understood
+          WriteError            cannot be written
+        MotionError             a motion or skeleton that contradicts itself
+          EndEffectorError      head, hands or feet not found
+        ParameterError          a value outside what a function accepts
+        MissingDependencyError  an optional package is not installed
+    UserWarning
+      KinemeWarning             accepted, but worth knowing
+
+Each message is one sentence that names the value seen and what to do. The
+command line prints it and exits with code 1.
+"""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+
+
+class KinemeError(Exception):
+    """Base of every error raised on purpose."""
+
+
+class FileError(KinemeError):
+    """What is wrong with a file: ``PATH, line N: reason``."""
+
+    def __init__(self, path: str | PathLike[str], reason: str, *, line: int | None = None):
+        self.path = fspath(path)
+        self.reason = reason
+        self.line = line
+        where = self.path if line is None else f"{self.path}, line {line}"
+        super().__init__(f"{where}: {reason}")
+
+
+class ReadError(FileError):
+    """The file cannot be read, or what it holds cannot be understood."""
+
+
+class WriteError(FileError):
+    """The file cannot be written; nothing was left behind."""
+
+
+class MotionError(KinemeError, ValueError):
+    """A motion or skeleton whose parts contradict each other."""
+
+
+class EndEffectorError(MotionError):
+    """Head, hands or feet were not found in the skeleton."""
+
+
+class ParameterError(KinemeError, ValueError):
+    """A parameter outside the values a function accepts."""
+
+
+class MissingDependencyError(KinemeError, ImportError):
+    """An optional package is needed: ``pip install 'kineme[extra]'``."""
+
+    def __init__(self, package: str, extra: str):
+        self.package = package
+        self.extra = extra
+        super().__init__(
+            f"this needs {package}, which is not installed: pip install 'kineme[{extra}]'"
+        )
+
+
+class KinemeWarning(UserWarning):
+    """Something unusual was accepted; the message says what was made of it."""
