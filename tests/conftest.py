@@ -1,0 +1,23 @@
+"""Shared fixtures: where the real recordings are."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+
+def find_data_dir() -> Path | None:
+    """The folder of recordings: ``KINEME_DATA``, else ``../shared/data``, else None."""
+    named = os.environ.get("KINEME_DATA")
+    folder = Path(named) if named else Path(__file__).resolve().parents[2] / "shared" / "data"
+    return folder if folder.is_dir() else None
+
+
+@pytest.fixture(scope="session")
+def data_dir() -> Path:
+    folder = find_data_dir()
+    if folder is None:
+        pytest.skip("no recordings: set KINEME_DATA to the folder that holds cmu86/ and the others")
+    return folder
