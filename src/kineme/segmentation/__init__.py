@@ -1,0 +1,1 @@
+"""Activities, transitions, primitives and clusters of a recording."""
