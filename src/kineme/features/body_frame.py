@@ -1,0 +1,128 @@
+"""The body's own frame: at the pelvis, upright, facing +z with the left at +x.
+
+Positions relative to the pelvis, turned about the vertical frame by frame so
+that the body always faces the same way. Height differences, pitch and roll
+stay; limbs are not scaled.
+
+The facing comes from one axis of the pelvis, the one that points from the right
+hip to the left at rest. The authors' program uses the root's +x, which is that
+axis in CMU's files; other exporters turn their root frames, so the axis is
+looked up in the skeleton and snapped to the nearest of +-x, +-y, +-z. A motion
+without rotations uses the line through the hips instead.
+
+Where that axis stands upright (a body on its side, in a cartwheel) there is no
+facing: the frame takes the facing of the nearest frame that has one, the
+earlier of two equally near. A motion without any is left unturned.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import MotionError
+from kineme.features.effectors import EndEffectors, end_effectors
+from kineme.motion import Motion, Skeleton
+
+Floats = NDArray[np.float64]
+
+_UPRIGHT = 1e-6  # horizontal part of the unit axis below which it has no direction
+
+
+def body_frame(
+    motion: Motion, joints: tuple[int, ...] | None = None, *, effectors: EndEffectors | None = None
+) -> Floats:
+    """Positions (frames, joints, 3) relative to the pelvis, heading removed, in metres.
+
+    x points to the body's left, y up, z ahead.
+
+    Parameters
+    ----------
+    motion : Motion
+    joints : indices of the joints wanted, all by default
+    effectors : where the legs end, which tells pelvis and hips; found by name
+        or shape by default
+
+    Raises
+    ------
+    EndEffectorError : the legs were not found
+    MotionError : the legs have no hips, so nothing tells left from right
+
+    Source
+    ------
+    Voegele et al. 2014, section 3.1; heading as in the authors' program.
+    """
+    pelvis, left_hip, right_hip = _pelvis(motion.skeleton, effectors or end_effectors(motion))
+    positions = motion.positions if joints is None else motion.positions[:, joints]
+    relative = positions - motion.positions[:, pelvis, None]
+    if motion.rotations is None:
+        to_left = motion.positions[:, left_hip] - motion.positions[:, right_hip]
+        to_left /= np.maximum(np.linalg.norm(to_left, axis=1, keepdims=True), _UPRIGHT)
+    else:
+        to_left = _turned_axis(motion, pelvis, left_hip, right_hip)
+    cos, sin = _facing(to_left)
+    x, z = relative[:, :, 0].copy(), relative[:, :, 2]
+    relative[:, :, 0] = cos * x + sin * z
+    relative[:, :, 2] = cos * z - sin * x
+    return relative
+
+
+def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]:
+    """Joint where the legs part, and the left and right joint where they first lie apart."""
+    left = _ancestry(skeleton, effectors.left_ankle)
+    right = _ancestry(skeleton, effectors.right_ankle)
+    shared = sum(1 for a, b in zip(left, right, strict=False) if a == b)
+    if shared == 0:
+        raise MotionError("the legs hang on different roots, so there is no pelvis")
+    pelvis = left[shared - 1]
+    for left_hip, right_hip in zip(left[shared:], right[shared:], strict=False):
+        if np.linalg.norm(_at_rest(skeleton, pelvis, left_hip, right_hip)) > 0:
+            return pelvis, left_hip, right_hip
+    raise MotionError(
+        f"left and right leg coincide below {skeleton.names[pelvis]!r}, so nothing tells the facing"
+    )
+
+
+def _ancestry(skeleton: Skeleton, joint: int) -> list[int]:
+    """The joints from the root down to ``joint``."""
+    chain = [joint]
+    while skeleton.parents[chain[-1]] >= 0:
+        chain.append(skeleton.parents[chain[-1]])
+    return chain[::-1]
+
+
+def _at_rest(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip: int) -> Floats:
+    """From the right hip to the left, in the pelvis's own frame, at rest."""
+
+    def from_pelvis(joint: int) -> Floats:
+        chain = _ancestry(skeleton, joint)
+        return np.asarray(skeleton.offsets[chain[chain.index(pelvis) + 1 :]].sum(axis=0))
+
+    return from_pelvis(left_hip) - from_pelvis(right_hip)
+
+
+def _turned_axis(motion: Motion, pelvis: int, left_hip: int, right_hip: int) -> Floats:
+    """(frames, 3): the pelvis's axis to the left, in the world."""
+    rest = _at_rest(motion.skeleton, pelvis, left_hip, right_hip)
+    axis = np.zeros(3)
+    axis[np.argmax(np.abs(rest))] = np.sign(rest[np.argmax(np.abs(rest))])
+    turned = np.broadcast_to(axis, (len(motion.positions), 3))
+    for joint in reversed(_ancestry(motion.skeleton, pelvis)):
+        quaternion = motion.rotations[:, joint]  # type: ignore[index]
+        w, v = quaternion[:, :1], quaternion[:, 1:]
+        across = np.cross(v, turned)
+        turned = turned + 2 * (w * across + np.cross(v, across))
+    return turned
+
+
+def _facing(to_left: Floats) -> tuple[Floats, Floats]:
+    """Cosine and sine, (frames, 1) each, of the turn that brings the axis to +x."""
+    length = np.hypot(to_left[:, 0], to_left[:, 2])
+    known = np.flatnonzero(length > _UPRIGHT)
+    if len(known) == 0:
+        return np.ones((len(length), 1)), np.zeros((len(length), 1))
+    if len(known) < len(length):
+        middles = (known[:-1] + known[1:]) / 2
+        nearest = known[np.searchsorted(middles, np.arange(len(length)))]
+        to_left, length = to_left[nearest], length[nearest]
+    return (to_left[:, 0] / length)[:, None], (to_left[:, 2] / length)[:, None]

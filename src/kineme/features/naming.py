@@ -1,0 +1,64 @@
+"""Joint names, as the usual programs write them, taken apart.
+
+``mixamorig:LeftHand``, ``Bip01 L Hand``, ``hand_l``, ``hand.L``, ``lhand`` and
+``WristLeft`` all say a side and a part; what comes before them is a prefix.
+A joint is matched when its name, without side, numbers and prefix, ends in one
+of the words asked for; the shortest prefix wins (``foot_l`` before
+``ik_foot_l``), then the joint nearer to the root.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from functools import lru_cache
+
+_SIDES = {"l": "left", "left": "left", "r": "right", "right": "right"}
+_NOT_THE_JOINT = frozenset({"ik", "pole", "target", "twist", "roll", "ctrl", "prop", "goal"})
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
+_GLUED_SIDE = re.compile(r"(left|right|l|r)([a-z]+)")
+
+
+def find_by_name(names: Sequence[str], words: Sequence[str], side: str | None) -> int | None:
+    """Index of the joint that is called by one of ``words``, or None.
+
+    Parameters
+    ----------
+    names : of the joints, parents before children
+    words : wanted parts, lower case, the preferred one first
+    side : "left", "right", or None for a joint on the body's midline
+    """
+    for word in words:
+        found = [
+            (len(prefix), joint)
+            for joint, name in enumerate(names)
+            if (prefix := _prefix_before(name, word, side)) is not None
+        ]
+        if found:
+            return min(found)[1]
+    return None
+
+
+@lru_cache(maxsize=4096)
+def words_of(name: str) -> tuple[str, ...]:
+    """The words of a name in lower case, without namespace, separators and numbers."""
+    local = re.split(r"[:|]", name)[-1]
+    return tuple(word.lower() for word in _WORD.findall(local) if not word.isdigit())
+
+
+def _prefix_before(name: str, word: str, side: str | None) -> list[str] | None:
+    """The words before ``word`` on the given side, or None if the name says something else."""
+    words = list(words_of(name))
+    found_side = None
+    for place, candidate in enumerate(words):
+        if candidate in _SIDES:
+            found_side = _SIDES[candidate]
+            del words[place]
+            break
+    glued = _GLUED_SIDE.fullmatch(words[-1]) if found_side is None and words else None
+    if glued and glued[2] == word:
+        found_side, words[-1] = _SIDES[glued[1]], word
+    if not words or words[-1] != word or found_side != side:
+        return None
+    prefix = words[:-1]
+    return None if _NOT_THE_JOINT.intersection(prefix) else prefix

@@ -1,0 +1,106 @@
+"""Pose features, and their stacking with neighbouring frames.
+
+A pose is 15 numbers: x, y, z of the left ankle, right ankle, head, left wrist
+and right wrist in the body's own frame (see ``body_frame``), in metres. Stacked
+with the poses some frames before and after, it also tells the direction of
+movement, and is what the neighbour search compares.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme.errors import ParameterError
+from kineme.features.body_frame import body_frame
+from kineme.features.effectors import EndEffectors, Names, end_effectors
+from kineme.motion import Motion
+
+Floats = NDArray[np.float64]
+
+
+def pose_features(motion: Motion, *, effectors: EndEffectors | Names | None = None) -> Floats:
+    """Positions (frames, 15) of the five end effectors in the body's own frame, in metres.
+
+    Parameters
+    ----------
+    motion : Motion
+    effectors : the end effectors or their names (see ``end_effectors``);
+        searched for by default
+
+    Raises
+    ------
+    EndEffectorError : head, hands or feet were not found
+
+    Source
+    ------
+    Voegele et al. 2014, section 3.1 (feature set of 15 values).
+    """
+    if not isinstance(effectors, EndEffectors):
+        effectors = end_effectors(motion, names=effectors)
+    local = body_frame(motion, effectors.indices, effectors=effectors)
+    return local.reshape(len(local), -1)
+
+
+def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
+    """``stacked[t]`` holds ``features[t + o]`` side by side for the offsets o in ascending order.
+
+    Beyond either end the two outermost frames are continued in a straight
+    line; a single frame is repeated.
+
+    Parameters
+    ----------
+    features : (frames, dims)
+    offsets : frames relative to the one in question; 0 is not added by itself
+
+    Returns
+    -------
+    (frames, dims * offsets)
+
+    Raises
+    ------
+    ParameterError : features are not two-dimensional or empty, or there are no
+        offsets or equal ones
+    """
+    features = np.asarray(features, dtype=np.float64)
+    if features.ndim != 2 or len(features) == 0:
+        raise ParameterError(f"features must be frames x dims, not of shape {features.shape}")
+    if len(offsets) == 0 or len(set(offsets)) < len(offsets):
+        raise ParameterError(f"offsets must be different frames, at least one, not {offsets!r}")
+    before, after = max(0, -min(offsets)), max(0, max(offsets))
+    longer = _extrapolated(features, before, after)
+    frames, dims = features.shape
+    stacked = np.empty((frames, len(offsets), dims))
+    for block, offset in enumerate(sorted(offsets)):
+        stacked[:, block] = longer[before + offset : before + offset + frames]
+    return stacked.reshape(frames, -1)
+
+
+def offsets_in_frames(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]:
+    """Offsets in whole frames, ascending, from offsets in seconds.
+
+    Raises
+    ------
+    ParameterError : an offset is not a number, or two become the same frame
+    """
+    if not (fps > 0 and np.isfinite(fps)):
+        raise ParameterError(f"fps must be a positive number, not {fps!r}")
+    if not np.all(np.isfinite(offsets_s)):
+        raise ParameterError(f"offsets must be finite seconds, not {offsets_s!r}")
+    frames = tuple(sorted(round(offset * fps) for offset in offsets_s))
+    if len(set(frames)) < len(frames):
+        raise ParameterError(
+            f"offsets {tuple(offsets_s)} s fall on the same frame at {fps:g} Hz; space them wider"
+        )
+    return frames
+
+
+def _extrapolated(features: Floats, before: int, after: int) -> Floats:
+    """The features with so many frames more at either end, in line with the two outermost."""
+    first = features[1] - features[0] if len(features) > 1 else np.zeros(features.shape[1])
+    last = features[-1] - features[-2] if len(features) > 1 else first
+    head = features[0] - np.arange(before, 0, -1)[:, None] * first
+    tail = features[-1] + np.arange(1, after + 1)[:, None] * last
+    return np.concatenate([head, features, tail])
