@@ -11,17 +11,22 @@ A joint sits where its rotation acts, and its offset is carried by the parent::
 
 An end site is a leaf without rotation of its own (a fingertip, the crown of
 the head).
+
+Both classes are values: their arrays are read-only views, and every change
+(see `kineme.operations`) makes a new object.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme import _rotations as rot
 from kineme.errors import MotionError, ParameterError
 
 Floats = NDArray[np.float64]
@@ -49,6 +54,57 @@ class Skeleton:
     offsets: Floats
     end_sites: frozenset[int] = frozenset()
 
+    def __post_init__(self) -> None:
+        _set(self, names=tuple(self.names), parents=tuple(int(p) for p in self.parents))
+        _set(self, offsets=_frozen(self.offsets, "offsets"), end_sites=frozenset(self.end_sites))
+        n = len(self.names)
+        if n == 0:
+            raise MotionError("a skeleton needs at least one joint")
+        if len(self.parents) != n or self.offsets.shape != (n, 3):
+            raise MotionError(
+                f"{n} names, {len(self.parents)} parents and offsets of shape "
+                f"{self.offsets.shape} do not describe one skeleton"
+            )
+        if len(set(self.names)) != n:
+            twice = next(name for name in self.names if self.names.count(name) > 1)
+            raise MotionError(f"two joints are called {twice!r}: rename one of them")
+        for joint, parent in enumerate(self.parents):
+            if not -1 <= parent < joint:
+                raise MotionError(
+                    f"joint {self.names[joint]!r} (index {joint}) has parent {parent}: "
+                    "parents come before their children, and a root has -1"
+                )
+        inner = self.end_sites & ({*self.parents} | {-1} | {*self.end_sites} - {*range(n)})
+        if inner:
+            raise MotionError(f"end site {min(inner)} is not a leaf of the skeleton")
+
+    def joint(self, name: str) -> int:
+        """The index of the joint called ``name``; ParameterError if there is none."""
+        try:
+            return self._index[name]
+        except KeyError:
+            close = get_close_matches(name, self.names, n=3) or self.names[:5]
+            raise ParameterError(
+                f"no joint is called {name!r}; did you mean {_listed(close)}?"
+            ) from None
+
+    @property
+    def n_joints(self) -> int:
+        return len(self.names)
+
+    @cached_property
+    def children(self) -> tuple[tuple[int, ...], ...]:
+        """For each joint the indices of its children, in order."""
+        lists: list[list[int]] = [[] for _ in self.names]
+        for joint, parent in enumerate(self.parents):
+            if parent >= 0:
+                lists[parent].append(joint)
+        return tuple(map(tuple, lists))
+
+    @cached_property
+    def _index(self) -> dict[str, int]:
+        return {name: i for i, name in enumerate(self.names)}
+
 
 @dataclass(frozen=True)
 class Provenance:
@@ -62,6 +118,10 @@ class Provenance:
     format: str | None = None
     sha256: str | None = None
     notes: tuple[str, ...] = ()
+
+    def noted(self, *sentences: str) -> Provenance:
+        """The same with sentences added."""
+        return replace(self, notes=self.notes + sentences)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,3 +147,152 @@ class Motion:
     fps: float
     rotations: Floats | None = None
     provenance: Provenance = field(default_factory=Provenance)
+
+    def __post_init__(self) -> None:
+        _set(self, positions=_frozen(self.positions, "positions"), fps=float(self.fps))
+        if not (np.isfinite(self.fps) and self.fps > 0):
+            raise MotionError(f"the frame rate is {self.fps}: it must be a positive number")
+        joints = self.skeleton.n_joints
+        if self.positions.ndim != 3 or self.positions.shape[1:] != (joints, 3):
+            raise MotionError(
+                f"positions have shape {self.positions.shape}, not (frames, {joints}, 3)"
+            )
+        if self.n_frames == 0:
+            raise MotionError("a motion needs at least one frame")
+        if self.rotations is None:
+            return
+        _set(self, rotations=_frozen(self.rotations, "rotations"))
+        if self.rotations.shape != (self.n_frames, joints, 4):
+            raise MotionError(
+                f"rotations have shape {self.rotations.shape}, not ({self.n_frames}, {joints}, 4)"
+            )
+        norm = np.einsum("fjc,fjc->fj", self.rotations, self.rotations)
+        if np.abs(norm - 1).max() > 1e-6:
+            raise MotionError("rotations are not unit quaternions: divide them by their norm")
+
+    @classmethod
+    def from_rotations(
+        cls,
+        skeleton: Skeleton,
+        rotations: ArrayLike,
+        fps: float,
+        root_positions: ArrayLike | None = None,
+        *,
+        translations: ArrayLike | None = None,
+        provenance: Provenance | None = None,
+    ) -> Motion:
+        """The motion whose positions follow from rotations (see `forward_kinematics`)."""
+        positions = forward_kinematics(
+            skeleton, rotations, root_positions, translations=translations
+        )
+        return cls(
+            skeleton, positions, fps, np.asarray(rotations, float), provenance or Provenance()
+        )
+
+    @property
+    def n_frames(self) -> int:
+        return len(self.positions)
+
+    @property
+    def duration(self) -> float:
+        """Seconds: frames / fps."""
+        return self.n_frames / self.fps
+
+    @property
+    def times(self) -> Floats:
+        """The second at which each frame was taken, from 0."""
+        return np.arange(self.n_frames) / self.fps
+
+    def joint(self, name: str) -> int:
+        """The index of the joint called ``name``; ParameterError if there is none."""
+        return self.skeleton.joint(name)
+
+
+def forward_kinematics(
+    skeleton: Skeleton,
+    rotations: ArrayLike,
+    root_positions: ArrayLike | None = None,
+    *,
+    translations: ArrayLike | None = None,
+) -> Floats:
+    """Joint positions, (frames, joints, 3), from rotations local to the parent.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+    rotations : (frames, joints, 4) unit quaternions; an end site's is not used
+    root_positions : (frames, 3), where the root is; its offset if not given
+    translations : (frames, joints, 3), in place of the skeleton's offsets, for
+        joints that slide as well as turn (a root's is its position)
+    """
+    # One contiguous row per joint and component: the loop below is then bound
+    # by arithmetic and not by memory.
+    local = np.ascontiguousarray(np.asarray(rotations, float).transpose(1, 2, 0))
+    n = local.shape[2]
+    if translations is not None:
+        shift = np.ascontiguousarray(np.asarray(translations, float).transpose(1, 2, 0))
+    else:
+        shift = np.broadcast_to(skeleton.offsets[:, :, None], (skeleton.n_joints, 3, n)).copy()
+    if root_positions is not None:
+        shift[[p < 0 for p in skeleton.parents]] = np.asarray(root_positions, float).T
+    positions = np.empty((skeleton.n_joints, 3, n))
+    world: list[Floats] = []
+    for j, parent in enumerate(skeleton.parents):
+        if parent < 0:
+            positions[j] = shift[j]
+            world.append(local[j].T)
+            continue
+        carried = skeleton.offsets[j] if translations is None else shift[j].T
+        positions[j] = positions[parent] + rot.rotate(world[parent], carried).T
+        leaf = j in skeleton.end_sites
+        world.append(world[parent] if leaf else rot.multiply(world[parent], local[j].T))
+    return positions.transpose(2, 0, 1)
+
+
+def world_rotations(motion: Motion) -> Floats:
+    """Each joint's rotation to the world, (frames, joints, 4); end sites take their parent's.
+
+    Raises
+    ------
+    MotionError : the motion has no rotations
+    """
+    if motion.rotations is None:
+        raise MotionError("this motion has positions only: it has no rotations to work with")
+    world = np.array(motion.rotations)
+    for j, parent in enumerate(motion.skeleton.parents):
+        if parent >= 0:
+            world[:, j] = rot.multiply(world[:, parent], world[:, j])
+    return world
+
+
+def local_translations(motion: Motion) -> Floats:
+    """From parent to joint in the parent's frame, (frames, joints, 3); a root's position.
+
+    Equal to the skeleton's offsets wherever bones are rigid.
+    """
+    world, positions = world_rotations(motion), motion.positions
+    local = np.array(positions)
+    for j, parent in enumerate(motion.skeleton.parents):
+        if parent >= 0:
+            step = positions[:, j] - positions[:, parent]
+            local[:, j] = rot.rotate(rot.conjugate(world[:, parent]), step)
+    return local
+
+
+def _frozen(values: ArrayLike, what: str) -> Floats:
+    """A read-only float64 view, C-contiguous and finite."""
+    array = np.ascontiguousarray(values, dtype=np.float64).view()
+    if not np.isfinite(array).all():
+        raise MotionError(f"{what} hold values that are not finite (NaN or infinite)")
+    array.flags.writeable = False
+    return array
+
+
+def _set(instance: object, **values: object) -> None:
+    """Assign fields of a frozen dataclass while it is being made."""
+    for name, value in values.items():
+        object.__setattr__(instance, name, value)
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(map(repr, names))

@@ -1,0 +1,22 @@
+"""Reading and writing recordings.
+
+`read` picks a reader by what the file holds and by its suffix; `write` picks a
+writer by suffix. Every reader gives a `Motion` in metres, y up, and says in
+its provenance what the file did not tell and had to be inferred. One module
+per format; `register` adds more.
+"""
+
+from kineme.formats import amc, bvh
+from kineme.formats.registry import (
+    Format,
+    ReadOptions,
+    read,
+    register,
+    supported_formats,
+    write,
+)
+
+register(amc.FORMAT)
+register(bvh.FORMAT)
+
+__all__ = ["Format", "ReadOptions", "read", "register", "supported_formats", "write"]

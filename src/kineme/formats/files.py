@@ -1,0 +1,95 @@
+"""Bytes in and out: loading with a digest, numbers with their line, atomic writing."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from hashlib import sha256
+from math import isfinite
+from os import PathLike
+from pathlib import Path
+
+from kineme.errors import ReadError, WriteError
+from kineme.motion import Provenance
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file's path and all of its bytes."""
+
+    path: Path
+    data: bytes
+
+    @cached_property
+    def digest(self) -> str:
+        return sha256(self.data).hexdigest()
+
+    @property
+    def text(self) -> str:
+        """The bytes as text; in files this old a stray byte is only ever in a comment or name."""
+        return self.data.decode("utf-8", errors="replace").removeprefix("\ufeff")
+
+    def provenance(self, name: str, notes: Iterable[str]) -> Provenance:
+        return Provenance(str(self.path), name, self.digest, tuple(notes))
+
+    def error(self, reason: str, line: int | None = None) -> ReadError:
+        return ReadError(self.path, reason, line=line)
+
+
+def load(path: str | PathLike[str]) -> Source:
+    """The file as it is on disk; ReadError if there is none or it may not be read."""
+    try:
+        return Source(Path(path), Path(path).read_bytes())
+    except OSError as error:
+        raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
+    except ValueError as error:  # a null byte in the name
+        raise ReadError(path, f"cannot be opened: {error}") from error
+
+
+def numbers(words: Iterable[str | bytes]) -> list[float]:
+    """The words as finite numbers; ValueError names the first that is not one."""
+    values = []
+    for word in words:
+        try:
+            value = float(word)
+        except ValueError:
+            raise ValueError(f"{_shown(word)} is not a number") from None
+        if not isfinite(value):
+            raise ValueError(f"{_shown(word)} is not a finite number")
+        values.append(value)
+    return values
+
+
+def save(path: Path, text: Iterable[str]) -> None:
+    """Write ``text`` to ``path`` whole or not at all.
+
+    The text goes to a temporary file in the same folder, which then takes the
+    name over in one step.
+    """
+    temporary = None
+    try:
+        with tempfile.NamedTemporaryFile(
+            "w", encoding="utf-8", newline="\n", dir=path.parent, delete=False
+        ) as file:
+            temporary = file.name
+            file.writelines(text)
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+    except OSError as error:
+        if temporary is not None:
+            Path(temporary).unlink(missing_ok=True)
+        raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def _shown(word: str | bytes) -> str:
+    text = word.decode("ascii", errors="backslashreplace") if isinstance(word, bytes) else word
+    return repr(text if len(text) <= 40 else text[:40] + "...")

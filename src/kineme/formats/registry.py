@@ -1,0 +1,148 @@
+"""Which format a file is in, and who reads and writes it.
+
+A format is a name, its suffixes, a test of a file's first bytes, a reader and
+a writer. A reader takes a `Source` and `ReadOptions` and returns a `Motion`;
+options it has no use for it ignores.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import isfinite
+from os import PathLike
+from pathlib import Path
+
+from kineme.errors import MotionError, ParameterError, ReadError, WriteError
+from kineme.formats.files import Source, load
+from kineme.formats.units import AXES, UNITS
+from kineme.motion import Motion
+
+AnyPath = str | PathLike[str]
+
+
+@dataclass(frozen=True)
+class ReadOptions:
+    """What the user knows better than the file; None where the file is right.
+
+    ``unit`` is a name in `UNITS` or the length of one file unit in metres.
+    """
+
+    skeleton: Path | None = None
+    fps: float | None = None
+    unit: str | float | None = None
+    up: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.fps is not None and not (isfinite(self.fps) and self.fps > 0):
+            raise ParameterError(f"fps is {self.fps}: give frames per second, above 0")
+        if isinstance(self.unit, str) and self.unit not in UNITS:
+            raise ParameterError(f"unit is {self.unit!r}: give metres or one of {', '.join(UNITS)}")
+        if isinstance(self.unit, int | float) and not (isfinite(self.unit) and self.unit > 0):
+            raise ParameterError(f"unit is {self.unit}: give the metres in one unit, above 0")
+        if self.up is not None and self.up not in AXES:
+            raise ParameterError(f"up is {self.up!r}: give one of {', '.join(AXES)}")
+
+
+@dataclass(frozen=True)
+class Format:
+    """One file format.
+
+    Parameters
+    ----------
+    name : as people call it
+    suffixes : lower case, with the dot
+    recognises : whether a file's first 4096 bytes look like this format
+    read : from a source to a motion, or None
+    write : from a motion to a path, or None
+    """
+
+    name: str
+    suffixes: tuple[str, ...]
+    recognises: Callable[[bytes], bool]
+    read: Callable[[Source, ReadOptions], Motion] | None = None
+    write: Callable[[Motion, Path], None] | None = None
+
+
+_formats: list[Format] = []
+
+
+def register(new: Format) -> None:
+    """Make a format known to `read` and `write`, ahead of those known before."""
+    _formats.insert(0, new)
+
+
+def supported_formats() -> tuple[Format, ...]:
+    """The known formats, in the order in which they are tried."""
+    return tuple(_formats)
+
+
+def read(
+    path: AnyPath,
+    *,
+    skeleton: AnyPath | None = None,
+    fps: float | None = None,
+    unit: str | float | None = None,
+    up: str | None = None,
+) -> Motion:
+    """The motion in a file: metres, y up, with what was inferred in its provenance.
+
+    Parameters
+    ----------
+    path : the recording
+    skeleton : the ASF file of an AMC, if it is not found beside it
+    fps : frames per second, in place of the file's
+    unit : "m", "cm", "mm", "inch", "cmu" (1/0.45 inch) or the metres in one
+        unit, in place of the file's or of what the body's height suggests
+    up : the file's vertical axis, "x", "y", "z", "-x", "-y" or "-z"
+
+    Raises
+    ------
+    ReadError : the file is missing, damaged or of no known format
+    ParameterError : an option is outside what it accepts
+    """
+    options = ReadOptions(Path(skeleton) if skeleton is not None else None, fps, unit, up)
+    source = load(path)
+    if not source.data.strip():
+        raise ReadError(path, "the file is empty")
+    reader = _recognise(source).read
+    if reader is None:
+        raise ReadError(path, "this format can be written but not read")
+    try:
+        return reader(source, options)
+    except MotionError as error:
+        raise ReadError(path, str(error)) from error
+
+
+def write(motion: Motion, path: AnyPath) -> None:
+    """Leave ``motion`` in a file of the format its suffix names, whole or not at all.
+
+    Raises
+    ------
+    WriteError : unknown suffix, a motion the format cannot hold, or a place
+        that cannot be written
+    """
+    target = Path(path)
+    for known in _formats:
+        if target.suffix.lower() in known.suffixes and known.write is not None:
+            return known.write(motion, target)
+    suffixes = sorted(s for known in _formats if known.write for s in known.suffixes)
+    raise WriteError(
+        path, f"no writer for the suffix {target.suffix!r}: use one of {', '.join(suffixes)}"
+    )
+
+
+def _recognise(source: Source) -> Format:
+    """The format the content speaks for; where several or none do, the suffix decides."""
+    head = source.data[:4096]
+    suffix = source.path.suffix.lower()
+    by_content = [known for known in _formats if known.recognises(head)]
+    by_suffix = [known for known in _formats if suffix in known.suffixes]
+    for known in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
+        return known
+    suffixes = sorted({s for known in _formats for s in known.suffixes})
+    raise ReadError(
+        source.path,
+        f"neither its content nor its suffix {suffix!r} is known: kineme reads "
+        f"{', '.join(suffixes)}",
+    )
