@@ -115,7 +115,7 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
     missing = [c for c in ("level", "kind", "start_frame", "stop_frame") if c not in columns]
     if missing:
         raise ParameterError(f"a segment table needs the column {missing[0]!r}")
-    n = np.shape(columns["level"])[0]
+    n = np.size(columns["level"])
     level = _texts(columns["level"], "level", get_args(Level))
     start = _integers(columns["start_frame"], "start_frame")
     stop = _integers(columns["stop_frame"], "stop_frame")
@@ -144,24 +144,33 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
 
 
 def _integers(values: ArrayLike, name: str) -> NDArray[np.int64]:
-    array = np.asarray(values)
+    array = _array(values, name)
     if array.size and array.dtype.kind not in "iu":
         raise ParameterError(f"column {name!r} must hold whole numbers, not {array.dtype}")
     return array.astype(np.int64)
 
 
 def _scores(values: ArrayLike) -> NDArray[np.float64]:
-    scores = np.asarray(values, dtype=np.float64)
-    if np.isinf(scores).any():
+    scores = _array(values, "score")
+    if scores.dtype.kind not in "iuf" or np.isinf(scores).any():
         raise ParameterError("column 'score' must be finite, or nan where there is no score")
-    return scores
+    return scores.astype(np.float64)
 
 
 def _texts(values: ArrayLike, name: str, allowed: tuple[str, ...] = ()) -> NDArray[np.str_]:
-    texts = np.asarray(values, dtype=np.str_)
+    texts = _array(values, name)
     for text in set(texts.ravel().tolist()):
+        if not isinstance(text, str):
+            raise ParameterError(f"column {name!r} must hold texts, not {text!r}")
         if allowed and text not in allowed:
             raise ParameterError(f"{name} must be {' or '.join(allowed)}, not {text!r}")
         if any(unicodedata.category(letter) in ("Cc", "Cs", "Zl", "Zp") for letter in text):
             raise ParameterError(f"{name} {text!r} must be one line of plain text")
-    return texts
+    return texts.astype(np.str_)
+
+
+def _array(values: ArrayLike, name: str) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except ValueError as error:
+        raise ParameterError(f"column {name!r} must hold one value per row") from error

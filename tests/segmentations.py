@@ -1,0 +1,61 @@
+"""Segmentations of all shapes, for hypothesis."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from hypothesis import strategies as st
+
+from kineme.segmentation.result import Segmentation
+
+LABELS = st.text(st.characters(exclude_categories=("Cc", "Cs", "Zl", "Zp")), max_size=12)
+RATES = st.one_of(
+    st.sampled_from([25.0, 30.0, 29.97, 60.0, 119.88, 120.0, 30000 / 1001]),
+    st.floats(1e-3, 1e5, allow_nan=False),
+)
+JSON = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.text(max_size=8),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner),
+    max_leaves=8,
+)
+
+
+@st.composite
+def segmentations(draw: st.DrawFn) -> Segmentation:
+    """Random cuts of both levels, clusters, labels, scores, provenance."""
+    n_frames = draw(st.integers(1, 60))
+    cuts = st.sets(st.integers(1, max(1, n_frames - 1)), max_size=6)
+    inner = sorted(cut for cut in draw(cuts) if cut < n_frames)
+    finer = sorted({*inner, *(cut for cut in draw(cuts) if cut < n_frames)})
+    levels = [("activity", inner)]
+    if draw(st.booleans()):
+        levels.append(("primitive", finer))
+    columns: dict[str, list[Any]] = {"level": [], "start_frame": [], "stop_frame": []}
+    for level, borders in levels:
+        columns["level"] += [level] * (len(borders) + 1)
+        columns["start_frame"] += [0, *borders]
+        columns["stop_frame"] += [*borders, n_frames]
+    n = len(columns["level"])
+
+    def column(values: st.SearchStrategy[Any]) -> list[Any]:
+        return draw(st.lists(values, min_size=n, max_size=n))
+
+    scores = st.floats(allow_infinity=False, allow_nan=False) | st.just(np.nan)
+    return Segmentation.from_columns(
+        {
+            **columns,
+            "kind": column(st.sampled_from(["activity", "transition"])),
+            "cluster": column(st.integers(-1, 5)),
+            "label": column(LABELS),
+            "score": column(scores),
+        },
+        n_frames=n_frames,
+        fps=draw(RATES),
+        provenance=draw(st.dictionaries(st.text(max_size=5), JSON, max_size=3)),
+        timings=draw(st.dictionaries(st.text(max_size=5), st.floats(0, 1e3), max_size=3)),
+    )
