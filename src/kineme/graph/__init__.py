@@ -1,0 +1,16 @@
+"""Which frames look alike, and which stretches match: graph and warping paths.
+
+Nothing here knows what a skeleton is: any array of frames × dims will do.
+"""
+
+from kineme.graph.neighbors import NeighborGraph, neighbor_graph
+from kineme.graph.warping import BASIC_STEPS, WarpingPaths, component_labels, warping_paths
+
+__all__ = [
+    "BASIC_STEPS",
+    "NeighborGraph",
+    "WarpingPaths",
+    "component_labels",
+    "neighbor_graph",
+    "warping_paths",
+]

@@ -1,0 +1,160 @@
+"""Warping paths: stretches of a recording that match under time warping.
+
+Instead of filling a dynamic-time-warping matrix, paths walk over the stored
+pairs (t, j) of a neighbour graph. A warping step (a, b) leads from (t, j) to
+(t + a, j + b) if both are stored. Each minor diagonal of the self-similarity
+matrix is one weakly connected component, and its cheapest path from its first
+row to its last matches two stretches frame by frame.
+
+Source: Vögele, Krüger and Klein 2014, sections 3 and 3.2; the graph after
+Krüger, Tautges, Weber and Zinke 2010.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError
+from kineme.graph import _path_kernels
+from kineme.graph.neighbors import NeighborGraph
+
+Step = tuple[int, int]
+Ints = NDArray[np.int32]
+
+BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
+
+
+@dataclass(frozen=True, eq=False)
+class WarpingPaths:
+    """``rows, columns = paths[p]``: the frames that path p matches, in order.
+
+    Held flat: path p is ``rows[ptr[p]:ptr[p + 1]]`` and the same of
+    ``columns``; ``costs[p]`` is the sum over its nodes.
+    """
+
+    ptr: NDArray[np.int64]
+    rows: Ints
+    columns: Ints
+    costs: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.ptr) - 1
+
+    def __getitem__(self, p: int) -> tuple[Ints, Ints]:
+        if not 0 <= p < len(self):
+            raise IndexError(f"path {p} of {len(self)}")
+        nodes = slice(self.ptr[p], self.ptr[p + 1])
+        return self.rows[nodes], self.columns[nodes]
+
+    def __iter__(self) -> Iterator[tuple[Ints, Ints]]:
+        return (self[p] for p in range(len(self)))
+
+    @property
+    def n_nodes(self) -> NDArray[np.int64]:
+        """Nodes per path."""
+        return np.diff(self.ptr)
+
+    @property
+    def starts(self) -> tuple[Ints, Ints]:
+        """Row and column at which each path begins."""
+        return self.rows[self.ptr[:-1]], self.columns[self.ptr[:-1]]
+
+    @property
+    def ends(self) -> tuple[Ints, Ints]:
+        """Row and column at which each path ends, inclusive."""
+        return self.rows[self.ptr[1:] - 1], self.columns[self.ptr[1:] - 1]
+
+    @property
+    def slopes(self) -> NDArray[np.float64]:
+        """Columns per row from start to end; 1 where both stretches last equally long."""
+        (row_start, column_start), (row_end, column_end) = self.starts, self.ends
+        return (column_end - column_start) / (row_end - row_start)
+
+    def select(self, mask: NDArray[np.bool_]) -> WarpingPaths:
+        """The paths where the mask is true, in the same order."""
+        nodes = np.repeat(mask, self.n_nodes)
+        ptr = np.concatenate([[0], np.cumsum(self.n_nodes[mask])])
+        return WarpingPaths(ptr, self.rows[nodes], self.columns[nodes], self.costs[mask])
+
+
+def warping_paths(
+    graph: NeighborGraph,
+    rows: tuple[int, int],
+    columns: tuple[int, int],
+    *,
+    steps: Sequence[Step] = BASIC_STEPS,
+    skip_penalty: float = 0.0,
+    zero_cost: float = 1e-6,
+    min_nodes: int = 2,
+    separation: int | None = None,
+    max_slope: float | None = None,
+) -> WarpingPaths:
+    """Cheapest paths through each connected component inside a box of the graph.
+
+    A path runs from any node in the first row of its component to a node in
+    the last. It costs the distances of its nodes.
+
+    Parameters
+    ----------
+    graph : NeighborGraph
+    rows, columns : (start, stop)
+        The box, half-open frames.
+    steps : (a, b) pairs
+        Warping steps.
+    skip_penalty : float
+        Added for every row and column a step passes over; without it paths
+        hop in long steps over what should be matched.
+    zero_cost : float
+        Cost of a node whose distance is zero.
+    min_nodes : int
+        Shorter paths are dropped.
+    separation : int, optional
+        Several paths of a component are kept if their first columns are at
+        least this far apart; by default only the cheapest is kept.
+    max_slope : float, optional
+        Paths steeper than this, or flatter than its inverse, are dropped.
+    """
+    moves = _as_steps(steps)
+    skipped = np.maximum(moves - 1, 0).sum(axis=1)
+    ptr, path_rows, path_columns, costs = _path_kernels.paths_in_box(
+        graph.indptr,
+        graph.indices,
+        graph.distances,
+        *rows,
+        *columns,
+        moves,
+        skip_penalty * skipped,
+        zero_cost,
+        min_nodes,
+        graph.n_columns + 1 if separation is None else separation,
+    )
+    paths = WarpingPaths(ptr, path_rows, path_columns, costs)
+    keep = paths.n_nodes >= min_nodes
+    if max_slope is not None:
+        keep &= (paths.slopes >= 1 / max_slope) & (paths.slopes <= max_slope)
+    return paths.select(keep)
+
+
+def component_labels(
+    graph: NeighborGraph, *, steps: Sequence[Step] = BASIC_STEPS
+) -> NDArray[np.int32]:
+    """One label per stored pair: equal where warping steps connect two pairs.
+
+    The label is the position of the first stored pair of the component, so
+    pairs that share the label of pair (0, 0) lie on the main diagonal's.
+    """
+    indptr = graph.indptr
+    return _path_kernels.component_roots(
+        graph.indices, indptr[:-1], indptr, _as_steps(steps), 0, graph.n_columns
+    )
+
+
+def _as_steps(steps: Sequence[Step]) -> NDArray[np.int64]:
+    moves = np.array(steps, np.int64).reshape(-1, 2)
+    if not len(moves) or moves.min() < 0 or (moves.sum(axis=1) == 0).any():
+        raise ParameterError(f"warping steps are pairs (a, b) from 0, not both 0; got {steps}")
+    return moves

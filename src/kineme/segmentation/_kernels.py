@@ -1,0 +1,181 @@
+"""Compiled loops of the segmentation: growing regions, coherence, links.
+
+Frames count from 0. Naive twins are in ``tests/naive.py``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from kineme.graph._kernels import OPTIONS
+
+
+@njit("int64[::1](int64[::1], int32[::1], int64, int64)", **OPTIONS)
+def grow_squares_forward(indptr, earlier, min_gap, min_count):
+    """Neighbour pairs inside the growing square, frame by frame; -1 where undefined.
+
+    ``earlier[indptr[i]:indptr[i + 1]]`` holds the earlier frame of every
+    stored pair whose later frame is i.
+    """
+    n = len(indptr) - 1
+    counts = np.full(n, -1, np.int64)
+    start = last = still = found = 0
+    for i in range(1, n):
+        for e in range(indptr[i], indptr[i + 1]):
+            found += earlier[e] >= start
+        counts[i] = found
+        if counts[i] != counts[i - 1]:
+            still = 0
+            continue
+        still += 1
+        if still == min_gap:
+            if counts[last : i + 1].max() > min_count:
+                last = i - still
+                start = i
+                found = 0
+                for e in range(indptr[i], indptr[i + 1]):
+                    found += earlier[e] >= start
+            still = 0
+    return counts
+
+
+@njit("int64[::1](int64[::1], int32[::1], boolean[::1], int64, int64)", **OPTIONS)
+def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
+    """The same from the end; regions also end at forward cuts.
+
+    ``later[indptr[i]:indptr[i + 1]]`` holds the later frame of every stored
+    pair whose earlier frame is i.
+    """
+    n = len(indptr) - 1
+    counts = np.full(n, -1, np.int64)
+    end = last = n - 1
+    still = found = 0
+    for i in range(n - 2, -1, -1):
+        for e in range(indptr[i], indptr[i + 1]):
+            found += later[e] <= end
+        counts[i] = found
+        restart = forward_cuts[i]
+        if not restart:
+            if counts[i] != counts[i + 1]:
+                still = 0
+                continue
+            still += 1
+            if still == min_gap:
+                still = 0
+                restart = counts[i : last + 1].max() > min_count
+        if restart:
+            last = end = i
+            found = 0
+            for e in range(indptr[i], indptr[i + 1]):
+                found += later[e] <= end
+    return counts
+
+
+@njit("int64[::1](int64[::1], int32[::1], int64, int64)", **OPTIONS)
+def scan_lines_forward(indptr, indices, min_gap, min_count):
+    """Frames at which a region, scanned line by line, stops finding neighbours."""
+    cuts = []
+    start = region = still = 0
+    for i in range(len(indptr) - 1):
+        found = 0
+        for e in range(indptr[i], indptr[i + 1]):
+            found += start <= indices[e] <= i
+        region += found
+        still = 0 if found else still + 1
+        if still >= min_gap and region > min_count:
+            start = i - still
+            cuts.append(start)
+            region = still = 0
+    return np.array(cuts, dtype=np.int64)
+
+
+@njit("int64[::1](int64[::1], int32[::1], boolean[::1], int64, int64)", **OPTIONS)
+def scan_lines_backward(indptr, indices, forward_cuts, min_gap, min_count):
+    """The same from the end; regions also end at forward cuts."""
+    cuts = []
+    end = len(indptr) - 2
+    region = still = 0
+    for i in range(len(indptr) - 2, -1, -1):
+        found = 0
+        for e in range(indptr[i], indptr[i + 1]):
+            found += i <= indices[e] <= end
+        region += found
+        still = 0 if found else still + 1
+        if forward_cuts[i]:
+            end = i
+            region = still = 0
+        elif still >= min_gap and region > min_count:
+            end = i + still
+            cuts.append(end)
+            region = still = 0
+    return np.array(cuts[::-1], dtype=np.int64)
+
+
+@njit("int64(int32[::1], int32[::1])", **OPTIONS)
+def count_members(values, of):
+    """How many of the ascending ``values`` occur in the ascending ``of``."""
+    count = k = 0
+    for value in values:
+        while k < len(of) and of[k] < value:
+            k += 1
+        count += k < len(of) and of[k] == value
+    return count
+
+
+@njit("boolean[::1](int64[::1], int32[::1], int32[::1], float64)", **OPTIONS)
+def coherent_paths(ptr, rows, columns, share):
+    """Which paths have a mirror image: a path that matches their stretches the other way."""
+    n = len(ptr) - 1
+    coherent = np.zeros(n, np.bool_)
+    for p in range(n):
+        p_rows, p_columns = rows[ptr[p] : ptr[p + 1]], columns[ptr[p] : ptr[p + 1]]
+        needed = share * len(p_rows)
+        for q in range(n):
+            q_rows, q_columns = rows[ptr[q] : ptr[q + 1]], columns[ptr[q] : ptr[q + 1]]
+            if (
+                count_members(p_rows, q_columns) >= needed
+                and count_members(p_columns, q_rows) >= needed
+            ):
+                coherent[p] = True
+                break
+    return coherent
+
+
+@njit("int64(int32[::1], int32[::1], int64)", **OPTIONS)
+def row_of_column(rows, columns, column):
+    """The row at which a path passes a column, between two nodes their mean rounded half up."""
+    at = max(np.searchsorted(columns, column, side="right") - 1, 0)
+    if columns[at] < column and at + 1 < len(rows):
+        return (rows[at] + rows[at + 1] + 1) // 2
+    return rows[at]
+
+
+@njit("Tuple((int64[::1], float64[::1]))(int32[::1], int32[::1], int64[::1], int64, float64,"
+      " boolean)", **OPTIONS)
+def linked_segments(rows, columns, borders, segment, coverage, interpolate):
+    """Segments h that the path links to ``segment``, and the smaller share covered.
+
+    Segments are the frames ``borders[h]..borders[h + 1]``, both inclusive.
+    """
+    linked, shares = [], []
+    row_start, row_stop = borders[segment], borders[segment + 1]
+    column_first, column_last = columns[0], columns[-1]
+    h = max(np.searchsorted(borders, column_first, side="right") - 2, 0)
+    while h < len(borders) - 1 and borders[h] <= column_last:
+        start, stop = borders[h], borders[h + 1]
+        row_first, row_last = rows[0], rows[-1]
+        if interpolate:
+            row_first, row_last = (
+                row_of_column(rows, columns, start),
+                row_of_column(rows, columns, stop),
+            )
+        of_h = (min(stop, column_last) - max(start, column_first) + 1) / (stop - start + 1)
+        of_g = (min(row_stop, row_last) - max(row_start, row_first) + 1) / (
+            row_stop - row_start + 1
+        )
+        if min(of_h, of_g) >= coverage:
+            linked.append(h)
+            shares.append(min(of_h, of_g))
+        h += 1
+    return np.array(linked, dtype=np.int64), np.array(shares, dtype=np.float64)
