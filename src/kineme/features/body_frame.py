@@ -20,6 +20,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme import _rotations as rot
 from kineme.errors import MotionError
 from kineme.features.effectors import EndEffectors, end_effectors
 from kineme.motion import Motion, Skeleton
@@ -59,7 +60,7 @@ def body_frame(
         to_left = motion.positions[:, left_hip] - motion.positions[:, right_hip]
         to_left /= np.maximum(np.linalg.norm(to_left, axis=1, keepdims=True), _UPRIGHT)
     else:
-        to_left = _turned_axis(motion, pelvis, left_hip, right_hip)
+        to_left = _turned_axis(motion.skeleton, motion.rotations, pelvis, left_hip, right_hip)
     cos, sin = _facing(to_left)
     x, z = relative[:, :, 0].copy(), relative[:, :, 2]
     relative[:, :, 0] = cos * x + sin * z
@@ -101,18 +102,16 @@ def _at_rest(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip: int) -> 
     return from_pelvis(left_hip) - from_pelvis(right_hip)
 
 
-def _turned_axis(motion: Motion, pelvis: int, left_hip: int, right_hip: int) -> Floats:
+def _turned_axis(
+    skeleton: Skeleton, rotations: Floats, pelvis: int, left_hip: int, right_hip: int
+) -> Floats:
     """(frames, 3): the pelvis's axis to the left, in the world."""
-    rest = _at_rest(motion.skeleton, pelvis, left_hip, right_hip)
+    rest = _at_rest(skeleton, pelvis, left_hip, right_hip)
     axis = np.zeros(3)
     axis[np.argmax(np.abs(rest))] = np.sign(rest[np.argmax(np.abs(rest))])
-    turned = np.broadcast_to(axis, (len(motion.positions), 3))
-    for joint in reversed(_ancestry(motion.skeleton, pelvis)):
-        quaternion = motion.rotations[:, joint]  # type: ignore[index]
-        w, v = quaternion[:, :1], quaternion[:, 1:]
-        across = np.cross(v, turned)
-        turned = turned + 2 * (w * across + np.cross(v, across))
-    return turned
+    for joint in reversed(_ancestry(skeleton, pelvis)):
+        axis = rot.rotate(rotations[:, joint], axis)
+    return axis
 
 
 def _facing(to_left: Floats) -> tuple[Floats, Floats]:

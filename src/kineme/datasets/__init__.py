@@ -1,0 +1,11 @@
+"""Recordings to try things on: synthetic ones with known truth, and one in the package."""
+
+from kineme.datasets.actions import ACTIONS
+from kineme.datasets.synthetic import (
+    Action,
+    SyntheticRecording,
+    random_recording,
+    synthesize,
+)
+
+__all__ = ["ACTIONS", "Action", "SyntheticRecording", "random_recording", "synthesize"]
