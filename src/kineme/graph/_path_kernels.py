@@ -157,12 +157,14 @@ def choose_ends(roots, wanted, last_rows, costs, origins, node, separation):
     """Nodes of the last row of each component at which a path ends, cheapest first.
 
     Of two ends whose paths begin less than ``separation`` columns apart the
-    cheaper stays.
+    cheaper stays. No path may lead from the first row to a node of the last.
     """
     ends = []
     for r in range(len(node) - 1):
         rest = [
-            v for v in range(node[r], node[r + 1]) if wanted[roots[v]] and last_rows[roots[v]] == r
+            v
+            for v in range(node[r], node[r + 1])
+            if wanted[roots[v]] and last_rows[roots[v]] == r and costs[v] < np.inf
         ]
         while len(rest) > 0:
             end = rest[0]

@@ -86,8 +86,11 @@ class NeighborGraph:
             raise ParameterError(f"the number of neighbours must be at least 1, not {k}")
         if self.n_entries == 0 or k >= self.counts.max():
             return self
-        mask = _kernels.nearest_mask(self.indptr, self.indices, self.distances, k)
-        indptr = np.concatenate([[0], np.cumsum(np.minimum(self.counts, k))])
+        return self.select(_kernels.nearest_mask(self.indptr, self.indices, self.distances, k))
+
+    def select(self, mask: NDArray[np.bool_]) -> NeighborGraph:
+        """The same graph with the stored entries where the mask is true."""
+        indptr = np.concatenate([[0], np.cumsum(mask)])[self.indptr]
         return NeighborGraph(
             indptr, self.indices[mask], self.distances[mask], self.n_columns, self.radius
         )

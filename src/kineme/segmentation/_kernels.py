@@ -179,3 +179,14 @@ def linked_segments(rows, columns, borders, segment, coverage, interpolate):
             shares.append(min(of_h, of_g))
         h += 1
     return np.array(linked, dtype=np.int64), np.array(shares, dtype=np.float64)
+
+
+@njit("int64[::1](int64[::1], int32[::1], int64[::1])", **OPTIONS)
+def inner_neighbors(indptr, indices, borders):
+    """Neighbours of each frame inside its own block ``[borders[b], borders[b + 1])``."""
+    counts = np.zeros(len(indptr) - 1, np.int64)
+    for b in range(len(borders) - 1):
+        for i in range(borders[b], borders[b + 1]):
+            for e in range(indptr[i], indptr[i + 1]):
+                counts[i] += borders[b] <= indices[e] < borders[b + 1]
+    return counts

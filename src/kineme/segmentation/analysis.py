@@ -1,0 +1,175 @@
+"""From features to clusters: what each stage finds, in frames of the working rate.
+
+Nothing here knows what a skeleton is: any array of frames × dims will do.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from math import ceil
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme.graph import NeighborGraph, component_labels, neighbor_graph
+from kineme.segmentation import _kernels
+from kineme.segmentation.activities import ActivityCuts, scan_line_cuts, square_cuts
+from kineme.segmentation.clustering import Clustering, cluster_segments
+from kineme.segmentation.presets import Preset
+from kineme.segmentation.primitives import primitive_cuts
+
+Frames = NDArray[np.int64]
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """What the stages found, stage by stage.
+
+    Parameters
+    ----------
+    graph : neighbours of every frame, main diagonal included
+    activity_cuts : where activities end and start
+    blocks : (blocks + 1,) borders of activities and transitions, from 0 to n
+    repeats : (blocks,) whether a block is an activity (or else a transition)
+    repetition : (blocks,) share of its frames that look like others of the block
+    segments : (segments + 1,) borders of the primitives, from 0 to n, blocks' included
+    clustering : cluster and score of each segment
+    timings : seconds per stage
+    """
+
+    graph: NeighborGraph
+    activity_cuts: ActivityCuts
+    blocks: Frames
+    repeats: NDArray[np.bool_]
+    repetition: NDArray[np.float64]
+    segments: Frames
+    clustering: Clustering
+    timings: dict[str, float] = field(default_factory=dict)
+
+
+def analyze(features: ArrayLike, preset: Preset, *, progress: Progress | None = None) -> Analysis:
+    """Neighbour graph, activities, primitives and clusters of a sequence of features.
+
+    Parameters
+    ----------
+    features : (frames, dims)
+        Stacked search vectors at the working rate, in metres where the
+        preset's radius is to mean what its source means.
+    preset : Preset
+    progress : called with the name of each stage before it runs
+    """
+    timings: dict[str, float] = {}
+    stage = _stopwatch(timings, progress)
+    with stage("neighbors"):
+        graph = neighbor_graph(
+            features,
+            radius=preset.radius,
+            k=preset.max_neighbors,
+            max_lag=None if preset.max_lag is None else preset.frames(preset.max_lag),
+        )
+    with stage("activities"):
+        off_diagonal = _growth_graph(graph, preset)
+        cuts = _activity_cuts(off_diagonal, preset)
+        blocks = _borders(cuts.all, len(graph))
+        inner = _kernels.inner_neighbors(off_diagonal.indptr, off_diagonal.indices, blocks)
+        repeats = _repeats(blocks, cuts, np.add.reduceat(inner, blocks[:-1]), preset)
+        repetition = np.add.reduceat(inner > 0, blocks[:-1]) / np.diff(blocks)
+    with stage("primitives"):
+        segments = _borders(np.concatenate([blocks, *_primitives(graph, blocks, preset)]), len(graph))
+    with stage("clusters"):
+        clustering = _clusters(graph, segments, preset)
+    return Analysis(graph, cuts, blocks, repeats, repetition, segments, clustering, timings)
+
+
+def _growth_graph(graph: NeighborGraph, preset: Preset) -> NeighborGraph:
+    """The pairs that growing regions count: near enough, and off the main diagonal."""
+    if preset.growth_neighbors is not None:
+        graph = graph.nearest(preset.growth_neighbors)
+    if preset.diagonal == "component":
+        labels = component_labels(graph)
+        graph = graph.select(labels != labels[0])
+        return graph.restrict(radius=preset.growth_radius)
+    return graph.restrict(
+        radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width)
+    )
+
+
+def _activity_cuts(graph: NeighborGraph, preset: Preset) -> ActivityCuts:
+    gap = max(1, preset.frames(preset.growth_gap))
+    if preset.growth == "squares":
+        return square_cuts(
+            graph,
+            min_gap=gap,
+            min_count=preset.growth_count,
+            min_distance=preset.frames(preset.growth_distance),
+        )
+    return scan_line_cuts(graph, min_gap=gap, min_count=preset.growth_count)
+
+
+def _borders(cuts: Frames, n: int) -> Frames:
+    """0, the cuts that leave at least a frame on either side, n."""
+    inner = np.unique(cuts)
+    return np.concatenate([[0], inner[(inner > 0) & (inner < n - 1)], [n]])
+
+
+def _repeats(blocks: Frames, cuts: ActivityCuts, pairs: Frames, preset: Preset) -> NDArray[np.bool_]:
+    """Blocks that repeat themselves; those from an end to the next start do not."""
+    ends_only = np.isin(blocks[:-1], cuts.forward) & ~np.isin(blocks[:-1], cuts.backward)
+    return (pairs > preset.growth_count) & ~(ends_only & np.isin(blocks[1:], cuts.backward))
+
+
+def _primitives(graph: NeighborGraph, blocks: Frames, preset: Preset) -> Iterator[Frames]:
+    lasts = np.minimum(blocks[1:], len(graph) - 1)
+    for first, last in zip(blocks[:-1].tolist(), lasts.tolist(), strict=True):
+        yield primitive_cuts(
+            graph,
+            (first, last),
+            steps=preset.steps,
+            skip_penalty=preset.skip_penalty * preset.radius,
+            zero_cost=preset.zero_cost,
+            min_nodes=ceil(preset.min_path * preset.working_fps),
+            separation=_separation(preset),
+            max_slope=preset.max_slope,
+            symmetry=preset.symmetry,
+            min_length=preset.min_primitive * preset.working_fps,
+        ).cuts
+
+
+def _clusters(graph: NeighborGraph, segments: Frames, preset: Preset) -> Clustering:
+    if preset.cluster_neighbors is not None:
+        graph = graph.nearest(preset.cluster_neighbors)
+    return cluster_segments(
+        graph,
+        np.minimum(segments, len(graph) - 1),
+        steps=preset.steps,
+        skip_penalty=preset.skip_penalty * preset.radius,
+        zero_cost=preset.zero_cost,
+        min_nodes=ceil(preset.cluster_min_path * preset.working_fps),
+        separation=_separation(preset),
+        max_slope=preset.max_slope,
+        coverage=preset.coverage,
+        interpolate=preset.interpolate,
+        connection=preset.connection,
+    )
+
+
+def _separation(preset: Preset) -> int | None:
+    return None if preset.path_separation is None else preset.frames(preset.path_separation)
+
+
+def _stopwatch(
+    timings: dict[str, float], progress: Progress | None
+) -> Callable[[str], contextmanager]:
+    @contextmanager
+    def stage(name: str) -> Iterator[None]:
+        if progress is not None:
+            progress(name)
+        start = time.perf_counter()
+        yield
+        timings[name] = time.perf_counter() - start
+
+    return stage
