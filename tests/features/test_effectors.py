@@ -1,0 +1,153 @@
+"""End effectors: every naming scheme people have, shapes without names, names given."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from kineme.datasets import Action, synthesize
+from kineme.datasets.figure import figure
+from kineme.errors import EndEffectorError
+from kineme.features import end_effectors
+from kineme.motion import Motion, Skeleton
+
+# Left ankle, right ankle, head, left wrist, right wrist.
+SCHEMES = {
+    "mixamo": "mixamorig:LeftFoot mixamorig:RightFoot mixamorig:Head mixamorig:LeftHand "
+    "mixamorig:RightHand",
+    "mixamo underscored": "mixamorig1_LeftFoot mixamorig1_RightFoot mixamorig1_Head "
+    "mixamorig1_LeftHand mixamorig1_RightHand",
+    "motionbuilder": "Character1_LeftFoot Character1_RightFoot Character1_Head "
+    "Character1_LeftHand Character1_RightHand",
+    "perception neuron": "Robot_LeftFoot Robot_RightFoot Robot_Head Robot_LeftHand Robot_RightHand",
+    "xsens": "LeftAnkle RightAnkle Head LeftWrist RightWrist",
+    "xsens segments": "Left_Foot Right_Foot Head Left_Hand Right_Hand",
+    "smpl": "L_Ankle R_Ankle Head L_Wrist R_Wrist",
+    "smplx": "left_ankle right_ankle head left_wrist right_wrist",
+    "smpl fbx": "m_avg_L_Ankle m_avg_R_Ankle m_avg_Head m_avg_L_Wrist m_avg_R_Wrist",
+    "biped": "Bip01|Bip01 L Foot|Bip01 R Foot|Bip01 Head|Bip01 L Hand|Bip01 R Hand",
+    "unreal": "foot_l foot_r head hand_l hand_r",
+    "rigify": "DEF-foot.L DEF-foot.R DEF-head DEF-hand.L DEF-hand.R",
+    "vrm": "J_Bip_L_Foot J_Bip_R_Foot J_Bip_C_Head J_Bip_L_Hand J_Bip_R_Hand",
+    "kinect": "AnkleLeft AnkleRight Head WristLeft WristRight",
+    "daz": "lFoot rFoot head lHand rHand",
+    "optitrack": "LFoot RFoot Head LHand RHand",
+    "lower case": "leftfoot rightfoot head lefthand righthand",
+    "upper case": "LEFT_FOOT RIGHT_FOOT HEAD LEFT_HAND RIGHT_HAND",
+    "maya path": "|rig|ns:LeftFoot |rig|ns:RightFoot |rig|ns:Head |rig|ns:LeftHand |rig|ns:RightHand",
+}
+PLAIN = ("LeftFoot", "RightFoot", "Head", "LeftHand", "RightHand")
+
+
+def renamed(names: dict[str, str]) -> Skeleton:
+    """The figure with some joints renamed, the others given names that say nothing."""
+    plain = figure()
+    new = tuple(names.get(name, f"node{i}") for i, name in enumerate(plain.names))
+    return Skeleton(new, plain.parents, plain.offsets, plain.end_sites)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_usual_names_are_found(scheme: str) -> None:
+    text = SCHEMES[scheme]
+    names = text.split("|")[1:] if scheme == "biped" else text.split()
+    skeleton = renamed(dict(zip(PLAIN, names, strict=True)))
+    found = end_effectors(skeleton)
+    plain = figure()
+    crown = plain.joint("Head_end")
+    assert found.how == ("by name",) * 5
+    assert found.indices == (
+        plain.joint("LeftFoot"),
+        plain.joint("RightFoot"),
+        crown,
+        plain.joint("LeftHand"),
+        plain.joint("RightHand"),
+    )
+
+
+def test_a_joint_with_a_longer_prefix_does_not_win() -> None:
+    helpers = {
+        "LeftToeBase": "ik_foot_l",
+        "LeftForeArm": "LeftHandRoll",
+        "LeftArm": "weapon_hand_l",
+    }
+    names = dict(zip(PLAIN, SCHEMES["unreal"].split(), strict=True)) | helpers
+    skeleton = renamed(names)
+    found = end_effectors(skeleton)
+    assert skeleton.names[found.left_ankle] == "foot_l"
+    assert skeleton.names[found.left_wrist] == "hand_l"
+
+
+def test_fingers_and_toes_are_not_taken_for_hands_and_feet() -> None:
+    more = {"LeftHand": "LeftHandIndex1", "LeftForeArm": "LeftHand"}
+    skeleton = renamed(dict(zip(PLAIN, PLAIN, strict=True)) | more)
+    assert skeleton.names[end_effectors(skeleton).left_wrist] == "LeftHand"
+
+
+@pytest.mark.parametrize("action", ["walk", "arm circles", "squat"])
+def test_without_names_the_shape_tells(action: str) -> None:
+    motion = synthesize([Action(action, 2)], fps=30, seed=1).motion
+    nameless = Motion(renamed({}), motion.positions, motion.fps, motion.rotations)
+    found = end_effectors(nameless)
+    assert found.how == ("by shape",) * 5
+    assert found.indices == end_effectors(motion).indices
+
+
+def test_turned_about_the_shape_tells_the_same_left() -> None:
+    motion = synthesize([Action("stand", 1)], fps=30).motion
+    turned = motion.positions * [-1.0, 1.0, -1.0]
+    nameless = Motion(renamed({}), turned, motion.fps)
+    assert end_effectors(nameless).indices == end_effectors(motion).indices
+
+
+def test_names_given_come_first() -> None:
+    skeleton = figure()
+    found = end_effectors(skeleton, names={"left_wrist": "LeftHand_end", "head": "Head"})
+    assert skeleton.names[found.left_wrist] == "LeftHand_end"
+    assert skeleton.names[found.head] == "Head"
+    assert found.how == ("by name", "by name", "as named", "as named", "by name")
+    assert end_effectors(skeleton, names=PLAIN).how == ("as named",) * 5
+
+
+def test_the_description_names_joint_and_way() -> None:
+    skeleton = figure()
+    text = end_effectors(skeleton).describe(skeleton)
+    assert text.startswith("left ankle = LeftFoot (by name), ")
+
+
+def test_a_missing_one_is_named_with_the_joints_there_are() -> None:
+    arm = Skeleton(
+        ("shoulder", "LeftArm", "LeftHand"), (-1, 0, 1), np.array([[0, 0, 0], [1, 0, 0], [1, 0, 0]])
+    )
+    with pytest.raises(EndEffectorError, match="left ankle and right ankle and head and right"):
+        end_effectors(arm)
+    with pytest.raises(EndEffectorError, match="shoulder, LeftArm, LeftHand.*--effectors"):
+        end_effectors(arm)
+
+
+def test_feet_without_toes_do_not_make_up_a_left() -> None:
+    plain = figure()
+    keep = [i for i, name in enumerate(plain.names) if "Toe" not in name]
+    stump = Skeleton(
+        tuple(f"node{i}" for i in keep),
+        tuple(-1 if plain.parents[i] < 0 else keep.index(plain.parents[i]) for i in keep),
+        plain.offsets[keep],
+    )
+    with pytest.raises(EndEffectorError, match="left ankle and right ankle"):
+        end_effectors(stump)
+
+
+@pytest.mark.parametrize(
+    ("names", "message"),
+    [
+        ({"nose": "Head"}, "no part is called 'nose'"),
+        ({"head": "Skull"}, "no joint is called 'Skull'"),
+        (["Head"], "five joint names are needed"),
+        ("Head", "five joint names are needed"),
+        ({"head": "LeftHand"}, "'LeftHand' serves as two"),
+    ],
+)
+def test_wrong_names_are_refused(names: object, message: str) -> None:
+    with pytest.raises(EndEffectorError, match=re.escape(message)):
+        end_effectors(figure(), names=names)  # type: ignore[arg-type]
