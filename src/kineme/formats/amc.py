@@ -16,7 +16,6 @@ Source: Acclaim Advanced Technologies, ASF/AMC definition.
 from __future__ import annotations
 
 import re
-import warnings
 from math import radians
 from pathlib import Path
 
@@ -24,17 +23,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.errors import KinemeWarning, ReadError
+from kineme.errors import ReadError
 from kineme.formats.asf import ROOT, Figure, read_asf
-from kineme.formats.files import Source, load, numbers
+from kineme.formats.files import Source, load, numbers, warn
 from kineme.formats.registry import Format, ReadOptions
-from kineme.formats.units import metres
+from kineme.formats.units import metres, place
 from kineme.motion import Motion
 
 Floats = NDArray[np.float64]
 
 FPS = 120.0
-_FPS_COMMENT = re.compile(rb"^#\s*fps:?\s+([0-9.eE+-]+)\s*$", re.MULTILINE)
+_FPS_COMMENT = re.compile(rb"^# fps ([0-9.e+-]+)\s*$", re.MULTILINE)
+_KEYWORD = re.compile(rb"^[ \t]*:(FULLY-SPECIFIED|DEGREES|RADIANS)\b", re.MULTILINE | re.IGNORECASE)
 _COMMENT = re.compile(rb"^[ \t]*#.*$", re.MULTILINE)
 _FIRST_FRAME = re.compile(rb"^[ \t]*\d+[ \t]*\r?$", re.MULTILINE)
 
@@ -47,25 +47,20 @@ def read_amc(source: Source, options: ReadOptions) -> Motion:
     if start is None:
         raise source.error("no frame found: an AMC has a line with a number before each")
     head = source.data[: start.start()]
-    turn = figure.turn
-    if re.search(rb"^\s*:RADIANS", head, re.MULTILINE | re.IGNORECASE):
-        turn = 1.0
-    elif re.search(rb"^\s*:DEGREES", head, re.MULTILINE | re.IGNORECASE):
-        turn = radians(1)
-    values = _quickly(source, start.start(), figure) or _line_by_line(
-        source, start.start(), figure
-    )
-    rotations, translations = _local(values, figure, turn)
+    said = [word.lower() for word in _KEYWORD.findall(head)]
+    turn = 1.0 if b"radians" in said else radians(1) if b"degrees" in said else figure.turn
+    values = _quickly(source, start.start(), figure) or _line_by_line(source, start.start(), figure)
     notes = [f"skeleton from {asf}"]
     fps = options.fps
     if fps is None:
         fps = FPS
         notes.append(f"frame rate {FPS:g} Hz assumed: AMC files do not store one")
-    return Motion.from_rotations(
+    return place(
         figure.skeleton,
-        rotations,
+        *_local(values, figure, turn),
         fps,
-        translations=translations,
+        unit="m",
+        up=options.up or "y",
         provenance=source.provenance("AMC", notes),
     )
 
@@ -97,8 +92,8 @@ def find_skeleton(path: Path) -> Path:
     )
 
 
-def _local(values: dict[str, Floats], figure: Figure, turn: float) -> tuple[Floats, Floats | None]:
-    """Rotations (frames, joints, 4) and translations, or None where only the root slides."""
+def _local(values: dict[str, Floats], figure: Figure, turn: float) -> tuple[Floats, Floats]:
+    """Rotations (frames, joints, 4) and translations (frames, joints, 3), metres."""
     skeleton = figure.skeleton
     n = len(next(iter(values.values())))
     rotations = np.zeros((skeleton.n_joints, 4, n))
@@ -113,7 +108,9 @@ def _local(values: dict[str, Floats], figure: Figure, turn: float) -> tuple[Floa
         if name == ROOT:
             rotations[j] = rot.multiply(local, bone.frame).T
         else:
-            rotations[j] = rot.multiply(rot.multiply(bone.frame, local), rot.conjugate(bone.frame)).T
+            rotations[j] = rot.multiply(
+                rot.multiply(bone.frame, local), rot.conjugate(bone.frame)
+            ).T
         slides = np.zeros((n, 3))
         for i, dof in enumerate(bone.dof):
             if dof[0] == "t":
@@ -164,43 +161,41 @@ def _line_by_line(source: Source, start: int, figure: Figure) -> dict[str, Float
     Anything else that cannot be understood is an error.
     """
     frames: list[dict[str, list[float]]] = []
-    lines = source.data[start:].splitlines()
-    while lines and not lines[-1].strip():
-        lines.pop()
-    first = source.data.count(b"\n", 0, start) + 1
-    cut = None
-    began = count = first
-    for count, line in enumerate(lines, first):
+    first = source.line_at(start)
+    lines = source.data[start:].rstrip().splitlines()
+    last = first + len(lines) - 1
+    began, label = first, 0
+    fault: ReadError | None = None
+    for number, line in enumerate(lines, first):
         words = line.split()
         if not words or words[0].startswith(b"#"):
             continue
-        if len(words) == 1 and words[0].isdigit():
+        if len(words) == 1 and words[0].isdigit() and len(words[0]) < 19:
             if frames:
-                _check_complete(source, frames, began, figure)
+                _check_complete(source, frames, began)
+                if int(words[0]) != label + 1:
+                    warn(f"{source.path}, line {number}: frame {int(words[0])} follows {label}")
+            began, label = number, int(words[0])
             frames.append({})
-            began = count
             continue
         try:
             _add_bone(frames[-1], words, figure)
         except ValueError as error:
-            if count < first + len(lines) - 1:
-                raise source.error(str(error), count) from None
-            cut = str(error)
-    if cut is None:
-        try:
-            _check_complete(source, frames, began, figure)
-        except ReadError as error:
-            cut = error.reason
-    if cut is not None:
+            fault = source.error(str(error), number)
+            if number < last:
+                raise fault from None
+    try:
+        _check_complete(source, frames, began)
+    except ReadError as error:
+        fault = fault or error
+    if fault is not None:
+        if len(frames) == 1:
+            raise fault
         frames.pop()
-        if not frames:
-            raise source.error(f"{cut}, in the only frame there is", count)
-        warnings.warn(
-            f"{source.path}: the last frame is truncated ({cut}); the {len(frames)} whole "
-            "frames before it are kept",
-            KinemeWarning,
-            stacklevel=5,
-        )
+        warn(f"{fault}: the last frame is truncated and left out")
+    absent = [n for n, bone in figure.bones.items() if bone.dof and n not in frames[0]]
+    if absent:
+        warn(f"{source.path}: no values for {', '.join(absent)}: taken to be 0")
     return {
         name: np.array([frame.get(name, [0.0] * len(bone.dof)) for frame in frames])
         for name, bone in figure.bones.items()
@@ -216,25 +211,21 @@ def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure)
     values = numbers(words[1:])
     dof = figure.bones[name].dof
     if len(values) != len(dof):
-        raise ValueError(f"bone {name!r} has {len(values)} values, the skeleton asks for {len(dof)}")
+        raise ValueError(
+            f"bone {name!r} has {len(values)} values, the skeleton asks for {len(dof)}"
+        )
     frame[name] = values
 
 
-def _check_complete(
-    source: Source, frames: list[dict[str, list[float]]], line: int, figure: Figure
-) -> None:
-    """ReadError if the newest frame lacks a bone that the first frame has.
-
-    A bone absent from the first frame is absent everywhere, and at rest.
-    """
+def _check_complete(source: Source, frames: list[dict[str, list[float]]], line: int) -> None:
+    """ReadError if the newest frame is empty or lacks a bone that the first one has."""
     missing = [name for name in frames[0] if name not in frames[-1]]
     if missing or not frames[-1]:
-        what = f"bone {missing[0]!r}" if missing else "all bones"
-        raise source.error(f"a frame without {what}", line)
+        raise source.error(f"a frame without {missing[0] if missing else 'any bone'}", line)
 
 
 def _recognises(head: bytes) -> bool:
-    return re.search(rb"^\s*:(FULLY-SPECIFIED|DEGREES|RADIANS)", head, re.M | re.I) is not None
+    return _KEYWORD.search(head) is not None
 
 
 FORMAT = Format("AMC", (".amc",), _recognises, read_amc)

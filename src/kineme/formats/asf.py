@@ -188,7 +188,8 @@ def _frame(source: Source, line: int, words: list[str], turn: float) -> Floats:
     if sorted(letters) != ["x", "y", "z"]:
         raise source.error(f"axis order {letters!r} is not made of X, Y and Z", line)
     angles = turn * np.array([_values(source, line, words[:3], 3)])
-    return rot.from_euler(angles[:, ::-1], letters[::-1])[0]
+    turn_of: Floats = rot.from_euler(angles[:, ::-1], letters[::-1])[0]
+    return turn_of
 
 
 def _dof(source: Source, line: int, words: list[str]) -> tuple[str, ...]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
@@ -12,7 +14,7 @@ from math import isfinite
 from os import PathLike
 from pathlib import Path
 
-from kineme.errors import ReadError, WriteError
+from kineme.errors import KinemeWarning, ReadError, WriteError
 from kineme.motion import Provenance
 
 
@@ -35,6 +37,10 @@ class Source:
     def provenance(self, name: str, notes: Iterable[str]) -> Provenance:
         return Provenance(str(self.path), name, self.digest, tuple(notes))
 
+    def line_at(self, offset: int) -> int:
+        """The line, counted from 1, that a byte stands in."""
+        return self.data.count(b"\n", 0, offset) + 1
+
     def error(self, reason: str, line: int | None = None) -> ReadError:
         return ReadError(self.path, reason, line=line)
 
@@ -49,18 +55,25 @@ def load(path: str | PathLike[str]) -> Source:
         raise ReadError(path, f"cannot be opened: {error}") from error
 
 
-def numbers(words: Iterable[str | bytes]) -> list[float]:
+def numbers(words: Sequence[str | bytes]) -> list[float]:
     """The words as finite numbers; ValueError names the first that is not one."""
-    values = []
-    for word in words:
-        try:
-            value = float(word)
-        except ValueError:
-            raise ValueError(f"{_shown(word)} is not a number") from None
-        if not isfinite(value):
-            raise ValueError(f"{_shown(word)} is not a finite number")
-        values.append(value)
+    try:
+        values = list(map(float, words))
+    except ValueError:
+        wrong = next(word for word in words if not _is_number(word))
+        raise ValueError(f"{_shown(wrong)} is not a number") from None
+    if not all(map(isfinite, values)):
+        wrong = next(word for word, value in zip(words, values, strict=True) if not isfinite(value))
+        raise ValueError(f"{_shown(wrong)} is not a finite number")
     return values
+
+
+def warn(message: str) -> None:
+    """A KinemeWarning at the line outside the package that asked for the file."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and frame.f_globals["__name__"].startswith("kineme."):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, KinemeWarning, stacklevel=level)
 
 
 def save(path: Path, text: Iterable[str]) -> None:
@@ -88,6 +101,14 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
+
+
+def _is_number(word: str | bytes) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def _shown(word: str | bytes) -> str:

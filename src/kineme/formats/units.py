@@ -1,20 +1,167 @@
 """From a file's own units and axes to metres with y up.
 
-Formats without a unit or an up axis are judged by the body they describe:
-its height from toes to crown tells the unit, the way from feet to head the
-vertical. Whatever is inferred is returned as a sentence for the provenance.
+Formats without a unit or an up axis are judged by the body they describe: its
+size tells the unit, the way from feet to head the vertical. Whatever is
+inferred is said in the motion's provenance.
 """
 
 from __future__ import annotations
+
+import re
+from dataclasses import replace
+from decimal import Decimal
+from math import ceil, floor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.formats.files import warn
+from kineme.motion import Motion, Provenance, Skeleton, forward_kinematics
+
+Floats = NDArray[np.float64]
 
 INCH = 0.0254
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": INCH, "cmu": INCH / 0.45}
 """Metres in one unit; "cmu" is 1/0.45 inch, the unit of the CMU database."""
 
-AXES = ("x", "y", "z", "-x", "-y", "-z")
+HEIGHTS = (1.2, 2.4)
+"""Metres a body may be tall for its unit to be beyond doubt: less than the
+factor of 2.2 apart that lies between the two closest units."""
+
+_TO_Y = {
+    "y": (1.0, 0.0, 0.0, 0.0),
+    "-y": (0.0, 1.0, 0.0, 0.0),
+    "z": (0.5**0.5, -(0.5**0.5), 0.0, 0.0),
+    "-z": (0.5**0.5, 0.5**0.5, 0.0, 0.0),
+    "x": (0.5**0.5, 0.0, 0.0, 0.5**0.5),
+    "-x": (0.5**0.5, 0.0, 0.0, -(0.5**0.5)),
+}
+"""The rotation that brings an axis up, and leaves x or z where it is."""
+
+AXES = tuple(_TO_Y)
+
+_HEAD = re.compile("head", re.IGNORECASE)
+_FOOT = re.compile("foot|feet|toe|ankle", re.IGNORECASE)
 
 
 def metres(unit: str | float) -> float:
     """The metres in one ``unit``, a name in `UNITS` or already a length."""
     return UNITS[unit] if isinstance(unit, str) else float(unit)
+
+
+def place(
+    skeleton: Skeleton,
+    rotations: Floats,
+    translations: Floats,
+    fps: float,
+    *,
+    unit: str | float | None,
+    up: str | None,
+    provenance: Provenance,
+) -> Motion:
+    """The motion in metres with y up, from one in a file's own units and axes.
+
+    Parameters
+    ----------
+    skeleton, rotations, translations : as for `forward_kinematics`, in file units
+    unit, up : of the file; None to infer them
+    """
+    if unit is None:
+        unit, note = infer_unit(skeleton, translations, provenance.path)
+        provenance = provenance.noted(note)
+    scale = metres(unit)
+    skeleton = replace(skeleton, offsets=scale * skeleton.offsets)
+    translations = scale * translations
+    positions = forward_kinematics(skeleton, rotations, translations=translations)
+    if up is None:
+        up = infer_up(skeleton, positions)
+        if up != "y":
+            provenance = provenance.noted(
+                f"turned: head and feet lie along {up}, so that axis was taken to be up"
+            )
+    if up != "y":
+        turn = np.array(_TO_Y[up])
+        skeleton = replace(skeleton, offsets=rot.rotate(turn, skeleton.offsets))
+        rotations = rot.multiply(rot.multiply(turn, rotations), rot.conjugate(turn))
+        positions = rot.rotate(turn, positions)
+    return Motion(skeleton, positions, fps, rotations, provenance)
+
+
+def infer_unit(
+    skeleton: Skeleton, translations: Floats, path: str | None = None
+) -> tuple[str, str]:
+    """The unit that makes this a body of human size, and the sentence that says so.
+
+    The height is taken as three quarters of the longest way along the bones,
+    hand to foot; in nine skeletons from six makers that is within 9 % of the
+    way from head to foot. Warns if no unit fits, and takes the nearest.
+    """
+    height = 0.75 * _longest_way(skeleton, np.linalg.norm(translations.mean(axis=0), axis=1))
+    fits = {name: HEIGHTS[0] <= height * size <= HEIGHTS[1] for name, size in UNITS.items()}
+    if any(fits.values()):
+        unit = next(name for name, fit in fits.items() if fit)
+    else:
+        tall = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
+        unit = list(UNITS)[int(np.abs(tall).argmin())]
+        warn(
+            f"{path}: in no unit is this skeleton, about {height:.3g} units tall, of human size: "
+            f"{unit} assumed; give unit="
+        )
+    return (
+        unit,
+        f"unit {unit} inferred: the skeleton is then about {height * UNITS[unit]:.2f} m tall",
+    )
+
+
+def infer_up(skeleton: Skeleton, positions: Floats) -> str:
+    """The axis along which the body stands, both at rest and most of the time; else "y"."""
+    head = [i for i, name in enumerate(skeleton.names) if _HEAD.search(name)]
+    feet = [i for i, name in enumerate(skeleton.names) if _FOOT.search(name)]
+    if not head or not feet:
+        return "y"
+    standing = np.broadcast_to(rot.IDENTITY, (1, skeleton.n_joints, 4))
+    at_rest = forward_kinematics(skeleton, standing)
+    axes = []
+    for pose, least in ((at_rest, 0.9), (positions, 0.7)):
+        body = pose[:, head].mean(axis=1) - pose[:, feet].mean(axis=1)
+        length = np.linalg.norm(body, axis=1, keepdims=True)
+        along = np.median(body / np.where(length > 0, length, 1), axis=0)
+        axis = int(np.abs(along).argmax())
+        if abs(along[axis]) < least:
+            return "y"
+        axes.append(("-" if along[axis] < 0 else "") + "xyz"[axis])
+    return axes[0] if axes[0] == axes[1] else "y"
+
+
+def rate_from_period(word: str) -> tuple[float, str | None]:
+    """Frames per second from a frame time as written, and a note if it was rounded.
+
+    ``.0083333`` stands for anything from 0.00833325 to 0.00833335 s; where one
+    whole rate lies in that range, as 120 Hz does, it is the one meant.
+    """
+    period = Decimal(word)
+    exponent = period.as_tuple().exponent
+    half = Decimal(5).scaleb(int(exponent) - 1)
+    if half >= period:
+        return float(1 / period), None
+    lowest, highest = ceil(1 / (period + half)), floor(1 / (period - half))
+    if lowest == highest and float(1 / period) != lowest:
+        return float(
+            lowest
+        ), f"frame rate {lowest} Hz: the frame time {word} s is a rounded 1/{lowest}"
+    return float(1 / period), None
+
+
+def _longest_way(skeleton: Skeleton, lengths: Floats) -> float:
+    """The longest path between two joints along the bones."""
+    reach = [0.0] * skeleton.n_joints
+    longest = 0.0
+    for joint in range(skeleton.n_joints - 1, -1, -1):
+        parent = skeleton.parents[joint]
+        if parent >= 0:
+            branch = reach[joint] + float(lengths[joint])
+            longest = max(longest, reach[parent] + branch)
+            reach[parent] = max(reach[parent], branch)
+    return longest
