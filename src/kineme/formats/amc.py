@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme.errors import ReadError
+from kineme.formats.amc_writer import write_amc
 from kineme.formats.asf import ROOT, Figure, read_asf
 from kineme.formats.files import Source, load, numbers, warn
 from kineme.formats.registry import Format, ReadOptions
@@ -51,7 +52,7 @@ def read_amc(source: Source, options: ReadOptions) -> Motion:
     turn = 1.0 if b"radians" in said else radians(1) if b"degrees" in said else figure.turn
     values = _quickly(source, start.start(), figure) or _line_by_line(source, start.start(), figure)
     notes = [f"skeleton from {asf}"]
-    fps = options.fps
+    fps = options.fps or _written_rate(head)
     if fps is None:
         fps = FPS
         notes.append(f"frame rate {FPS:g} Hz assumed: AMC files do not store one")
@@ -90,6 +91,15 @@ def find_skeleton(path: Path) -> Path:
     raise ReadError(
         path, f"none of the {len(seen)} ASF files beside it has its name: name one with skeleton="
     )
+
+
+def _written_rate(head: bytes) -> float | None:
+    """The frame rate in the comment that `write_amc` leaves, if it is there."""
+    said = _FPS_COMMENT.search(head)
+    try:
+        return numbers([said.group(1)])[0] if said else None
+    except ValueError:
+        return None
 
 
 def _local(values: dict[str, Floats], figure: Figure, turn: float) -> tuple[Floats, Floats]:
@@ -228,4 +238,4 @@ def _recognises(head: bytes) -> bool:
     return _KEYWORD.search(head) is not None
 
 
-FORMAT = Format("AMC", (".amc",), _recognises, read_amc)
+FORMAT = Format("AMC", (".amc",), _recognises, read_amc, write_amc)

@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.errors import ReadError
 from kineme.formats.bvh_hierarchy import Joint, read_joints
+from kineme.formats.bvh_writer import write_bvh
 from kineme.formats.files import Source, numbers, warn
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.units import place, rate_from_period
@@ -151,4 +152,4 @@ def _frames(source: Source, start: int, width: int, declared: int) -> Floats:
     return np.array(values).reshape(-1, width)
 
 
-FORMAT = Format("BVH", (".bvh",), lambda head: b"HIERARCHY" in head.upper(), read_bvh)
+FORMAT = Format("BVH", (".bvh",), lambda head: b"HIERARCHY" in head.upper(), read_bvh, write_bvh)

@@ -10,9 +10,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
+from itertools import count
 from math import isfinite
 from os import PathLike
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from kineme.errors import KinemeWarning, ReadError, WriteError
 from kineme.motion import Provenance
@@ -95,6 +99,21 @@ def save(path: Path, text: Iterable[str]) -> None:
         if temporary is not None:
             Path(temporary).unlink(missing_ok=True)
         raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
+
+
+def table(values: NDArray[np.float64]) -> list[str]:
+    """One line per row: nine decimals, below a nanometre in any of the units."""
+    row = " ".join(["%.9f"] * values.shape[1]) + "\n"
+    return [row % tuple(line) for line in values.tolist()]
+
+
+def unique(names: Iterable[str]) -> list[str]:
+    """The names, those that repeat an earlier one with a number behind them."""
+    given: list[str] = []
+    for name in names:
+        tries = (name if i == 1 else f"{name}_{i}" for i in count(1))
+        given.append(next(new for new in tries if new and new not in given))
+    return given
 
 
 def _umask() -> int:
