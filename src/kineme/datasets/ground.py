@@ -19,8 +19,8 @@ Floats = NDArray[np.float64]
 
 _HEEL = np.array([1.0, 1.0, -0.4])  # where it is, in units of the way from ankle to ball
 _FLOOR_SHARED = 0.006  # metres of height within which contacts bear together
-_GRIP_SHARED = 0.015
-_SMOOTHING_S = 0.04
+_GRIP_SHARED = 0.01
+_SMOOTHING_S = 0.025
 
 
 def root_path(skeleton: Skeleton, rotations: Floats, airborne: Floats, fps: float) -> Floats:
