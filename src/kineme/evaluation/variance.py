@@ -1,0 +1,156 @@
+"""How alike are the segments of one cluster? (Vögele, Krüger, Klein 2014, section 5.2)
+
+Two segments are compared by dynamic time warping; the sum of frame distances
+along the cheapest path is divided by the number of frames of the first
+(equation 2). Every ordered pair of a cluster gives one distance; their mean
+and variance (equation 1, with n - 1) describe it, as in figures 5 and 8.
+
+The frame distance is either Euclidean on stacked features or that of point
+clouds after Kovar and Gleicher 2004: joints in a window around the frame, as
+one cloud, moved on the floor and turned about the vertical to fit best. Here
+it is the root mean square over the points of the cloud, in metres. The paper
+gives neither window nor scale; 1/3 s is Kovar and Gleicher's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.distance import cdist
+
+from kineme.errors import ParameterError
+from kineme.evaluation._kernels import warped_cost
+from kineme.evaluation.labelling import TRANSITION, Ints, Labelling
+
+Floats = NDArray[np.float64]
+Distances = Callable[[slice, slice], Floats]
+
+WINDOW_S = 1 / 3
+
+
+@dataclass(frozen=True)
+class ClusterVariance:
+    """One cluster: its segments, their distances from each other, and their lengths.
+
+    Distances are nan for a single segment, variances where there are fewer
+    than two values.
+    """
+
+    label: str
+    segments: int
+    distance_mean: float
+    distance_variance: float
+    length_mean_s: float
+    length_variance_s2: float
+
+
+def point_cloud_variance(positions: ArrayLike, found: Labelling) -> list[ClusterVariance]:
+    """Per cluster, the distances of its segments as moving point clouds, metres.
+
+    Parameters
+    ----------
+    positions : (frames, joints, 3), metres, y up, at the rate of ``found``
+    found : the segments; transitions are left out
+
+    Raises
+    ------
+    ParameterError : positions of another shape or length
+    """
+    points = np.asarray(positions, np.float64)
+    if points.ndim != 3 or points.shape[2] != 3:
+        raise ParameterError(f"positions must be (frames, joints, 3), not {points.shape}")
+    half = round(WINDOW_S * found.fps / 2)
+    return _variances(lambda a, b: cloud_distances(points, a, b, half=half), len(points), found)
+
+
+def feature_variance(features: ArrayLike, found: Labelling) -> list[ClusterVariance]:
+    """Per cluster, the distances of its segments in feature space, the features' unit.
+
+    Parameters
+    ----------
+    features : (frames, dims), stacked, at the rate of ``found``
+    found : the segments; transitions are left out
+
+    Raises
+    ------
+    ParameterError : features of another shape or length
+    """
+    vectors = np.asarray(features, np.float64)
+    if vectors.ndim != 2:
+        raise ParameterError(f"features must be (frames, dims), not {vectors.shape}")
+    return _variances(lambda a, b: cdist(vectors[a], vectors[b]), len(vectors), found)
+
+
+def overall(clusters: list[ClusterVariance]) -> tuple[float, float]:
+    """Mean distance and mean variance over the clusters of at least two segments.
+
+    Clusters weigh alike, as bars of a figure do; nan where there is none.
+    """
+    shared = [c for c in clusters if c.segments > 1]
+    if not shared:
+        return float("nan"), float("nan")
+    return (
+        float(np.mean([c.distance_mean for c in shared])),
+        float(np.mean([c.distance_variance for c in shared])),
+    )
+
+
+def cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -> Floats:
+    """``d[i, j]``: point clouds around frame i of ``rows`` and frame j of ``columns``, metres.
+
+    In closed form: with both clouds centred on the floor and their floor
+    coordinates read as complex numbers c = x + iz, the best turn leaves
+    Σ|c|² + Σ|c'|² - 2 |Σ c̄ c'|; heights are compared as they are.
+
+    Parameters
+    ----------
+    points : (frames, joints, 3), metres, y up
+    rows, columns : spans of frames
+    half : frames of the window on either side; the ends are repeated
+    """
+    floor_a, height_a = _clouds(points, rows, half)
+    floor_b, height_b = _clouds(points, columns, half)
+    own_a = (np.abs(floor_a) ** 2).sum(1) + (height_a**2).sum(1)
+    own_b = (np.abs(floor_b) ** 2).sum(1) + (height_b**2).sum(1)
+    shared = np.abs(floor_a.conj() @ floor_b.T) + height_a @ height_b.T
+    squares = own_a[:, None] + own_b - 2 * shared
+    distances: Floats = np.sqrt(np.maximum(squares, 0) / floor_a.shape[1])
+    return distances
+
+
+def _clouds(points: Floats, span: slice, half: int) -> tuple[NDArray[np.complex128], Floats]:
+    frames = np.arange(span.start, span.stop)[:, None] + np.arange(-half, half + 1)
+    cloud = points[np.clip(frames, 0, len(points) - 1)].reshape(len(frames), -1, 3)
+    floor = cloud[..., 0] + 1j * cloud[..., 2]
+    return floor - floor.mean(axis=1, keepdims=True), cloud[..., 1]
+
+
+def _variances(distances: Distances, frames: int, found: Labelling) -> list[ClusterVariance]:
+    if frames != found.frames:
+        raise ParameterError(f"the segments cover {found.frames} frames, the data {frames}")
+    spans: dict[str, list[slice]] = {}
+    for label, start, stop in zip(found.labels, found.starts, found.stops, strict=True):
+        if label != TRANSITION:
+            spans.setdefault(label, []).append(slice(int(start), int(stop)))
+    return [_variance(label, own, distances, found.fps) for label, own in spans.items()]
+
+
+def _variance(label: str, spans: list[slice], distances: Distances, fps: float) -> ClusterVariance:
+    lengths: Ints = np.array([span.stop - span.start for span in spans])
+    normalised = []
+    for i, j in combinations(range(len(spans)), 2):
+        cost = warped_cost(np.ascontiguousarray(distances(spans[i], spans[j])))
+        normalised += [cost / lengths[i], cost / lengths[j]]
+    seconds = lengths / fps
+    return ClusterVariance(
+        label,
+        len(spans),
+        float(np.mean(normalised)) if normalised else float("nan"),
+        float(np.var(normalised, ddof=1)) if normalised else float("nan"),
+        float(seconds.mean()),
+        float(seconds.var(ddof=1)) if len(spans) > 1 else float("nan"),
+    )

@@ -1,0 +1,237 @@
+"""Labellings, annotations and the laws every score obeys."""
+
+from __future__ import annotations
+
+import mir_eval
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import naive
+from kineme.errors import ParameterError
+from kineme.evaluation import (
+    TRANSITION,
+    Annotation,
+    Labelling,
+    border_ratio,
+    border_score,
+    covering,
+    cut_ratio,
+    evaluate,
+    evaluate_segmentation,
+    majority_accuracy,
+    one_to_one_accuracy,
+    strict_and_tolerant,
+)
+from kineme.segmentation.result import Segmentation
+
+SHARES = [
+    "strict",
+    "tolerant",
+    "majority",
+    "majority_agreed",
+    "one_to_one",
+    "one_to_one_agreed",
+    "mutual_information",
+    "border_precision",
+    "border_recall",
+    "border_f1",
+    "covering",
+]
+
+
+@st.composite
+def annotations(draw: st.DrawFn) -> Annotation:
+    """Actions of at least 2 s at 10 fps, borders uncertain by up to 1 s."""
+    lengths = draw(st.lists(st.integers(20, 60), min_size=1, max_size=6))
+    labels = draw(st.lists(st.sampled_from("abc"), min_size=len(lengths), max_size=len(lengths)))
+    ends = np.cumsum(lengths)
+    before, after = (
+        np.array([draw(st.integers(0, 5)) for _ in lengths[1:]], dtype=np.int64) for _ in "ab"
+    )
+    mean = ends[:-1]
+    return Annotation(tuple(labels), mean - before, mean, mean + after, int(ends[-1]), 10.0)
+
+
+@st.composite
+def results(draw: st.DrawFn, frames: int) -> Labelling:
+    cuts = draw(st.sets(st.integers(1, frames - 1), max_size=12))
+    labels = [draw(st.sampled_from(["1", "2", "3", TRANSITION])) for _ in range(len(cuts) + 1)]
+    return Labelling.from_cuts(sorted(cuts), labels, frames=frames, fps=10.0)
+
+
+@st.composite
+def pairs(draw: st.DrawFn) -> tuple[Annotation, Labelling]:
+    truth = draw(annotations())
+    return truth, draw(results(truth.frames))
+
+
+@given(pairs())
+def test_shares_lie_between_0_and_1(pair):
+    scores = evaluate(*pair)
+    assert all(-1e-12 <= scores[name] <= 1 + 1e-12 for name in SHARES)
+    assert -1 <= scores["rand_index"] <= 1
+
+
+@given(annotations())
+def test_the_truth_itself_scores_1(truth):
+    found = truth.labelling()
+    assert one_to_one_accuracy(truth, found) == (1, 1)
+    assert majority_accuracy(truth, found) == (1, 1)
+    scores = evaluate(truth, found)
+    assert scores["rand_index"] == pytest.approx(1)
+    assert scores["mutual_information"] == pytest.approx(1)
+    assert scores["cluster_ratio"] == 1
+
+
+@given(annotations())
+def test_cutting_at_the_mean_marks_meets_every_border(truth):
+    found = Labelling.from_cuts(truth.mean, frames=truth.frames, fps=10.0)
+    assert border_score(truth, found) == (1, 1, 1)
+    assert covering(truth, found) == 1
+    if truth.mean.size:
+        assert border_ratio(truth, found) == cut_ratio(truth, found) == 1
+
+
+@given(pairs(), st.permutations(["1", "2", "3"]))
+def test_names_of_clusters_do_not_matter(pair, names):
+    truth, found = pair
+    new = dict(zip(["1", "2", "3", TRANSITION], [*names, TRANSITION], strict=True))
+    renamed = Labelling(found.borders, tuple(new[label] for label in found.labels), found.fps)
+    assert evaluate(truth, renamed) == pytest.approx(evaluate(truth, found), nan_ok=True)
+
+
+@given(pairs(), st.integers(2, 4))
+def test_a_result_at_a_multiple_of_the_rate_scores_the_same(pair, factor):
+    truth, found = pair
+    faster = Labelling(found.borders * factor, found.labels, found.fps * factor)
+    assert evaluate(truth, faster) == pytest.approx(evaluate(truth, found), nan_ok=True)
+
+
+@given(pairs())
+def test_one_to_one_is_the_best_of_all_assignments(pair):
+    truth, found = pair
+    wanted, given_ = truth.labelling().per_frame(), found.per_frame()
+    agreed = wanted != TRANSITION
+    assert one_to_one_accuracy(truth, found) == pytest.approx(
+        (naive.one_to_one(wanted, given_), naive.one_to_one(wanted[agreed], given_[agreed]))
+    )
+
+
+@given(pairs())
+def test_strict_and_tolerant_are_their_definition(pair):
+    truth, found = pair
+    assert strict_and_tolerant(truth, found) == pytest.approx(naive.strict_tolerant(truth, found))
+
+
+@given(pairs())
+def test_exact_borders_are_matched_as_mir_eval_does(pair):
+    truth, found = pair
+    labels = [str(i) for i in range(len(found.labels))]
+    found = Labelling(found.borders, tuple(labels), found.fps)
+    exact = Annotation(truth.labels, truth.mean, truth.mean, truth.mean, truth.frames, 10.0)
+    if len(exact.labels) == 1 or len(labels) == 1:
+        return  # mir_eval warns where it has nothing to compare
+    spans = [
+        np.stack([b[:-1], b[1:]], axis=1) / 10 for b in (exact.at_means().borders, found.borders)
+    ]
+    theirs = mir_eval.segment.detection(*spans, window=0.25 + 1e-9, trim=True)
+    assert border_score(exact, found) == pytest.approx(theirs)
+
+
+def test_a_border_counts_once_and_the_best_matching_is_found():
+    truth = Annotation(("a", "b", "c"), [20, 28], [22, 29], [26, 30], 60, 10.0)
+    score = border_score(truth, Labelling.from_cuts([24, 27], frames=60, fps=10.0))
+    assert score == (1, 1, 1)
+    score = border_score(truth, Labelling.from_cuts([20, 21, 22, 23], frames=60, fps=10.0))
+    assert score.precision == 1 / 4
+    assert score.recall == 1 / 2
+
+
+def test_a_short_transition_is_one_border_and_a_long_one_two():
+    truth = Annotation(("a", "b"), [18], [20], [22], 60, 10.0)
+    short = Labelling([0, 17, 25, 60], ("1", TRANSITION, "2"), 10.0)
+    long = Labelling([0, 17, 27, 60], ("1", TRANSITION, "2"), 10.0)
+    assert border_score(truth, short) == (1, 1, 1)
+    assert border_score(truth, long).precision == 1 / 2
+    assert (border_ratio(truth, short), cut_ratio(truth, short)) == (1, 2)
+
+
+def test_a_found_transition_is_no_cluster():
+    truth = Annotation(("a", "b"), [20], [25], [30], 60, 10.0)
+    lazy = Labelling([0, 60], (TRANSITION,), 10.0)
+    assert one_to_one_accuracy(truth, lazy) == (10 / 60, 0)
+
+
+def test_splitting_an_action_into_clusters_costs_one_to_one_but_not_majority():
+    truth = Annotation(("a",), [], [], [], 60, 10.0)
+    split = Labelling.from_cuts([30], frames=60, fps=10.0)
+    assert one_to_one_accuracy(truth, split) == (0.5, 0.5)
+    assert majority_accuracy(truth, split) == (1, 1)
+
+
+def test_repetitions_are_counted_within_each_action():
+    truth = Annotation(("a", "b"), [20], [20], [20], 60, 10.0, counts=(2, None))
+    exact = Labelling([0, 9, 19, 25, 60], ("1", "1", TRANSITION, "2"), 10.0)
+    scores = evaluate(truth, exact)
+    assert (scores["count_error"], scores["count_exact"]) == (0, 1)
+    assert evaluate(truth, Labelling([0, 60], ("1",), 10.0))["count_error"] == 2
+    assert "count_error" not in evaluate(Annotation(("a",), [], [], [], 60, 10.0), exact)
+
+
+def test_a_segmentation_is_scored_at_its_own_levels():
+    truth = Annotation(("walk", "jump"), [28], [30], [32], 60, 30.0)
+    found = Segmentation.from_columns(
+        {
+            "level": ["activity"] * 3 + ["primitive"] * 4,
+            "kind": [
+                "activity",
+                "transition",
+                "activity",
+                "activity",
+                "activity",
+                "transition",
+                "activity",
+            ],
+            "start_frame": [0, 112, 128, 0, 60, 112, 128],
+            "stop_frame": [112, 128, 240, 60, 112, 128, 240],
+            "cluster": [-1, -1, -1, 0, 0, -1, -1],
+        },
+        n_frames=240,
+        fps=120.0,
+    )
+    scores = evaluate_segmentation(truth, found)
+    assert scores["one_to_one"] == scores["border_f1"] == scores["strict"] == 1
+    assert scores["cluster_ratio"] == scores["border_ratio"] == 1
+
+
+@pytest.mark.parametrize(
+    ("marks", "words"),
+    [
+        (([20], [18], [25]), "after action 1 \\(a\\) runs backwards"),
+        (([70], [70], [70]), "at frame 70 is not before the end of the recording, frame 60"),
+        (([0], [0], [0]), "borders overlap"),
+        (([20, 30], [20, 30], [20, 30]), "2 actions have 1 borders"),
+    ],
+)
+def test_impossible_marks_are_one_clear_error(marks, words):
+    with pytest.raises(ParameterError, match=words):
+        Annotation(("a", "b"), *marks, 60, 10.0)
+
+
+def test_overlapping_actions_are_one_clear_error():
+    with pytest.raises(ParameterError, match="action 2 \\(b\\) would last from frame 30 to 25"):
+        Annotation(("a", "b", "c"), [20, 25], [25, 27], [30, 28], 60, 10.0)
+
+
+def test_labels_of_another_length_than_the_recording_are_one_clear_error():
+    truth = Annotation(("a",), [], [], [], 60, 10.0)
+    with pytest.raises(ParameterError, match="cover 5.000 s .*lasts 6.000 s"):
+        evaluate(truth, Labelling([0, 50], ("1",), 10.0))
+
+
+@pytest.mark.parametrize("borders", [[0, 5, 5, 9], [1, 9], [0], [0, 9, 5]])
+def test_intervals_must_tile_from_0(borders):
+    with pytest.raises(ParameterError):
+        Labelling(borders, tuple("abc")[: len(borders) - 1], 10.0)
