@@ -46,21 +46,23 @@ def screen_columns(product, row_limits, column_norms, starts, stops, columns, co
 
 
 @njit(
-    "int64(float64[:, ::1], float64[:, ::1], float64, int32[:, ::1], int64[::1], int32[::1],"
-    " float32[::1])",
+    "Tuple((int32[::1], float32[::1]))"
+    "(float64[:, ::1], float64[:, ::1], float64, int64, int32[:, ::1], int64[::1])",
     fastmath={"reassoc", "contract"},
     **OPTIONS,
 )
-def measure_columns(rows, others, radius, columns, counts, indices, distances):
-    """Screened columns truly within the radius, packed row after row; returns how many.
+def measure_columns(rows, others, radius, first_column, columns, counts):
+    """Screened columns truly within the radius, row after row, and their distances.
 
     Distances are taken in float64. ``counts`` is updated to what was kept.
     """
+    indices = np.empty(counts.sum(), np.int32)
+    distances = np.empty(len(indices), np.float32)
     kept = 0
     for i in range(rows.shape[0]):
         before = kept
         for c in range(counts[i]):
-            j = columns[i, c]
+            j = first_column + columns[i, c]
             square = 0.0
             for d in range(rows.shape[1]):
                 difference = rows[i, d] - others[j, d]
@@ -71,24 +73,51 @@ def measure_columns(rows, others, radius, columns, counts, indices, distances):
                 distances[kept] = distance
                 kept += 1
         counts[i] = kept - before
-    return kept
+    return indices[:kept], distances[:kept]
 
 
 @njit("boolean[::1](int64[::1], int32[::1], float32[::1], int64)", **OPTIONS)
 def nearest_mask(indptr, indices, distances, k):
-    """Which stored entries are among the k nearest of their row, ties to the lower index."""
-    mask = np.ones(indices.shape[0], np.bool_)
-    bits = distances.view(np.int32)
+    """Which stored entries are among the k nearest of their row, ties to the lower index.
+
+    Entries are counted into bins of distance; only the bin in which the k-th
+    falls is sorted.
+    """
+    n_bins = 64
+    mask = np.empty(indices.shape[0], np.bool_)
+    bins = np.empty(n_bins + 1, np.int64)
     for i in range(indptr.shape[0] - 1):
         first, last = indptr[i], indptr[i + 1]
-        if last - first > k:
-            # Distances are not negative, so their bits sort as they do.
-            keys = np.empty(last - first, np.int64)
-            for e in range(first, last):
-                keys[e - first] = (np.int64(bits[e]) << 32) | np.int64(indices[e])
-            limit = np.partition(keys, k - 1)[k - 1]
-            for e in range(first, last):
-                mask[e] = keys[e - first] <= limit
+        if last - first <= k:
+            mask[first:last] = True
+            continue
+        row = distances[first:last]
+        low = row.min()
+        span = row.max() - low
+        scale = np.float32(n_bins / span if span > 0 else 0)
+        bins[:] = 0
+        for distance in row:
+            bins[int((distance - low) * scale)] += 1
+        nearer = 0
+        edge = 0
+        while nearer + bins[edge] <= k:
+            nearer += bins[edge]
+            edge += 1
+        ties = np.empty(bins[edge], np.float32)
+        count = 0
+        for distance in row:
+            if int((distance - low) * scale) == edge:
+                ties[count] = distance
+                count += 1
+        rest = k - nearer
+        limit = np.sort(ties)[rest - 1] if rest > 0 else np.float32(-1)
+        rest -= (ties < limit).sum()
+        for e in range(first, last):
+            place = int((distances[e] - low) * scale)
+            mask[e] = place < edge or (place == edge and distances[e] < limit)
+            if place == edge and distances[e] == limit and rest > 0:
+                mask[e] = True
+                rest -= 1
     return mask
 
 

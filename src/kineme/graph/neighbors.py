@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._threads import map_threads, n_threads
 from kineme.errors import ParameterError
 from kineme.graph import _kernels
 
@@ -160,19 +161,21 @@ def neighbor_graph(
     lag = max(len(rows), len(columns)) if max_lag is None else max_lag
 
     parts = [
-        _nearest_of_block(*block, k=k)
-        for block in _search(rows, columns, radius=float(radius), lag=lag)
+        part for block in _search(rows, columns, radius=float(radius), k=k, lag=lag) for part in block
     ]
     counts, indices, distances = (np.concatenate(part) for part in zip(*parts, strict=True))
     indptr = np.concatenate([[0], np.cumsum(counts)])
     return NeighborGraph(indptr, indices, distances, len(columns), float(radius))
 
 
-Block = tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]
+# Rows of a graph: neighbours per row, their indices, their distances.
+Part = tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]
 
 
-def _search(rows: Floats, columns: Floats, *, radius: float, lag: int) -> Iterator[Block]:
-    """All neighbours, block of rows by block of rows: counts, indices, distances.
+def _search(
+    rows: Floats, columns: Floats, *, radius: float, k: int | None, lag: int
+) -> Iterator[list[Part]]:
+    """All neighbours, block of rows by block of rows.
 
     The estimate ``|x|² + |y|² - 2 x·y`` errs in float32 by no more than
     ``margin``; what it lets through is measured in float64.
@@ -191,32 +194,47 @@ def _search(rows: Floats, columns: Floats, *, radius: float, lag: int) -> Iterat
     screened = np.empty((height, width), np.int32)
     for start in range(0, len(rows), height):
         stop = min(start + height, len(rows))
-        frames = np.arange(start, stop)
-        low, high = max(0, start - lag), max(0, min(len(columns), stop + lag))
-        low = min(low, high)
+        low = min(max(0, start - lag), len(columns))
+        high = min(stop + lag, len(columns))
         estimate = product[: (stop - start) * (high - low)].reshape(stop - start, high - low)
         np.matmul(rows32[start:stop], columns32[low:high].T, out=estimate)
+        frames = np.arange(start, stop)
         starts = np.clip(frames - lag, low, high) - low
         stops = np.clip(frames + lag + 1, low, high) - low
-        counts = np.empty(stop - start, np.int64)
-        _kernels.screen_columns(
-            estimate, limits[start:stop], column_norms[low:high], starts, stops, screened, counts
-        )
-        found = int(counts.sum())
-        indices, distances = np.empty(found, np.int32), np.empty(found, np.float32)
-        kept = _kernels.measure_columns(
-            rows[start:stop], columns[low:high], radius, screened, counts, indices, distances
-        )
-        yield counts, indices[:kept] + np.int32(low), distances[:kept]
+
+        def part(bounds: tuple[int, int]) -> Part:
+            first, last = bounds
+            here = slice(first, last)
+            counts = np.empty(last - first, np.int64)
+            _kernels.screen_columns(
+                estimate[here],
+                limits[start + first : start + last],
+                column_norms[low:high],
+                starts[here],
+                stops[here],
+                screened[here],
+                counts,
+            )
+            indices, distances = _kernels.measure_columns(
+                rows[start + first : start + last],
+                columns,
+                radius,
+                low,
+                screened[here],
+                counts,
+            )
+            return _nearest(counts, indices, distances, k)
+
+        edges = np.linspace(0, stop - start, 2 * n_threads() + 1).astype(int).tolist()
+        yield map_threads(part, zip(edges[:-1], edges[1:], strict=True))
 
 
-def _nearest_of_block(
+def _nearest(
     counts: NDArray[np.int64],
     indices: NDArray[np.int32],
     distances: NDArray[np.float32],
-    *,
     k: int | None,
-) -> Block:
+) -> Part:
     if k is None or counts.max(initial=0) <= k:
         return counts, indices, distances
     indptr = np.concatenate([[0], np.cumsum(counts)])

@@ -11,6 +11,27 @@ from numba import njit
 from kineme.graph._kernels import OPTIONS
 
 
+@njit("Tuple((int64[::1], int32[::1]))(int64[::1], int32[::1], boolean)", **OPTIONS)
+def group_pairs(indptr, indices, by_later):
+    """Stored pairs grouped by their later frame, or by their earlier one; holds the other."""
+    n = len(indptr) - 1
+    grouped = np.zeros(n + 1, np.int64)
+    for i in range(n):
+        for e in range(indptr[i], indptr[i + 1]):
+            key = max(i, indices[e]) if by_later else min(i, indices[e])
+            grouped[key + 1] += 1
+    grouped = np.cumsum(grouped)
+    position = grouped[:-1].copy()
+    others = np.empty(len(indices), np.int32)
+    for i in range(n):
+        for e in range(indptr[i], indptr[i + 1]):
+            j = indices[e]
+            key, other = (max(i, j), min(i, j)) if by_later else (min(i, j), max(i, j))
+            others[position[key]] = other
+            position[key] += 1
+    return grouped, others
+
+
 @njit("int64[::1](int64[::1], int32[::1], int64, int64)", **OPTIONS)
 def grow_squares_forward(indptr, earlier, min_gap, min_count):
     """Neighbour pairs inside the growing square, frame by frame; -1 where undefined.
@@ -151,33 +172,32 @@ def row_of_column(rows, columns, column):
     return rows[at]
 
 
-@njit("Tuple((int64[::1], float64[::1]))(int32[::1], int32[::1], int64[::1], int64, float64,"
-      " boolean)", **OPTIONS)
-def linked_segments(rows, columns, borders, segment, coverage, interpolate):
-    """Segments h that the path links to ``segment``, and the smaller share covered.
+@njit("Tuple((int64[::1], float64[::1]))(int64[::1], int32[::1], int32[::1], int64[::1], int64,"
+      " float64, boolean)", **OPTIONS)
+def linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
+    """Segments h that paths through segment g link to it, and the smaller share covered.
 
-    Segments are the frames ``borders[h]..borders[h + 1]``, both inclusive.
+    Segments are the frames ``borders[h]..borders[h + 1]``, both inclusive. A
+    segment may be linked by several paths.
     """
     linked, shares = [], []
-    row_start, row_stop = borders[segment], borders[segment + 1]
-    column_first, column_last = columns[0], columns[-1]
-    h = max(np.searchsorted(borders, column_first, side="right") - 2, 0)
-    while h < len(borders) - 1 and borders[h] <= column_last:
-        start, stop = borders[h], borders[h + 1]
-        row_first, row_last = rows[0], rows[-1]
-        if interpolate:
-            row_first, row_last = (
-                row_of_column(rows, columns, start),
-                row_of_column(rows, columns, stop),
-            )
-        of_h = (min(stop, column_last) - max(start, column_first) + 1) / (stop - start + 1)
-        of_g = (min(row_stop, row_last) - max(row_start, row_first) + 1) / (
-            row_stop - row_start + 1
-        )
-        if min(of_h, of_g) >= coverage:
-            linked.append(h)
-            shares.append(min(of_h, of_g))
-        h += 1
+    g_first, g_last = borders[g], borders[g + 1]
+    for p in range(len(ptr) - 1):
+        path_rows, path_columns = rows[ptr[p] : ptr[p + 1]], columns[ptr[p] : ptr[p + 1]]
+        low, high = path_columns[0], path_columns[-1]
+        h = max(np.searchsorted(borders, low, side="right") - 2, 0)
+        while h < len(borders) - 1 and borders[h] <= high:
+            first, last = borders[h], borders[h + 1]
+            row_low, row_high = path_rows[0], path_rows[-1]
+            if interpolate:
+                row_low = row_of_column(path_rows, path_columns, first)
+                row_high = row_of_column(path_rows, path_columns, last)
+            of_h = (min(last, high) - max(first, low) + 1) / (last - first + 1)
+            of_g = (min(g_last, row_high) - max(g_first, row_low) + 1) / (g_last - g_first + 1)
+            if min(of_h, of_g) >= coverage:
+                linked.append(h)
+                shares.append(min(of_h, of_g))
+            h += 1
     return np.array(linked, dtype=np.int64), np.array(shares, dtype=np.float64)
 
 

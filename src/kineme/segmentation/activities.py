@@ -18,7 +18,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
 from kineme.graph import NeighborGraph
 from kineme.segmentation import _kernels
@@ -61,13 +60,13 @@ def square_cuts(
     min_distance : frames; of two peaks no farther apart the higher stays
     """
     n = len(graph)
-    rows = np.repeat(np.arange(n, dtype=np.int32), graph.counts)
-    early, late = np.minimum(rows, graph.indices), np.maximum(rows, graph.indices)
-    counts = _kernels.grow_squares_forward(*_grouped(late, early, n), min_gap, min_count)
+    pairs = _kernels.group_pairs(graph.indptr, graph.indices, True)
+    counts = _kernels.grow_squares_forward(*pairs, min_gap, min_count)
     forward = _peaks(counts, min_count, min_distance)
     mask = np.zeros(n, np.bool_)
     mask[forward] = True
-    counts = _kernels.grow_squares_backward(*_grouped(early, late, n), mask, min_gap, min_count)
+    pairs = _kernels.group_pairs(graph.indptr, graph.indices, False)
+    counts = _kernels.grow_squares_backward(*pairs, mask, min_gap, min_count)
     backward = np.minimum(_peaks(counts, min_count, min_distance) + min_gap, n - 1)
     return ActivityCuts(forward, backward)
 
@@ -93,12 +92,6 @@ def scan_line_cuts(graph: NeighborGraph, *, min_gap: int, min_count: int) -> Act
         graph.indptr, graph.indices, mask, min_gap, min_count
     )
     return ActivityCuts(forward, backward)
-
-
-def _grouped(key: NDArray[np.int32], value: NDArray[np.int32], n: int):
-    order = np.argsort(key, kind="stable")
-    indptr = np.concatenate([[0], np.cumsum(np.bincount(key, minlength=n))])
-    return indptr, value[order]
 
 
 def _peaks(counts: Cuts, min_height: int, min_distance: int) -> Cuts:

@@ -14,6 +14,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._threads import map_threads
 from kineme.graph import NeighborGraph, component_labels, neighbor_graph
 from kineme.segmentation import _kernels
 from kineme.segmentation.activities import ActivityCuts, scan_line_cuts, square_cuts
@@ -122,12 +123,13 @@ def _repeats(blocks: Frames, cuts: ActivityCuts, pairs: Frames, preset: Preset) 
     return (pairs > preset.growth_count) & ~(ends_only & np.isin(blocks[1:], cuts.backward))
 
 
-def _primitives(graph: NeighborGraph, blocks: Frames, preset: Preset) -> Iterator[Frames]:
-    lasts = np.minimum(blocks[1:], len(graph) - 1)
-    for first, last in zip(blocks[:-1].tolist(), lasts.tolist(), strict=True):
-        yield primitive_cuts(
+def _primitives(graph: NeighborGraph, blocks: Frames, preset: Preset) -> list[Frames]:
+    frames = np.minimum(blocks, len(graph) - 1).tolist()
+
+    def cuts_of(block: int) -> Frames:
+        return primitive_cuts(
             graph,
-            (first, last),
+            (frames[block], frames[block + 1]),
             steps=preset.steps,
             skip_penalty=preset.skip_penalty * preset.radius,
             zero_cost=preset.zero_cost,
@@ -137,6 +139,8 @@ def _primitives(graph: NeighborGraph, blocks: Frames, preset: Preset) -> Iterato
             symmetry=preset.symmetry,
             min_length=preset.min_primitive * preset.working_fps,
         ).cuts
+
+    return map_threads(cuts_of, range(len(blocks) - 1))
 
 
 def _clusters(graph: NeighborGraph, segments: Frames, preset: Preset) -> Clustering:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
+from kineme._threads import map_threads
 from kineme.graph import NeighborGraph, warping_paths
 from kineme.graph.warping import Step
 from kineme.segmentation import _kernels
@@ -64,10 +65,8 @@ def cluster_segments(
     connection : links in one direction suffice (weak), or must lead back (strong)
     """
     n = len(borders) - 1
-    sources: list[NDArray[np.int64]] = []
-    targets: list[NDArray[np.int64]] = []
-    shares: list[NDArray[np.float64]] = []
-    for g in range(n):
+
+    def links_of(g: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         paths = warping_paths(
             graph,
             (int(borders[g]), int(borders[g + 1]) + 1),
@@ -79,28 +78,28 @@ def cluster_segments(
             separation=separation,
             max_slope=max_slope,
         )
-        for rows, columns in paths:
-            linked, share = _kernels.linked_segments(
-                rows, columns, borders, g, coverage, interpolate
-            )
-            sources.append(np.full(len(linked), g))
-            targets.append(linked)
-            shares.append(share)
-    links = _link_matrix(sources, targets, shares, n)
+        linked: tuple[NDArray[np.int64], NDArray[np.float64]] = _kernels.linked_segments(
+            paths.ptr, paths.rows, paths.columns, borders, g, coverage, interpolate
+        )
+        return linked
+
+    targets, shares = zip(*map_threads(links_of, range(n)), strict=True)
+    links = _link_matrix(targets, shares)
     _, components = connected_components(links, directed=True, connection=connection)
     return Clustering(_by_first_appearance(components), _best_shares(links, components))
 
 
-def _link_matrix(sources, targets, shares, n) -> csr_array:
-    """Largest share per ordered pair of segments; segments link to themselves not at all."""
-    g = np.concatenate([np.zeros(0, np.int64), *sources])
-    h = np.concatenate([np.zeros(0, np.int64), *targets])
-    share = np.concatenate([np.zeros(0), *shares])
+def _link_matrix(
+    targets: Sequence[NDArray[np.int64]], shares: Sequence[NDArray[np.float64]]
+) -> csr_array:
+    """Largest share per ordered pair of different segments."""
+    n = len(targets)
+    g = np.repeat(np.arange(n), [len(linked) for linked in targets])
+    h, share = np.concatenate(targets), np.concatenate(shares)
     order = np.lexsort((-share, h, g))
     g, h, share = g[order], h[order], share[order]
-    first = np.ones(len(g), bool)
-    first[1:] = (np.diff(g) != 0) | (np.diff(h) != 0)
-    keep = first & (g != h)
+    keep = g != h
+    keep[1:] &= (np.diff(g) != 0) | (np.diff(h) != 0)
     return csr_array((share[keep], (g[keep], h[keep])), shape=(n, n))
 
 

@@ -10,7 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._version import __version__
-from kineme.features import EndEffectors, end_effectors, offsets_in_frames, pose_features, stack
+from kineme.features import (
+    EndEffectors,
+    end_effectors,
+    offsets_in_frames,
+    pose_features,
+    stack,
+)
 from kineme.features.effectors import Names
 from kineme.motion import Motion
 from kineme.operations import resample
@@ -72,7 +78,7 @@ def segment_and_analysis(
         "preset": preset.name,
         "parameters": {k: v for k, v in asdict(preset).items() if k != "name"},
         "input": {"path": source.path, "format": source.format, "sha256": source.sha256},
-        "notes": [*source.notes, *found.notes],
+        "notes": [*source.notes, f"end effectors: {found.describe(motion.skeleton)}"],
     }
     timings = {"features": seconds, **analysis.timings}
     return _table(analysis, motion, preset.working_fps, provenance, timings), analysis
