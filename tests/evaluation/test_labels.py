@@ -231,6 +231,18 @@ def test_labels_of_another_length_than_the_recording_are_one_clear_error():
         evaluate(truth, Labelling([0, 50], ("1",), 10.0))
 
 
+@pytest.mark.parametrize("labels", [(), (TRANSITION,)])
+def test_an_annotation_without_actions_is_one_clear_error(labels):
+    with pytest.raises(ParameterError, match="at least one action"):
+        Annotation(labels, [], [], [], 60, 10.0)
+
+
+def test_a_transition_before_the_first_action_is_no_action():
+    truth = Annotation((TRANSITION, "a"), [20], [20], [20], 60, 10.0)
+    assert majority_accuracy(truth, truth.labelling()) == (1, 1)
+    assert strict_and_tolerant(truth, Labelling([0, 60], ("1",), 10.0))[1] == 1
+
+
 @pytest.mark.parametrize("borders", [[0, 5, 5, 9], [1, 9], [0], [0, 9, 5]])
 def test_intervals_must_tile_from_0(borders):
     with pytest.raises(ParameterError):

@@ -143,7 +143,8 @@ class Annotation:
 
     Raises
     ------
-    ParameterError : borders run backwards, overlap or pass the end
+    ParameterError : borders run backwards, overlap or pass the end, or there
+        is no action
     """
 
     labels: tuple[str, ...]
@@ -156,6 +157,8 @@ class Annotation:
 
     def __post_init__(self) -> None:
         _check_rate(self.fps)
+        if not set(self.labels) - {TRANSITION}:
+            raise ParameterError("an annotation needs at least one action")
         if self.counts and len(self.counts) != len(self.labels):
             raise ParameterError(
                 f"{len(self.labels)} actions need as many counts, not {len(self.counts)}"

@@ -71,4 +71,6 @@ def _closed_spans(truth: Annotation) -> tuple[Ints, Ints, NDArray[np.bool_]]:
     marks = np.stack([truth.earliest, truth.latest], axis=1).ravel()
     start = np.concatenate([[0], marks])
     stop = np.concatenate([marks, [truth.frames - 1]])
-    return start, stop, np.arange(start.size) % 2 == 0
+    certain = np.zeros(start.size, np.bool_)
+    certain[::2] = [label != TRANSITION for label in truth.labels]
+    return start, stop, certain
