@@ -1,6 +1,7 @@
 """Recordings to try things on: synthetic ones with known truth, and one in the package."""
 
 from kineme.datasets.actions import ACTIONS
+from kineme.datasets.bundled import bundled_recording, bundled_truth
 from kineme.datasets.synthetic import (
     Action,
     SyntheticRecording,
@@ -8,4 +9,12 @@ from kineme.datasets.synthetic import (
     synthesize,
 )
 
-__all__ = ["ACTIONS", "Action", "SyntheticRecording", "random_recording", "synthesize"]
+__all__ = [
+    "ACTIONS",
+    "Action",
+    "SyntheticRecording",
+    "bundled_recording",
+    "bundled_truth",
+    "random_recording",
+    "synthesize",
+]

@@ -1,0 +1,21 @@
+"""The recording that comes with the package.
+
+A synthetic figure walks, squats, circles its arms, jumps, runs and kicks; its
+true segments lie beside it. ``kineme.datasets.make_bundled`` made both.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_FOLDER = Path(__file__).parent / "recordings"
+
+
+def bundled_recording() -> Path:
+    """The BVH file that comes with the package: 48 s of exercises at 60 Hz."""
+    return _FOLDER / "exercises.bvh"
+
+
+def bundled_truth() -> Path:
+    """Its true segments: a table that `kineme.read_segments` reads."""
+    return _FOLDER / "exercises.json"
