@@ -19,6 +19,12 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
     return list(_pool().map(function, items))
 
 
+def even_slices(n: int) -> list[slice]:
+    """``range(n)`` in pieces of like size, a few for each core."""
+    edges = [n * part // (2 * n_threads()) for part in range(2 * n_threads() + 1)]
+    return [slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True) if a < b]
+
+
 @cache
 def n_threads() -> int:
     """Cores this process may use; ``KINEME_THREADS`` sets another number."""

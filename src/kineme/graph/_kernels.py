@@ -62,32 +62,33 @@ def measure_columns(rows, others, radius, first_column, columns, counts):
     for i in range(rows.shape[0]):
         before = kept
         for c in range(counts[i]):
-            j = first_column + columns[i, c]
+            j = columns[i, c]
             square = 0.0
             for d in range(rows.shape[1]):
                 difference = rows[i, d] - others[j, d]
                 square += difference * difference
             distance = np.sqrt(square)
             if distance <= radius:
-                indices[kept] = j
+                indices[kept] = first_column + j
                 distances[kept] = distance
                 kept += 1
         counts[i] = kept - before
     return indices[:kept], distances[:kept]
 
 
-@njit("boolean[::1](int64[::1], int32[::1], float32[::1], int64)", **OPTIONS)
-def nearest_mask(indptr, indices, distances, k):
-    """Which stored entries are among the k nearest of their row, ties to the lower index.
+@njit("boolean[::1](int64[::1], float32[::1], int64)", **OPTIONS)
+def nearest_mask(indptr, distances, k):
+    """Which entries are among the k nearest of their row, ties to the earlier entry.
 
+    Row i is ``distances[indptr[i] - indptr[0]:indptr[i + 1] - indptr[0]]``.
     Entries are counted into bins of distance; only the bin in which the k-th
     falls is sorted.
     """
     n_bins = 64
-    mask = np.empty(indices.shape[0], np.bool_)
+    mask = np.empty(distances.shape[0], np.bool_)
     bins = np.empty(n_bins + 1, np.int64)
     for i in range(indptr.shape[0] - 1):
-        first, last = indptr[i], indptr[i + 1]
+        first, last = indptr[i] - indptr[0], indptr[i + 1] - indptr[0]
         if last - first <= k:
             mask[first:last] = True
             continue

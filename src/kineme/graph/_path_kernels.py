@@ -32,54 +32,64 @@ def box_rows(indptr, indices, row_start, row_stop, column_start, column_stop):
     return first, node
 
 
-@njit("int32[:, ::1](int64[:, ::1], int64)", **OPTIONS)
+@njit("Tuple((int32[::1], int64, int64))(int64[:, ::1], int64)", **OPTIONS)
 def empty_ring(steps, width):
-    depth, pad = 1, 0
+    """The ring, the length of its rows, and how far steps reach to the left."""
+    depth, reach = 1, 0
     for s in range(len(steps)):
         depth = max(depth, steps[s, 0] + 1)
-        pad = max(pad, steps[s, 1])
-    return np.full((depth, width + pad), -1, np.int32)
+        reach = max(reach, steps[s, 1])
+    return np.full(depth * (width + reach), -1, np.int32), width + reach, reach
 
 
-@njit("void(int32[:, ::1], int64, int32[::1], int64[::1], int64[::1], int64)", **OPTIONS)
-def enter_row(ring, r, indices, first, node, offset):
-    """Put row r into the ring in place of the row that falls out of reach."""
-    depth = ring.shape[0]
-    line = ring[r % depth]
+@njit("void(int32[::1], int64, int64[::1], int64, int32[::1], int64[::1], int64[::1],"
+      " int64[:, ::1], int64)", **OPTIONS)
+def enter_row(ring, line, looks, r, indices, first, node, steps, offset):
+    """Put row r into the ring in place of the row that falls out of reach.
+
+    Afterwards the node one step s before column j of row r is
+    ``ring[looks[s] + j]``, or -1.
+    """
+    depth = len(ring) // line
+    here = (r % depth) * line + offset
     if r >= depth:
         old = r - depth
         for e in range(first[old], first[old] + node[old + 1] - node[old]):
-            line[indices[e] + offset] = -1
+            ring[here + indices[e]] = -1
+    shift = first[r] - node[r]
     for v in range(node[r], node[r + 1]):
-        line[indices[v + first[r] - node[r]] + offset] = v
+        ring[here + indices[v + shift]] = v
+    for s in range(len(steps)):
+        looks[s] = ((r - steps[s, 0]) % depth) * line + offset - steps[s, 1]
 
 
 @njit("int32[::1](int32[::1], int64[::1], int64[::1], int64[:, ::1], int64, int64)", **OPTIONS)
 def component_roots(indices, first, node, steps, column_start, width):
     """``roots[v]``: the first node of the weakly connected component of v."""
     n = node[-1]
-    parents = np.arange(n).astype(np.int32)
-    ring = empty_ring(steps, width)
-    depth = ring.shape[0]
-    n_steps = len(steps)
-    lines = np.empty(n_steps, np.int64)
-    offset = ring.shape[1] - width - column_start
+    parents = np.empty(n, np.int32)
+    ring, line, reach = empty_ring(steps, width)
+    looks = np.empty(len(steps), np.int64)
     for r in range(len(first)):
-        enter_row(ring, r, indices, first, node, offset)
-        for s in range(n_steps):
-            lines[s] = (r - steps[s, 0]) % depth
+        enter_row(ring, line, looks, r, indices, first, node, steps, reach - column_start)
+        shift = first[r] - node[r]
         for v in range(node[r], node[r + 1]):
-            column = indices[v + first[r] - node[r]] + offset
+            j = indices[v + shift]
             root = np.int32(v)
-            for s in range(n_steps):
-                u = ring[lines[s], column - steps[s, 1]]
-                if u < 0 or parents[u] == root:
+            for look in looks:
+                u = ring[look + j]
+                if u < 0 or u >= v:
                     continue
-                while parents[u] != u:
-                    parents[u] = parents[parents[u]]
+                up = parents[u]
+                if up == root:
+                    continue
+                while up != u:
+                    parents[u] = parents[up]
                     u = parents[u]
+                    up = parents[u]
                 if u < root:
-                    parents[root] = u
+                    if root < v:
+                        parents[root] = u
                     root = u
                 else:
                     parents[u] = root
@@ -104,34 +114,28 @@ def cheapest_arrivals(indices, distances, first, node, steps, penalties, column_
     costs = np.full(n, np.inf)
     before = np.full(n, -1, np.int32)
     origins = np.full(n, -1, np.int32)
-    ring = empty_ring(steps, width)
-    depth = ring.shape[0]
-    n_steps = len(steps)
-    lines = np.empty(n_steps, np.int64)
-    offset = ring.shape[1] - width - column_start
+    ring, line, reach = empty_ring(steps, width)
+    looks = np.empty(len(steps), np.int64)
     for r in range(len(first)):
-        enter_row(ring, r, indices, first, node, offset)
-        for s in range(n_steps):
-            lines[s] = (r - steps[s, 0]) % depth
+        enter_row(ring, line, looks, r, indices, first, node, steps, reach - column_start)
+        shift = first[r] - node[r]
         for v in range(node[r], node[r + 1]):
             if not wanted[roots[v]]:
                 continue
-            entry = v + first[r] - node[r]
-            column = indices[entry] + offset
-            weight = max(np.float64(distances[entry]), 0.0)
-            if weight == 0.0:
-                weight = zero_cost
+            j = indices[v + shift]
             best = np.inf
             if roots[v] >= node[r]:
                 best = 0.0
-                origins[v] = indices[entry]
-            for s in range(n_steps):
-                u = ring[lines[s], column - steps[s, 1]]
+                origins[v] = j
+            for s in range(len(looks)):
+                u = ring[looks[s] + j]
                 if u >= 0 and costs[u] + penalties[s] < best:
                     best = costs[u] + penalties[s]
                     before[v] = u
-                    origins[v] = origins[u]
-            costs[v] = best + weight
+            if before[v] >= 0:
+                origins[v] = origins[before[v]]
+            distance = np.float64(distances[v + shift])
+            costs[v] = best + (distance if distance > 0 else zero_cost)
     return costs, before, origins
 
 

@@ -12,13 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._threads import map_threads, n_threads
+from kineme._threads import even_slices, map_threads
 from kineme.errors import ParameterError
 from kineme.graph import _kernels
 
@@ -87,7 +87,16 @@ class NeighborGraph:
             raise ParameterError(f"the number of neighbours must be at least 1, not {k}")
         if self.n_entries == 0 or k >= self.counts.max():
             return self
-        return self.select(_kernels.nearest_mask(self.indptr, self.indices, self.distances, k))
+
+
+        def mask(rows: slice) -> NDArray[np.bool_]:
+            indptr = self.indptr[rows.start : rows.stop + 1]
+            kept: NDArray[np.bool_] = _kernels.nearest_mask(
+                indptr, self.distances[indptr[0] : indptr[-1]], k
+            )
+            return kept
+
+        return self.select(np.concatenate(map_threads(mask, even_slices(len(self)))))
 
     def select(self, mask: NDArray[np.bool_]) -> NeighborGraph:
         """The same graph with the stored entries where the mask is true."""
@@ -199,46 +208,49 @@ def _search(
         estimate = product[: (stop - start) * (high - low)].reshape(stop - start, high - low)
         np.matmul(rows32[start:stop], columns32[low:high].T, out=estimate)
         frames = np.arange(start, stop)
-        starts = np.clip(frames - lag, low, high) - low
-        stops = np.clip(frames + lag + 1, low, high) - low
-
-        def part(bounds: tuple[int, int]) -> Part:
-            first, last = bounds
-            here = slice(first, last)
-            counts = np.empty(last - first, np.int64)
-            _kernels.screen_columns(
-                estimate[here],
-                limits[start + first : start + last],
-                column_norms[low:high],
-                starts[here],
-                stops[here],
-                screened[here],
-                counts,
-            )
-            indices, distances = _kernels.measure_columns(
-                rows[start + first : start + last],
-                columns,
-                radius,
-                low,
-                screened[here],
-                counts,
-            )
-            return _nearest(counts, indices, distances, k)
-
-        edges = np.linspace(0, stop - start, 2 * n_threads() + 1).astype(int).tolist()
-        yield map_threads(part, zip(edges[:-1], edges[1:], strict=True))
+        near = partial(
+            _measure,
+            estimate,
+            limits[start:stop],
+            column_norms[low:high],
+            np.clip(frames - lag, low, high) - low,
+            np.clip(frames + lag + 1, low, high) - low,
+            screened,
+            rows[start:stop],
+            columns[low:high],
+            low,
+            radius,
+            k,
+        )
+        yield map_threads(near, even_slices(stop - start))
 
 
-def _nearest(
-    counts: NDArray[np.int64],
-    indices: NDArray[np.int32],
-    distances: NDArray[np.float32],
+def _measure(
+    estimate: NDArray[np.float32],
+    limits: NDArray[np.float32],
+    column_norms: NDArray[np.float32],
+    starts: NDArray[np.int64],
+    stops: NDArray[np.int64],
+    screened: NDArray[np.int32],
+    rows: Floats,
+    columns: Floats,
+    first_column: int,
+    radius: float,
     k: int | None,
+    part: slice,
 ) -> Part:
+    """The neighbours of some rows of a block: screened by estimate, measured, the k nearest."""
+    counts = np.empty(part.stop - part.start, np.int64)
+    _kernels.screen_columns(
+        estimate[part], limits[part], column_norms, starts[part], stops[part], screened[part], counts
+    )
+    indices, distances = _kernels.measure_columns(
+        rows[part], columns, radius, first_column, screened[part], counts
+    )
     if k is None or counts.max(initial=0) <= k:
         return counts, indices, distances
     indptr = np.concatenate([[0], np.cumsum(counts)])
-    mask = _kernels.nearest_mask(indptr, indices, distances, k)
+    mask = _kernels.nearest_mask(indptr, distances, k)
     return np.minimum(counts, k), indices[mask], distances[mask]
 
 
