@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -113,3 +114,81 @@ def cloud_distance(points, i, j, *, half):
         difference[:, [0, 2]] -= difference[:, [0, 2]].mean(axis=0)
         best = min(best, (difference**2).sum() / len(a))
     return best**0.5
+
+
+# --- formats: positions straight from the text of a file, one joint and frame at a time -------
+
+
+def amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, Floats]]:
+    """Where each bone starts and ends, in metres, by bone: [start, tip]; CMU's dialect only."""
+    unit = 0.0254 / float(asf.split("length")[1].split()[0])
+    bones = {}
+    for block in asf.split(":bonedata")[1].split(":hierarchy")[0].split("begin")[1:]:
+        line = {words[0]: words[1:] for words in map(str.split, block.splitlines()) if words}
+        bones[line["name"][0]] = line
+    parents = {}
+    for line in asf.split(":hierarchy")[1].splitlines():
+        for child in line.split()[1:]:
+            parents[child] = line.split()[0]
+    records = re.split(r"^\d+\s*$", amc, flags=re.MULTILINE)[1:]
+    results = []
+    for frame in frames:
+        values = {words[0]: words[1:] for words in map(str.split, records[frame].splitlines()) if words}
+        move = [float(x) for x in values["root"]]
+        at = {"root": np.array([[0.0, 0, 0], [0, 0, 0]]) + unit * np.array(move[:3])}
+        turned = {"root": Rotation.from_euler("xyz", move[3:], degrees=True)}
+        waiting = list(parents)
+        while waiting:
+            name = waiting.pop(0)
+            if parents[name] not in at:
+                waiting.append(name)
+                continue
+            bone = bones[name]
+            frame_of = Rotation.from_euler("xyz", [float(x) for x in bone["axis"][:3]], degrees=True)
+            angles = dict(zip(bone.get("dof", []), map(float, values.get(name, [])), strict=True))
+            own = Rotation.from_euler(
+                "xyz", [angles.get("rx", 0), angles.get("ry", 0), angles.get("rz", 0)], degrees=True
+            )
+            turned[name] = turned[parents[name]] * frame_of * own * frame_of.inv()
+            way = unit * float(bone["length"][0]) * np.array([float(x) for x in bone["direction"]])
+            start = at[parents[name]][1]
+            at[name] = np.array([start, start + turned[name].apply(way)])
+        results.append(at)
+    return results
+
+
+def bvh_positions(text: str, frames: Sequence[int]) -> list[list[Floats]]:
+    """Where each joint and end site is, in file units and order; tidy files only."""
+    hierarchy, motion = text.split("MOTION")
+    rows = [line.split() for line in motion.strip().splitlines()[2:]]
+    results = []
+    for frame in frames:
+        row = [float(x) for x in rows[frame]]
+        at, stack = [], []
+        offset = None
+        for line in hierarchy.splitlines():
+            words = line.split()
+            if not words or words[0] in ("HIERARCHY", "ROOT", "JOINT", "{"):
+                continue
+            above = stack[-1] if stack else (np.zeros(3), Rotation.identity())
+            if words[0] == "OFFSET":
+                offset = np.array([float(x) for x in words[1:]])
+                at.append(above[0] + above[1].apply(offset))
+                stack.append((at[-1], above[1]))
+            elif words[0] == "CHANNELS":
+                stack.pop()
+                above = stack[-1] if stack else (np.zeros(3), Rotation.identity())
+                own = Rotation.identity()
+                for channel in words[2:]:
+                    value, row = row[0], row[1:]
+                    axis = "XYZ".index(channel[0])
+                    if "position" in channel:
+                        offset[axis] = value
+                    else:
+                        own = own * Rotation.from_euler("xyz"[axis], value, degrees=True)
+                at[-1] = above[0] + above[1].apply(offset)
+                stack.append((at[-1], above[1] * own))
+            elif words[0] == "}":
+                stack.pop()
+        results.append(at)
+    return results

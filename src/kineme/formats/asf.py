@@ -3,9 +3,10 @@
 Lengths are in ``1 / length`` inches, where ``length`` stands under ``:units``
 (CMU: 0.45, so one unit is 5.64 cm); angles in degrees or radians. A bone runs
 from its parent's tip along ``direction`` for ``length``; ``axis`` turns the
-frame in which its rotations are counted, ``dof`` names the values it has in
-the motion file. Rotations are about fixed axes, the first named first: with
-``axis ... XYZ`` the frame is C = Rz Ry Rx.
+frame in which its rotations are counted (by x, y and z degrees in the order of
+its letters), ``dof`` names the values it has in the motion file. Rotations are
+about fixed axes, the first named first: with ``axis ... XYZ`` the frame is
+C = Rz Ry Rx.
 
 A bone becomes a joint of the same name at the bone's start; its offset is the
 parent bone, and the tip of a leaf bone becomes the end site ``NAME_end``. The
@@ -34,6 +35,8 @@ Line = tuple[int, list[str]]
 
 ROOT = "root"
 
+_BLANKS = str.maketrans("(),", "   ")
+
 
 @dataclass
 class Bone:
@@ -48,8 +51,7 @@ class Bone:
 
     @property
     def tip(self) -> Floats:
-        norm = float(np.linalg.norm(self.direction))
-        return self.direction * (self.length / norm) if norm > 0 else np.zeros(3)
+        return self.direction * self.length
 
 
 @dataclass
@@ -118,7 +120,7 @@ def _sections(source: Source) -> dict[str, list[Line]]:
     sections: dict[str, list[Line]] = {}
     current: list[Line] = []
     for number, line in enumerate(source.text.splitlines(), 1):
-        words = line.split("#")[0].split()
+        words = line.split("#")[0].translate(_BLANKS).split()
         if not words:
             continue
         if words[0].startswith(":"):
@@ -187,9 +189,11 @@ def _frame(source: Source, line: int, words: list[str], turn: float) -> Floats:
     letters = (words[3] if len(words) > 3 else "xyz").lower()
     if sorted(letters) != ["x", "y", "z"]:
         raise source.error(f"axis order {letters!r} is not made of X, Y and Z", line)
-    angles = turn * np.array([_values(source, line, words[:3], 3)])
-    turn_of: Floats = rot.from_euler(angles[:, ::-1], letters[::-1])[0]
-    return turn_of
+    angles = dict(zip("xyz", _values(source, line, words[:3], 3), strict=True))
+    inner_first = letters[::-1]
+    turns = np.array([[turn * angles[letter] for letter in inner_first]])
+    frame: Floats = rot.from_euler(turns, inner_first)[0]
+    return frame
 
 
 def _dof(source: Source, line: int, words: list[str]) -> tuple[str, ...]:

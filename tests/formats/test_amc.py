@@ -1,0 +1,206 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import naive
+from format_samples import AMC, ASF
+from kineme.errors import KinemeWarning, ReadError
+from kineme.formats import read
+from kineme.motion import Motion
+
+CMU_UNIT = 0.0254 / 0.45
+
+
+def pair(folder: Path, *, asf: str = ASF, amc: str = AMC, asf_name: str = "figure.asf") -> Path:
+    path = folder / "figure_01.amc"
+    (folder / asf_name).write_bytes(asf.encode())
+    path.write_bytes(amc.encode())
+    return path
+
+
+def assert_same(one: Motion, other: Motion) -> None:
+    assert one.skeleton.names == other.skeleton.names
+    np.testing.assert_allclose(one.positions, other.positions, atol=1e-12)
+
+
+def test_bones_become_joints_at_their_start(tmp_path: Path) -> None:
+    motion = read(pair(tmp_path))
+    assert motion.skeleton.names == ("root", "hip", "leg", "foot", "foot_end", "back", "back_end")
+    assert motion.skeleton.end_sites == {4, 6}
+    assert motion.fps == 120
+    assert motion.positions[0, 0] == pytest.approx(np.array([1, 17, 2]) * CMU_UNIT)
+    assert np.linalg.norm(motion.skeleton.offsets[motion.joint("foot")]) == pytest.approx(
+        8 * CMU_UNIT
+    )
+    assert any("120 Hz assumed" in note for note in motion.provenance.notes)
+    assert motion.provenance.sha256 is not None
+
+
+@pytest.mark.parametrize(
+    "recording",
+    ["cmu86/86_10", "cmu_formats/49_02", "hdm05/amc/HDM_bk_squat1Reps_014_120"],
+)
+def test_equals_the_naive_implementation(data_dir: Path, recording: str) -> None:
+    motion = read(data_dir / f"{recording}.amc")
+    asf = Path(motion.provenance.notes[0].removeprefix("skeleton from "))
+    frames = range(0, motion.n_frames, max(1, motion.n_frames // 40))
+    text = (data_dir / f"{recording}.amc").read_text(encoding="latin-1")
+    for frame, bones in zip(frames, naive.amc_positions(asf.read_text(), text, frames), strict=True):
+        for name, (start, tip) in bones.items():
+            assert motion.positions[frame, motion.joint(name)] == pytest.approx(start, abs=1e-9)
+            if f"{name}_end" in motion.skeleton.names:
+                end = motion.positions[frame, motion.joint(f"{name}_end")]
+                assert end == pytest.approx(tip, abs=1e-9)
+
+
+@pytest.mark.parametrize("trial", ["86_01", "86_09"])
+def test_gives_the_features_of_the_authors_program(data_dir: Path, trial: str) -> None:
+    """Five tips without translation and heading, at -5, 0, 5 frames of 30 Hz, in cm."""
+    stored = np.load(data_dir / f"cmu86/reference/2014_paper_{trial}.npz")["features"]
+    motion = read(data_dir / f"cmu86/{trial}.amc")
+    tips = [motion.joint(j) for j in ("lfoot", "rfoot", "head_end", "lhand", "rhand")]
+    stacked = naive.stack(naive.pose_features(_every_fourth(motion), tips), [-5, 0, 5])
+    assert stacked.T.shape == stored.shape
+    assert np.abs(100 * stacked.T - stored).max() < 0.001
+
+
+def _every_fourth(motion: Motion) -> Motion:
+    assert motion.rotations is not None
+    return Motion(motion.skeleton, motion.positions[::4], 30.0, motion.rotations[::4])
+
+
+def test_values_may_come_in_any_order_and_layout(tmp_path: Path) -> None:
+    plain = read(pair(tmp_path))
+    swapped = AMC.replace("back 5.5 6 7\nleg 10 11.5 12", "leg 10 11.5 12\n# why not\nback 5.5 6 7")
+    assert_same(read(pair(tmp_path, amc=swapped)), plain)
+    assert_same(read(pair(tmp_path, amc=AMC.replace("\n", "\r\n"))), plain)
+    asf = ASF.replace("\n", "\r\n").replace("dof rx ry rz", "dof rx ry rz # all")
+    assert_same(read(pair(tmp_path, asf=asf)), plain)
+    with_hip = AMC.replace("back", "hip\nback")
+    assert_same(read(pair(tmp_path, amc=with_hip)), plain)
+
+
+def test_order_of_root_channels(tmp_path: Path) -> None:
+    asf = ASF.replace("order TX TY TZ RX RY RZ", "order RX RY RZ TZ TY TX")
+    amc = AMC
+    for old, new in [
+        ("1 17 2 10 20 30", "10 20 30 2 17 1"),
+        ("1.5 17 2.5 11 21 31", "11 21 31 2.5 17 1.5"),
+        ("2 17 3 12 22 32", "12 22 32 3 17 2"),
+    ]:
+        amc = amc.replace(old, new)
+    turned = read(pair(tmp_path, asf=asf, amc=amc))
+    assert_same(turned, read(pair(tmp_path)))
+
+
+def test_radians_in_either_file(tmp_path: Path) -> None:
+    plain = read(pair(tmp_path))
+
+    def in_radians(line: str) -> str:
+        name, *values = line.split()
+        if name.isalpha() and values:
+            keep = 3 if name == "root" else 0
+            turned = [repr(float(np.radians(float(v)))) for v in values[keep:]]
+            return " ".join([name, *values[:keep], *turned])
+        return line
+
+    amc = "\n".join(map(in_radians, AMC.splitlines()[1:])) + "\n"
+    assert_same(read(pair(tmp_path, amc=amc.replace(":DEGREES", ":RADIANS"))), plain)
+    asf = ASF.replace("angle deg", "angle rad").replace("axis 0 0 20 XYZ", f"axis 0 0 {np.radians(20)} XYZ")
+    asf = asf.replace("-90 0 20 XYZ", f"{np.radians(-90)} 0 {np.radians(20)} XYZ")
+    assert_same(read(pair(tmp_path, asf=asf, amc=amc.replace(":DEGREES\n", ""))), plain)
+
+
+def test_any_axis_and_dof_order(tmp_path: Path) -> None:
+    """Rotations are about fixed axes, the first named first."""
+    from scipy.spatial.transform import Rotation
+
+    asf = ASF.replace("axis 0 0 20 XYZ\n    dof rx ry rz", "axis 30 40 50 YZX\n    dof rz rx ry")
+    motion = read(pair(tmp_path, asf=asf))
+    frame = Rotation.from_euler("yzx", [40, 50, 30], degrees=True)
+    own = Rotation.from_euler("zxy", [10, 11, 12], degrees=True)
+    assert motion.rotations is not None
+    found = Rotation.from_quat(motion.rotations[0, motion.joint("leg")], scalar_first=True)
+    assert (found.inv() * frame * own * frame.inv()).magnitude() < 1e-12
+
+
+def test_length_unit(tmp_path: Path) -> None:
+    plain = read(pair(tmp_path))
+    inches = read(pair(tmp_path, asf=ASF.replace("length 0.45", "length 1.0")))
+    np.testing.assert_allclose(inches.positions, 0.45 * plain.positions, atol=1e-12)
+    given = read(pair(tmp_path), unit="m")
+    np.testing.assert_allclose(given.positions * CMU_UNIT, plain.positions, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("lost", "why"),
+    [
+        (len("foot 3 5\n"), "without foot"),
+        (len(" 5\n"), "has 1 values"),
+        (len("ot 3 5\n"), "'fo' is not in"),
+    ],
+)
+def test_a_truncated_last_frame_is_left_out_with_a_warning(
+    tmp_path: Path, lost: int, why: str
+) -> None:
+    whole = read(pair(tmp_path))
+    with pytest.warns(KinemeWarning, match=f"{why}.*last frame is truncated") as caught:
+        motion = read(pair(tmp_path, amc=AMC[:-lost]))
+    assert caught[0].filename == __file__
+    np.testing.assert_array_equal(motion.positions, whole.positions[:2])
+
+
+def test_frames_that_jump_and_bones_without_values_are_told(tmp_path: Path) -> None:
+    with pytest.warns(KinemeWarning, match="line 14: frame 7 follows 2"):
+        read(pair(tmp_path, amc=AMC.replace("\n3\n", "\n7\n")))
+    amc = "\n".join(line for line in AMC.splitlines() if not line.startswith("foot"))
+    with pytest.warns(KinemeWarning, match="no values for foot"):
+        read(pair(tmp_path, amc=amc))
+
+
+def test_the_skeleton_is_found(data_dir: Path, tmp_path: Path) -> None:
+    for recording, asf in [
+        ("cmu_formats/49_02.amc", "cmu_formats/49.asf"),
+        ("hdm05/amc/HDM_dg_squat1Reps_025_120.amc", "hdm05/asf/HDM_dg.asf"),
+    ]:
+        notes = read(data_dir / recording).provenance.notes
+        assert notes[0].endswith(asf)
+    assert read(pair(tmp_path, asf_name="anything.ASF")).n_frames == 3
+    (tmp_path / "other.asf").write_text(ASF)
+    with pytest.raises(ReadError, match="none of the 2 ASF files.*skeleton="):
+        read(tmp_path / "figure_01.amc")
+    assert read(tmp_path / "figure_01.amc", skeleton=tmp_path / "other.asf").n_frames == 3
+
+
+def test_one_take_as_amc_and_as_bvh(data_dir: Path) -> None:
+    """Each bone of the BVH conversion points the same way, to what its decimals allow.
+
+    The conversion has a rest pose as its first frame, four decimals for
+    angles and five for offsets: roots agree to 5e-5 units (2.8 um), bones to
+    2 um as measured. It leaves out the thorax and the wrist bones (their
+    children's offsets are 0), so these six joints are not compared.
+    """
+    names = {
+        "LHipJoint": "lhipjoint", "LeftUpLeg": "lfemur", "LeftLeg": "ltibia", "LeftFoot": "lfoot",
+        "LeftToeBase": "ltoes", "LeftToeBase_end": "ltoes_end", "RHipJoint": "rhipjoint",
+        "RightUpLeg": "rfemur", "RightLeg": "rtibia", "RightFoot": "rfoot",
+        "RightToeBase": "rtoes", "RightToeBase_end": "rtoes_end", "LowerBack": "lowerback",
+        "Spine": "upperback", "Spine1": "thorax", "Neck1": "upperneck", "Head": "head",
+        "Head_end": "head_end", "LeftArm": "lhumerus", "LeftForeArm": "lradius",
+        "LeftHand": "lwrist", "LeftHandIndex1": "lfingers", "LThumb_end": "lthumb_end",
+        "RightArm": "rhumerus", "RightForeArm": "rradius", "RightHand": "rwrist",
+        "RightHandIndex1": "rfingers", "RThumb_end": "rthumb_end",
+    }  # fmt: skip
+    for take in ("49_02", "02_01"):
+        amc, bvh = (read(data_dir / f"cmu_formats/{take}.{suffix}") for suffix in ("amc", "bvh"))
+        assert bvh.n_frames == amc.n_frames + 1
+        assert np.abs(bvh.positions[1:, 0] - amc.positions[:, 0]).max() < 3e-6
+        for ours, theirs in ((bvh.joint(b), amc.joint(a)) for b, a in names.items()):
+            assert np.abs(_bone(bvh, ours)[1:] - _bone(amc, theirs)).max() < 2e-6
+
+
+def _bone(motion: Motion, joint: int) -> np.ndarray:
+    return motion.positions[:, joint] - motion.positions[:, motion.skeleton.parents[joint]]
