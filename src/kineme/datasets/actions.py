@@ -234,7 +234,7 @@ ACTIONS: dict[str, Cycle] = {
         {
             "right raise": (96, 124, 152, 124, 96),
             "right roll": (-88, -88, -88, -88, -88),
-            "right elbow": (16, 40, 64, 40, 16),
+            "right elbow": (22, 22, 58, 58, 22),  # the forearm trails behind
             "lean": (3, 0, -3, 0, 3),
             "look": (-8, -8, -8, -8, -8),
         },
