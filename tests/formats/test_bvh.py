@@ -1,0 +1,199 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import naive
+from format_samples import BVH
+from kineme.errors import KinemeWarning
+from kineme.formats import read, write
+from kineme.formats.units import UNITS, rate_from_period
+from kineme.motion import Motion, Skeleton
+
+REAL = [
+    ("formats/PyMO_AV_8Walk", "inch", 120.0),
+    ("formats/aitviewer_sample", "cm", 40.0),
+    ("formats/cmu_131_01_bvh11", "cmu", 120.0),
+    ("cmu_formats/02_01", "cmu", 120.0),
+    ("cmu_formats/49_02", "cmu", 120.0),
+]
+
+
+def load(folder: Path, text: str | bytes = BVH, **options: object) -> Motion:
+    path = folder / "figure.bvh"
+    path.write_bytes(text.encode() if isinstance(text, str) else text)
+    return read(path, **options)  # type: ignore[arg-type]
+
+
+def test_what_a_file_says(tmp_path: Path) -> None:
+    motion = load(tmp_path)
+    assert motion.skeleton.names == (
+        "Hips",
+        "mixamorig:Left Up.Leg",
+        "Foot",
+        "Foot_end",
+        "Head",
+        "Head_end",
+    )
+    assert motion.skeleton.end_sites == {3, 5}
+    assert motion.fps == 120
+    assert motion.positions[1, 0] == pytest.approx([0.01, 0.91, 0.01])
+    assert motion.rotations is not None
+    hips = Rotation.from_euler("ZXY", [10, 20, 30], degrees=True)
+    found = Rotation.from_quat(motion.rotations[0, 0], scalar_first=True)
+    assert (found.inv() * hips).magnitude() < 1e-12
+    notes = " ".join(motion.provenance.notes)
+    assert "unit cm inferred" in notes
+    assert "frame rate 120 Hz" in notes
+
+
+def test_position_channels_replace_the_offset(tmp_path: Path) -> None:
+    motion = load(tmp_path)
+    leg, foot = motion.joint("mixamorig:Left Up.Leg"), motion.joint("Foot")
+    shin = np.linalg.norm(motion.positions[:, foot] - motion.positions[:, leg], axis=1)
+    assert shin == pytest.approx(np.hypot(0.8, [0.0, 0.01, 0.02]))
+
+
+@pytest.mark.parametrize(("recording", "unit", "fps"), REAL)
+def test_equals_the_naive_implementation(
+    data_dir: Path, recording: str, unit: str, fps: float
+) -> None:
+    path = data_dir / f"{recording}.bvh"
+    motion = read(path)
+    frames = range(0, motion.n_frames, max(1, motion.n_frames // 40))
+    expected = UNITS[unit] * np.array(naive.bvh_positions(path.read_text(), frames))
+    np.testing.assert_allclose(motion.positions[frames], expected, atol=1e-9)
+
+
+@pytest.mark.parametrize(("recording", "unit", "fps"), REAL)
+def test_real_files_come_out_upright_and_of_human_size(
+    data_dir: Path, recording: str, unit: str, fps: float
+) -> None:
+    """Had position channels been added to the offset, the feet would not be on the floor."""
+    motion = read(data_dir / f"{recording}.bvh")
+    assert motion.fps == fps
+    assert any(f"unit {unit} inferred" in note for note in motion.provenance.notes)
+    lowest, highest = motion.positions[..., 1].min(axis=1), motion.positions[..., 1].max(axis=1)
+    assert abs(np.median(lowest)) < 0.1
+    assert 1.3 < np.median(highest - lowest) < 1.9
+
+
+@pytest.mark.parametrize(
+    "dialect",
+    [
+        pytest.param(BVH.replace("\n", "\r\n"), id="crlf"),
+        pytest.param(BVH.replace("\n", "\r"), id="cr"),
+        pytest.param("\ufeff" + BVH, id="byte order mark"),
+        pytest.param(BVH.replace(" ", "\t").replace("Left\tUp.Leg", "Left Up.Leg"), id="tabs"),
+        pytest.param(BVH.replace("\n{", " {").replace("\t{", "{"), id="brace on the name's line"),
+        pytest.param(BVH.replace("}\n", "} "), id="braces in a row"),
+        pytest.param(BVH.replace("Foot\n", "Foot\n\n"), id="blank lines"),
+        pytest.param(BVH.replace("Frames: 3", "Frames:3").replace("Time: ", "Time:"), id="glued"),
+        pytest.param(BVH.replace("HIERARCHY", "Hierarchy").replace("OFFSET", "Offset"), id="case"),
+        pytest.param(BVH.replace(" -80 2", " -8.0e+01 2.E0"), id="exponents"),
+        pytest.param(BVH.replace(" 1 2 3 0 -80", "\n1 2 3 0 -80"), id="frames over two lines"),
+        pytest.param(BVH.rstrip(), id="no last line break"),
+        pytest.param(BVH + "\n\n  \n", id="blank lines at the end"),
+    ],
+)
+def test_dialects(tmp_path: Path, dialect: str) -> None:
+    plain, other = load(tmp_path), load(tmp_path, dialect)
+    assert other.skeleton.names == plain.skeleton.names
+    assert other.fps == plain.fps
+    np.testing.assert_array_equal(other.positions, plain.positions)
+
+
+def test_channels_in_any_order(tmp_path: Path) -> None:
+    text = BVH.replace("6 Xposition Yposition", "6 Yposition Xposition", 1)
+    for x, y in (("0", "90"), ("1", "91"), ("2", "92")):
+        text = text.replace(f"\n{x} {y} ", f"\n{y} {x} ")
+    np.testing.assert_array_equal(load(tmp_path, text).positions, load(tmp_path).positions)
+
+
+@pytest.mark.parametrize("declared", [1, 2, 4, 10_000_000])
+def test_frames_declared_and_found(tmp_path: Path, declared: int) -> None:
+    with pytest.warns(KinemeWarning, match=f"line 31: {declared} frames declared, 3 found") as told:
+        motion = load(tmp_path, BVH.replace("Frames: 3", f"Frames: {declared}"))
+    assert motion.n_frames == 3
+    assert told[0].filename == __file__
+
+
+@pytest.mark.parametrize("lost", [len(" 9.0e0\n"), len("0\n")])
+def test_a_truncated_last_frame_is_left_out_with_a_warning(tmp_path: Path, lost: int) -> None:
+    with pytest.warns(KinemeWarning) as told:
+        motion = load(tmp_path, BVH[:-lost])
+    assert "line 35" in str(told[0].message)
+    assert "last frame is truncated" in str(told[0].message)
+    assert motion.n_frames == 2
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_the_unit_is_inferred_from_the_size(tmp_path: Path, unit: str) -> None:
+    """The figure is 1.65 m from head to heel in whatever unit it is written."""
+    scale = 0.01 / UNITS[unit]
+
+    def rescaled(line: str) -> str:
+        words = line.split()
+        if words and words[0] == "OFFSET":
+            return "OFFSET " + " ".join(str(scale * float(x)) for x in words[1:])
+        if len(words) == 18:
+            places = {0, 1, 2, 9, 10, 11}
+            values = [scale * float(x) if i in places else float(x) for i, x in enumerate(words)]
+            return " ".join(map(str, values))
+        return line
+
+    motion = load(tmp_path, "\n".join(map(rescaled, BVH.splitlines())))
+    np.testing.assert_allclose(motion.positions, load(tmp_path).positions, atol=1e-9)
+    assert any(f"unit {unit} inferred" in note for note in motion.provenance.notes)
+
+
+def test_a_size_that_fits_no_unit_is_told_and_unit_overrides(tmp_path: Path) -> None:
+    tiny = BVH.replace(" -80 ", " -1e-4 ").replace(" 60 ", " 1e-4 ").replace(" 20 0\n", " 0 0\n")
+    tiny = tiny.replace("10 -5 0", "0 0 0").replace("0 0 15", "0 0 0")
+    with pytest.warns(KinemeWarning, match="in no unit.*m assumed; give unit="):
+        load(tmp_path, tiny)
+    plain = load(tmp_path)
+    for unit, factor in (("m", 100), ("mm", 0.1), (0.02, 2)):
+        motion = load(tmp_path, unit=unit)
+        np.testing.assert_allclose(motion.positions, factor * plain.positions)
+
+
+@pytest.mark.parametrize("up", ["x", "z", "-x", "-y", "-z"])
+def test_a_body_that_stands_along_another_axis_is_turned(tmp_path: Path, up: str) -> None:
+    plain = load(tmp_path)
+    axis = "xyz".index(up[-1])
+    sign = -1 if up[0] == "-" else 1
+    lying = np.eye(3)[axis] * sign
+    turn, _ = Rotation.align_vectors([lying], [[0, 1, 0]])
+    offsets = turn.apply(np.array(plain.skeleton.offsets))
+    skeleton = Skeleton(plain.skeleton.names, plain.skeleton.parents, offsets, frozenset({3, 5}))
+    assert plain.rotations is not None
+    locals_ = Rotation.from_quat(np.array(plain.rotations).reshape(-1, 4), scalar_first=True)
+    quats = (turn * locals_ * turn.inv()).as_quat(scalar_first=True).reshape(-1, 6, 4)
+    motion = Motion.from_rotations(skeleton, quats, 120, plain.positions[:, 0] @ turn.as_matrix().T)
+    write(motion, tmp_path / "lying.bvh")
+    upright = read(tmp_path / "lying.bvh")
+    assert any(f"along {up}, so" in note for note in upright.provenance.notes)
+    heights = upright.positions[..., 1]
+    assert heights.max() == pytest.approx(plain.positions[..., 1].max(), abs=0.05)
+    as_is = read(tmp_path / "lying.bvh", up="y")
+    np.testing.assert_allclose(as_is.positions, motion.positions, atol=1e-9)
+    told = read(tmp_path / "lying.bvh", up=up)
+    np.testing.assert_allclose(told.positions, upright.positions, atol=1e-9)
+
+
+def test_frame_times() -> None:
+    for word, rate in [
+        (".0083333", 120), ("0.008333", 120), ("8.3333e-3", 120), ("0.0333333", 30),
+        ("0.033", 30), ("0.025000", 40), ("0.04", 25), ("0.016667", 60), ("1", 1),
+    ]:  # fmt: skip
+        assert rate_from_period(word)[0] == rate
+    for word in ("0.033926", "0.0333667"):
+        assert rate_from_period(word) == (pytest.approx(1 / float(word)), None)
+
+
+def test_fps_overrides(tmp_path: Path) -> None:
+    assert load(tmp_path, BVH.replace("0.0083333", "0"), fps=24).fps == 24

@@ -1,0 +1,101 @@
+"""Reading what was written gives the same motion."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from format_samples import PLAIN, motions
+from kineme.errors import WriteError
+from kineme.formats import read, supported_formats, write
+from kineme.kinematics import world_rotations
+from kineme.motion import Motion, Skeleton
+
+
+def written_and_read(motion: Motion, suffix: str) -> Motion:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"motion{suffix}"
+        write(motion, path)
+        if suffix == ".bvh":
+            return read(path, unit="cm", up="y")
+        return read(path)
+
+
+def assert_same_joints(one: Motion, other: Motion, names: list[str]) -> None:
+    ours, theirs = [one.joint(n) for n in names], [other.joint(n) for n in names]
+    np.testing.assert_allclose(one.positions[:, ours], other.positions[:, theirs], atol=1e-7)
+    dots = (world_rotations(one)[:, ours] * world_rotations(other)[:, theirs]).sum(axis=2)
+    np.testing.assert_allclose(np.abs(dots), 1, atol=1e-9)
+    assert other.fps == pytest.approx(one.fps, rel=1e-12)
+
+
+@given(motions())
+def test_bvh(motion: Motion) -> None:
+    again = written_and_read(motion, ".bvh")
+    skeleton = motion.skeleton
+    assert again.skeleton.n_joints == skeleton.n_joints
+    assert len(again.skeleton.end_sites) == len(skeleton.end_sites)
+    inner = [n for i, n in enumerate(skeleton.names) if i not in skeleton.end_sites]
+    assert_same_joints(motion, again, inner)
+    for position in motion.positions[0]:
+        assert np.abs(again.positions[0] - position).max(axis=1).min() < 1e-7
+
+
+@given(motions(names=PLAIN))
+def test_amc(motion: Motion) -> None:
+    again = written_and_read(motion, ".amc")
+    skeleton = motion.skeleton
+    inner = [n for i, n in enumerate(skeleton.names) if i not in skeleton.end_sites]
+    assert_same_joints(motion, again, inner)
+
+
+@pytest.mark.parametrize("suffix", [".amc", ".bvh"])
+@pytest.mark.parametrize("recording", ["cmu_formats/49_02.amc", "cmu_formats/02_01.bvh"])
+def test_real_recordings(data_dir: Path, recording: str, suffix: str) -> None:
+    motion = read(data_dir / recording)
+    again = written_and_read(motion, suffix)
+    if suffix == ".bvh" or recording.endswith(".amc"):
+        assert again.skeleton.names == motion.skeleton.names
+        assert again.skeleton.end_sites == motion.skeleton.end_sites
+        np.testing.assert_allclose(again.positions, motion.positions, atol=1e-9)
+    else:
+        assert_same_joints(motion, again, [n for n in motion.skeleton.names if n != "Hips"])
+
+
+def test_names_the_format_cannot_hold_are_mended(tmp_path: Path) -> None:
+    names = ("a{b", "a}b", "two\nlines", "#1", "#1 ", " ")
+    skeleton = Skeleton(names, (-1, 0, 0, 0, 0, 0), np.arange(18.0).reshape(6, 3))
+    motion = Motion.from_rotations(skeleton, np.tile([1.0, 0, 0, 0], (1, 6, 1)), 30, [[0, 0, 0]])
+    for suffix in (".bvh", ".amc"):
+        again = written_and_read(motion, suffix)
+        for position in motion.positions[0]:
+            assert np.abs(again.positions[0] - position).max(axis=1).min() < 1e-7
+
+
+@pytest.mark.parametrize("suffix", [".amc", ".bvh"])
+def test_what_cannot_be_written_leaves_nothing_behind(tmp_path: Path, suffix: str) -> None:
+    skeleton = Skeleton(("a",), (-1,), np.zeros((1, 3)))
+    points = Motion(skeleton, np.zeros((2, 1, 3)), 30)
+    with pytest.raises(WriteError, match="positions only"):
+        write(points, tmp_path / f"x{suffix}")
+    motion = Motion.from_rotations(skeleton, [[[1, 0, 0, 0]]], 30, [[0, 0, 0]])
+    with pytest.raises(WriteError, match="cannot be written"):
+        write(motion, tmp_path / "no such folder" / f"x{suffix}")
+    (tmp_path / f"taken{suffix}").mkdir()
+    with pytest.raises(WriteError, match="cannot be written"):
+        write(motion, tmp_path / f"taken{suffix}")
+    assert not [path for path in tmp_path.iterdir() if path.name.startswith("tmp")]
+
+
+def test_unknown_suffix(tmp_path: Path) -> None:
+    skeleton = Skeleton(("a",), (-1,), np.zeros((1, 3)))
+    with pytest.raises(WriteError, match=r"no writer for the suffix '.xyz': use one of .amc, .bvh"):
+        write(Motion(skeleton, np.zeros((1, 1, 3)), 30), tmp_path / "a.xyz")
+
+
+def test_formats_are_listed() -> None:
+    assert {"AMC", "BVH"} <= {known.name for known in supported_formats()}
