@@ -85,6 +85,15 @@ def test_the_truth_tells_activities_transitions_and_repetitions() -> None:
     assert (primitives.label == "stand").sum() == 1
 
 
+def test_a_left_kick_is_another_movement_but_a_left_walk_is_not() -> None:
+    ordered = [Action("kick", 2), Action("walk", 2), Action("kick", 3, side="left")]
+    assert synthesize([*ordered, Action("walk", 3, side="left")], fps=FPS).truth.repetitions() == {
+        0: 2,
+        1: 5,
+        2: 3,
+    }
+
+
 @pytest.mark.parametrize("name", [*EXERCISES, "stand"])
 def test_feet_stay_on_the_floor_and_do_not_slide(name: str) -> None:
     motion = alone(name).motion
@@ -196,6 +205,8 @@ def test_random_recordings_hold_several_repeated_exercises(seed: int) -> None:
         lambda: synthesize([Action("walk")], fps=0),
         lambda: synthesize([Action("walk")], size=-1),
         lambda: synthesize([Action("walk")], noise=float("nan")),
+        lambda: synthesize([Action("walk", speed=50)], fps=30),
+        lambda: random_recording(0, activities=15),
         lambda: Action("fly"),
         lambda: Action("walk", 0),
         lambda: Action("walk", speed=0),

@@ -2,12 +2,8 @@
 
 from kineme.datasets.actions import ACTIONS
 from kineme.datasets.bundled import bundled_recording, bundled_truth
-from kineme.datasets.synthetic import (
-    Action,
-    SyntheticRecording,
-    random_recording,
-    synthesize,
-)
+from kineme.datasets.synthetic import SyntheticRecording, random_recording, synthesize
+from kineme.datasets.timeline import Action
 
 __all__ = [
     "ACTIONS",

@@ -55,6 +55,11 @@ class Cycle:
     flights: tuple[tuple[float, float], ...] = ()
     travels: bool = False
 
+    @property
+    def one_sided(self) -> bool:
+        """Left and right do different things, and not in turn."""
+        return not self.gait and any(name.startswith(SIDES) for name in self.angles)
+
     def angles_at(self, phase: Floats, amplitude: Floats) -> dict[str, Floats]:
         """Every angle of the figure at the phases (cycles from 0), scaled about standing."""
         found = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}

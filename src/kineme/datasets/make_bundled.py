@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from kineme.datasets.bundled import bundled_recording, bundled_truth
-from kineme.datasets.synthetic import Action, synthesize
+from kineme.datasets.synthetic import synthesize
+from kineme.datasets.timeline import Action
 from kineme.export import write_segments
 from kineme.formats import write
 

@@ -1,0 +1,95 @@
+"""A timeline carried out: the figure's joint rotations and where it goes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+
+from kineme import _rotations as rot
+from kineme.datasets.actions import ACTIONS, mirrored
+from kineme.datasets.figure import ANGLES, joint_rotations
+from kineme.datasets.timeline import Part, phase_of, weight_of
+from kineme.motion import Skeleton
+
+Floats = NDArray[np.float64]
+
+_GRAVITY = 9.81
+_SIZE_VARIES = 0.06  # standard deviation, relative
+_SWAY_DEG = 1.5
+_SWAY_S = 0.35
+_TURN_DEG = 120.0  # standard deviation of the turn over one stretch of walking
+
+
+def perform(
+    parts: list[Part], skeleton: Skeleton, fps: float, rng: np.random.Generator
+) -> tuple[Floats, Floats]:
+    """Joint rotations (frames, joints, 4) and metres above the floor (frames,)."""
+    frames = int(parts[-1].frames[-1])
+    rotations = np.zeros((frames, skeleton.n_joints, 4))
+    airborne = np.zeros(frames)
+    heading = _heading(parts, frames, rng)
+    sway = {name: _SWAY_DEG * _slow_noise(frames, _SWAY_S * fps, rng) for name in ANGLES}
+    for part in parts:
+        start, stop = part.frames[0] - part.fade_in, part.frames[-1] + part.fade_out
+        span = slice(start, stop)
+        phase = phase_of(part)
+        sizes = part.action.amplitude * (1 + rng.normal(0, _SIZE_VARIES, part.action.repetitions))
+        size = np.interp(phase, np.arange(len(sizes)) + 0.5, sizes)
+        cycle = ACTIONS[part.action.name]
+        angles = cycle.angles_at(phase, size)
+        if part.action.side == "left" and not cycle.gait:
+            angles = mirrored(angles)
+        swaying = {name: angle + sway[name][span] for name, angle in angles.items()}
+        weight = weight_of(part)
+        turned = joint_rotations(skeleton, swaying, heading[span])
+        nearer = np.sign(np.einsum("fjc,fjc->fj", turned, rotations[span]))
+        nearer[nearer == 0] = 1
+        rotations[span] += weight[:, None, None] * nearer[..., None] * turned
+        airborne[span] += weight * size * _flight(part, phase, fps)
+    rotations /= np.linalg.norm(rotations, axis=2, keepdims=True)
+    return rotations, airborne
+
+
+def shaken(skeleton: Skeleton, rotations: Floats, noise: float, rng: np.random.Generator) -> Floats:
+    """The rotations with a small random turn of every joint that carries something."""
+    reach = np.zeros(skeleton.n_joints)
+    for joint in range(skeleton.n_joints - 1, 0, -1):
+        parent = skeleton.parents[joint]
+        bone = float(np.linalg.norm(skeleton.offsets[joint]))
+        reach[parent] = max(reach[parent], bone + reach[joint])
+    angle = np.divide(noise, reach, out=np.zeros_like(reach), where=reach > 0)
+    vectors = rng.normal(size=(*rotations.shape[:2], 3)) * angle[:, None] / 2
+    shakes = np.concatenate([np.ones((*rotations.shape[:2], 1)), vectors], axis=2)
+    turned = rot.multiply(rotations, shakes)
+    return np.asarray(turned / np.linalg.norm(turned, axis=2, keepdims=True))
+
+
+def _flight(part: Part, phase: Floats, fps: float) -> Floats:
+    """Metres above the floor of a body thrown up at each take-off."""
+    period = np.diff(part.frames).mean() / fps
+    share = phase - np.floor(phase)
+    height = np.zeros(len(phase))
+    for leaves, lands in ACTIONS[part.action.name].flights:
+        since, until = (share - leaves) * period, (lands - share) * period
+        height += _GRAVITY / 2 * np.maximum(since, 0) * np.maximum(until, 0)
+    return height
+
+
+def _heading(parts: list[Part], frames: int, rng: np.random.Generator) -> Floats:
+    """Degrees: the figure turns while it walks or runs, and only then."""
+    heading = np.full(frames, rng.uniform(-180, 180))
+    for part in parts:
+        turn = rng.normal(0, _TURN_DEG)
+        if ACTIONS[part.action.name].travels:
+            start, stop = part.frames[0], part.frames[-1]
+            share = np.clip((np.arange(frames) - start) / (stop - start), 0, 1)
+            heading += turn * share * share * (3 - 2 * share)
+    return heading
+
+
+def _slow_noise(frames: int, sigma: float, rng: np.random.Generator) -> Floats:
+    """Smooth noise of standard deviation 1."""
+    margin = int(4 * sigma)
+    smooth = gaussian_filter1d(rng.normal(size=frames + 2 * margin), sigma)
+    return np.asarray(smooth[margin : margin + frames] * np.sqrt(2 * np.sqrt(np.pi) * sigma))

@@ -1,0 +1,147 @@
+"""When each action, repetition and transition of a synthetic recording takes place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from kineme.datasets.actions import ACTIONS
+from kineme.errors import ParameterError
+from kineme.segmentation.result import Segmentation
+
+Floats = NDArray[np.float64]
+
+_TRANSITION_S = (0.5, 1.0)
+_PACE_VARIES = 0.05  # standard deviation, relative
+
+
+@dataclass(frozen=True)
+class Action:
+    """Something to do: "walk", "run", "jump", "squat", "kick", ... (see ``ACTIONS``).
+
+    Parameters
+    ----------
+    name : a key of ``ACTIONS``
+    repetitions : double steps, jumps, kicks, ...; for "stand", seconds
+    speed : 2 is twice as fast
+    amplitude : 0.5 moves half as far
+    side : "right" or "left", for kicks, punches and waves
+    """
+
+    name: str
+    repetitions: int = 4
+    speed: float = 1.0
+    amplitude: float = 1.0
+    side: str = "right"
+
+    def __post_init__(self) -> None:
+        if self.name not in ACTIONS:
+            raise ParameterError(f"no action {self.name!r}; there are {', '.join(ACTIONS)}")
+        if self.repetitions < 1:
+            raise ParameterError(f"repetitions must be at least 1, not {self.repetitions}")
+        if not self.speed > 0 or not self.amplitude > 0:
+            raise ParameterError(
+                f"speed and amplitude must be positive, not {self.speed} and {self.amplitude}"
+            )
+        if self.side not in ("left", "right"):
+            raise ParameterError(f"side must be 'left' or 'right', not {self.side!r}")
+
+
+@dataclass(frozen=True)
+class Part:
+    """An action with its place in time: first frames of its repetitions, and their end."""
+
+    action: Action
+    frames: NDArray[np.int64]
+    fade_in: int
+    fade_out: int
+
+
+def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) -> list[Part]:
+    """The actions one after the other, each repetition a little shorter or longer.
+
+    Raises
+    ------
+    ParameterError : a repetition would last fewer than three frames
+    """
+    parts: list[Part] = []
+    now, fade_in = 0, 0
+    for place, action in enumerate(actions):
+        seconds = ACTIONS[action.name].seconds / action.speed
+        lasting = seconds * (1 + rng.normal(0, _PACE_VARIES, action.repetitions))
+        frames = now + np.rint(np.cumsum([0.0, *lasting]) * fps).astype(np.int64)
+        if np.diff(frames).min() < 3:
+            raise ParameterError(
+                f"{action.name!r} at speed {action.speed:g} is too fast for {fps:g} frames per second"
+            )
+        last = place == len(actions) - 1
+        fade_out = 0 if last else round(rng.uniform(*_TRANSITION_S) * fps)
+        parts.append(Part(action, frames, fade_in, fade_out))
+        now, fade_in = int(frames[-1]) + fade_out, fade_out
+    return parts
+
+
+def true_segments(parts: list[Part], fps: float) -> Segmentation:
+    """Activities, transitions and repetitions as a segment table."""
+    kinds = list(dict.fromkeys(map(_kind, parts)))
+    rows: list[tuple[str, str, int, int, int, str]] = []
+
+    def add(level: str, kind: str, start: int, stop: int, label: str, cluster: int = -1) -> None:
+        if stop > start:
+            rows.append((level, kind, start, stop, cluster, label))
+
+    for part in parts:
+        name, frames = part.action.name, part.frames.tolist()
+        cluster = -1 if name == "stand" else kinds.index(_kind(part))
+        borders = [frames[0], frames[-1]] if name == "stand" else frames
+        add("activity", "activity", frames[0], frames[-1], name, cluster)
+        for start, stop in pairwise(borders):
+            add("primitive", "activity", start, stop, name, cluster)
+        for level in ("activity", "primitive"):
+            add(level, "transition", frames[-1], frames[-1] + part.fade_out, "")
+    columns = zip(*rows, strict=True)
+    keys = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
+    return Segmentation.from_columns(
+        dict(zip(keys, map(list, columns), strict=True)),
+        n_frames=int(parts[-1].frames[-1]),
+        fps=fps,
+        provenance={"notes": ["known by construction"]},
+    )
+
+
+def phase_of(part: Part) -> Floats:
+    """Cycles done at each frame, fades included: they run up to and down from full pace."""
+    frames = part.frames.astype(float)
+    cycles = np.arange(len(frames), dtype=float)
+    inside = PchipInterpolator(frames, cycles) if len(frames) > 2 else None
+    at = np.arange(frames[0], frames[-1])
+    between = inside(at) if inside else np.interp(at, frames, cycles)
+    run_up = _run_down(part.fade_in, frames[1] - frames[0])[::-1]
+    run_down = _run_down(part.fade_out, frames[-1] - frames[-2])
+    return np.concatenate([-run_up, between, cycles[-1] + run_down])
+
+
+def weight_of(part: Part) -> Floats:
+    """1 during the action, rising and falling smoothly over the fades."""
+    rise = np.linspace(0, 1, part.fade_in, endpoint=False)
+    fall = np.linspace(1, 0, part.fade_out, endpoint=False)
+    whole = np.concatenate([rise, np.ones(part.frames[-1] - part.frames[0]), fall])
+    return np.asarray(whole * whole * (3 - 2 * whole))
+
+
+def _run_down(fade: int, period: float) -> Floats:
+    """Cycles gone while the pace falls evenly to nothing within half of the fade."""
+    ramp = max(fade / 2, 1.0)
+    gone = np.minimum(np.arange(fade), ramp)
+    return np.asarray((gone - gone**2 / (2 * ramp)) / period)
+
+
+def _kind(part: Part) -> tuple[str, str]:
+    """What makes two actions the same movement: the name, and the side where it matters."""
+    name = part.action.name
+    return name, part.action.side if ACTIONS[name].one_sided else ""
