@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from format_samples import AMC, ASF
 
 import naive
-from format_samples import AMC, ASF
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read
 from kineme.motion import Motion
@@ -48,7 +48,9 @@ def test_equals_the_naive_implementation(data_dir: Path, recording: str) -> None
     asf = Path(motion.provenance.notes[0].removeprefix("skeleton from "))
     frames = range(0, motion.n_frames, max(1, motion.n_frames // 40))
     text = (data_dir / f"{recording}.amc").read_text(encoding="latin-1")
-    for frame, bones in zip(frames, naive.amc_positions(asf.read_text(), text, frames), strict=True):
+    for frame, bones in zip(
+        frames, naive.amc_positions(asf.read_text(), text, frames), strict=True
+    ):
         for name, (start, tip) in bones.items():
             assert motion.positions[frame, motion.joint(name)] == pytest.approx(start, abs=1e-9)
             if f"{name}_end" in motion.skeleton.names:
@@ -109,7 +111,9 @@ def test_radians_in_either_file(tmp_path: Path) -> None:
 
     amc = "\n".join(map(in_radians, AMC.splitlines()[1:])) + "\n"
     assert_same(read(pair(tmp_path, amc=amc.replace(":DEGREES", ":RADIANS"))), plain)
-    asf = ASF.replace("angle deg", "angle rad").replace("axis 0 0 20 XYZ", f"axis 0 0 {np.radians(20)} XYZ")
+    asf = ASF.replace("angle deg", "angle rad").replace(
+        "axis 0 0 20 XYZ", f"axis 0 0 {np.radians(20)} XYZ"
+    )
     asf = asf.replace("-90 0 20 XYZ", f"{np.radians(-90)} 0 {np.radians(20)} XYZ")
     assert_same(read(pair(tmp_path, asf=asf, amc=amc.replace(":DEGREES\n", ""))), plain)
 

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from format_samples import BVH
 from scipy.spatial.transform import Rotation
 
 import naive
-from format_samples import BVH
 from kineme.errors import KinemeWarning
 from kineme.formats import read, write
 from kineme.formats.units import UNITS, rate_from_period

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-
 from format_samples import PLAIN, motions
+from hypothesis import given, settings
+
 from kineme.errors import WriteError
 from kineme.formats import read, supported_formats, write
 from kineme.kinematics import world_rotations
@@ -33,6 +33,7 @@ def assert_same_joints(one: Motion, other: Motion, names: list[str]) -> None:
     assert other.fps == pytest.approx(one.fps, rel=1e-12)
 
 
+@settings(deadline=None)
 @given(motions())
 def test_bvh(motion: Motion) -> None:
     again = written_and_read(motion, ".bvh")
@@ -45,6 +46,7 @@ def test_bvh(motion: Motion) -> None:
         assert np.abs(again.positions[0] - position).max(axis=1).min() < 1e-7
 
 
+@settings(deadline=None)
 @given(motions(names=PLAIN))
 def test_amc(motion: Motion) -> None:
     again = written_and_read(motion, ".amc")

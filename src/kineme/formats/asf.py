@@ -48,6 +48,7 @@ class Bone:
     frame: Floats = field(default_factory=lambda: rot.IDENTITY)
     dof: tuple[str, ...] = ()
     position: Floats = field(default_factory=lambda: np.zeros(3))
+    line: int = 0
 
     @property
     def tip(self) -> Floats:
@@ -85,7 +86,7 @@ def read_asf(source: Source, scale: float | None = None) -> Figure:
     for block in _blocks(source, sections["bonedata"]):
         bone = _bone(source, block, turn)
         if bone.name in bones:
-            raise source.error(f"a second bone is called {bone.name!r}", block[0][0])
+            raise source.error(f"a second bone is called {bone.name!r}", bone.line)
         bones[bone.name] = bone
     parents = _parents(source, sections["hierarchy"], bones)
     order = _from_root(source, parents, bones)
@@ -161,7 +162,7 @@ def _bone(source: Source, block: list[Line], turn: float) -> Bone:
     line, words = entries["name"]
     if len(words) != 1:
         raise source.error("a bone's name must be one word", line)
-    bone = Bone(words[0])
+    bone = Bone(words[0], line=line)
     bone.direction = np.array(_values(source, *entries["direction"], 3))
     bone.length = _values(source, *entries["length"], 1)[0]
     if "axis" in entries:

@@ -13,6 +13,8 @@ from math import isfinite
 from os import PathLike
 from pathlib import Path
 
+import numpy as np
+
 from kineme.errors import MotionError, ParameterError, ReadError, WriteError
 from kineme.formats.files import Source, load
 from kineme.formats.units import AXES, UNITS
@@ -109,7 +111,9 @@ def read(
     if reader is None:
         raise ReadError(path, "this format can be written but not read")
     try:
-        return reader(source, options)
+        # Values too large to compute with end up as an error in Motion.
+        with np.errstate(over="ignore", invalid="ignore"):
+            return reader(source, options)
     except MotionError as error:
         raise ReadError(path, str(error)) from error
 
