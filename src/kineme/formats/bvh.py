@@ -6,9 +6,10 @@ channels in the order of the file, in degrees: ``Zrotation Yrotation
 Xrotation`` is Rz Ry Rx. Joints may differ in their channels; names may hold
 blanks, dots and colons; braces and line breaks may stand anywhere.
 
-Position channels replace the joint's offset and do not add to it: files that
-give both (as the hips of Autodesk's and Mixamo's exports do) store the place
-where the joint is, and adding would put the hips at twice their height.
+Position channels replace the joint's offset and do not add to it. In PyMO's
+``AV_8Walk.bvh``, one of the files that give both, the hips have an offset 35.4
+high and a first position 35.6 high (inches): replacing puts the feet on the
+floor, adding puts them at the height of the hips.
 
 A BVH has no unit and no up axis; see `kineme.formats.units` for how they are
 found.

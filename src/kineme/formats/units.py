@@ -95,8 +95,8 @@ def infer_unit(
     """The unit that makes this a body of human size, and the sentence that says so.
 
     The height is taken as three quarters of the longest way along the bones,
-    hand to foot; in nine skeletons from six makers that is within 9 % of the
-    way from head to foot. Warns if no unit fits, and takes the nearest.
+    hand to foot; in nine skeletons (CMU, HDM05, PyMO, aitviewer) that is
+    within 7 % of the way along the bones from head to toes. Warns if no unit fits, and takes the nearest.
     """
     height = 0.75 * _longest_way(skeleton, np.linalg.norm(translations.mean(axis=0), axis=1))
     fits = {name: HEIGHTS[0] <= height * size <= HEIGHTS[1] for name, size in UNITS.items()}
