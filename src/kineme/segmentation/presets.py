@@ -17,8 +17,10 @@ from dataclasses import dataclass, fields, replace
 from typing import Any, Literal
 
 from kineme.errors import ParameterError
-from kineme.graph import BASIC_STEPS
-from kineme.graph.warping import Step
+
+Step = tuple[int, int]
+
+BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
 
 
 @dataclass(frozen=True, kw_only=True)
