@@ -15,31 +15,43 @@ from typing import TYPE_CHECKING, Any
 
 from kineme._version import __version__
 
-if TYPE_CHECKING:
-    from kineme.datasets import bundled_recording
+if TYPE_CHECKING:  # "as": exported, for type checkers
+    from kineme.datasets import bundled_recording as bundled_recording
     from kineme.errors import (
-        EndEffectorError,
-        FileError,
-        KinemeError,
-        KinemeWarning,
-        MissingDependencyError,
-        MotionError,
-        ParameterError,
-        ReadError,
-        WriteError,
+        EndEffectorError as EndEffectorError,
+        FileError as FileError,
+        KinemeError as KinemeError,
+        KinemeWarning as KinemeWarning,
+        MissingDependencyError as MissingDependencyError,
+        MotionError as MotionError,
+        ParameterError as ParameterError,
+        ReadError as ReadError,
+        WriteError as WriteError,
     )
-    from kineme.export import read_segments, write_segments
-    from kineme.features import end_effectors, pose_features, stack
-    from kineme.formats import read, supported_formats, write
-    from kineme.graph import NeighborGraph, WarpingPaths, neighbor_graph, warping_paths
-    from kineme.motion import Motion, Provenance, Skeleton
-    from kineme.operations import resample
-    from kineme.plot import plot_segmentation
-    from kineme.segmentation.analysis import Analysis, analyze
-    from kineme.segmentation.presets import PRESETS, Preset
-    from kineme.segmentation.result import Segmentation
-    from kineme.segmentation.segmenter import segment, segment_and_analysis
-    from kineme.segmentation.table import Segment, SegmentTable
+    from kineme.export import read_segments as read_segments, write_segments as write_segments
+    from kineme.features import (
+        end_effectors as end_effectors,
+        pose_features as pose_features,
+        stack as stack,
+    )
+    from kineme.formats import read as read, supported_formats as supported_formats, write as write
+    from kineme.graph import (
+        NeighborGraph as NeighborGraph,
+        WarpingPaths as WarpingPaths,
+        neighbor_graph as neighbor_graph,
+        warping_paths as warping_paths,
+    )
+    from kineme.motion import Motion as Motion, Provenance as Provenance, Skeleton as Skeleton
+    from kineme.operations import resample as resample
+    from kineme.plot import plot_segmentation as plot_segmentation
+    from kineme.segmentation.analysis import Analysis as Analysis, analyze as analyze
+    from kineme.segmentation.presets import PRESETS as PRESETS, Preset as Preset
+    from kineme.segmentation.result import Segmentation as Segmentation
+    from kineme.segmentation.segmenter import (
+        segment as segment,
+        segment_and_analysis as segment_and_analysis,
+    )
+    from kineme.segmentation.table import Segment as Segment, SegmentTable as SegmentTable
 
 _HOMES = {
     "kineme.datasets": ("bundled_recording",),
