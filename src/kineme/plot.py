@@ -3,7 +3,7 @@
 Time runs to the right and downwards. A dark dot at (t, j) means that frame j
 looks like frame t: the darker, the nearer. Squares frame the activities, fine
 lines inside them the primitives. The bars along both edges are coloured by
-cluster; transitions are grey.
+cluster; grey is what belongs to none.
 
 Only stored pairs are drawn, reduced to the pixels of the picture row by row:
 an hour takes no more memory than a minute.
@@ -38,6 +38,7 @@ SUFFIXES = (".png", ".pdf", ".svg")
 PIXELS = 1600
 ENTRIES_AT_ONCE = 1 << 20
 INK = "#1B1F2A"
+BORDER = "#C2571A"
 SHADES = LinearSegmentedColormap.from_list("similarity", ["#FFFFFF", "#B9C0CE", INK])
 MAX_LEGEND = 16
 
@@ -68,7 +69,9 @@ def plot_segmentation(
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     draw_segmentation(axes, segmentation, graph)
-    axes.set_title(_title(segmentation) if title is None else title, loc="left", fontsize=10)
+    axes.set_title(
+        _title(segmentation) if title is None else title, loc="left", fontsize=10, pad=10
+    )
     with atomic_write(path) as draft:
         figure.savefig(draft, dpi=200)
 
@@ -140,14 +143,14 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
         if row.start_s > activities.start_s[row.activity]
         for line in _cross(row.start_s, activities[row.activity])
     ]
-    axes.add_collection(LineCollection(cuts, colors="#C2571A", linewidths=0.5, alpha=0.75))
+    axes.add_collection(LineCollection(cuts, colors=BORDER, linewidths=0.5, alpha=0.75))
     frames = [
         Rectangle((row.start_s, row.start_s), *(2 * [row.stop_s - row.start_s]))
         for row in activities
         if row.kind == "activity"
     ]
     axes.add_collection(
-        PatchCollection(frames, facecolor="none", edgecolor="#C2571A", linewidth=1.4)
+        PatchCollection(frames, facecolor="none", edgecolor=BORDER, linewidth=1.4, clip_on=False)
     )
 
 

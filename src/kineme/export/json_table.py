@@ -47,6 +47,11 @@ def dumps(segmentation: Segmentation) -> str:
     return f'{head},\n  "segments": [\n{rows}\n  ]\n}}\n'
 
 
+def as_object(segmentation: Segmentation) -> dict[str, Any]:
+    """What the JSON text holds, as Python has it."""
+    return head_of(segmentation) | {"segments": [_cells(row) for row in segmentation]}
+
+
 def read(path: Path) -> Segmentation:
     data = parse(path.read_text(encoding="utf-8-sig"), path)
     rows = data.get("segments")

@@ -1,0 +1,40 @@
+"""The application: its commands, and the options of ``kineme`` itself."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from kineme._version import __version__
+from kineme.cli.demo import demo
+from kineme.cli.info import info
+from kineme.cli.preset_options import with_preset_options
+from kineme.cli.segment import segment
+
+app = typer.Typer(
+    name="kineme",
+    help="Cut recordings of human motion into activities, transitions and repeated primitives.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+)
+app.command()(with_preset_options(segment))
+app.command()(info)
+app.command()(demo)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"kineme {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _kineme(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version."),
+    ] = False,
+) -> None:
+    pass

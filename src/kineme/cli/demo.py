@@ -1,0 +1,43 @@
+"""``kineme demo``: the whole way once, on the recording that comes with the package."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from kineme.cli.messages import Failures
+from kineme.cli.reading import Quiet
+from kineme.cli.segment import run, write_results
+from kineme.cli.targets import check_writable
+from kineme.segmentation.presets import PRESETS
+
+
+def demo(
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder for the table and the picture.")
+    ] = Path(),
+    quiet: Quiet = False,
+) -> None:
+    """Segment the recording that comes with kineme; write its table and picture."""
+    from kineme.datasets import bundled_recording
+
+    path = bundled_recording()
+    table, picture = (output / f"{path.stem}{suffix}" for suffix in (".csv", ".png"))
+    failures = Failures()
+    with failures.caught(path):
+        check_writable(table, picture)
+        result, graph = run(path, {}, PRESETS["voegele2014"], None, quiet=quiet)
+        write_results(result, graph, table, picture)
+        if not quiet:
+            from kineme.cli.tables import show_segments
+
+            show_segments(result, "activity")
+            typer.echo(f"Read     {path}")
+            typer.echo(f"Table    {table}")
+            typer.echo(f"Picture  {picture}")
+            typer.echo(
+                "\nThe same on your own: kineme segment FILE --output cuts.csv --plot cuts.png"
+            )
+    failures.exit()

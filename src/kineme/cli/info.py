@@ -1,0 +1,119 @@
+"""``kineme info``: what a file is, and what had to be inferred about it."""
+
+from __future__ import annotations
+
+from json import dumps
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kineme.cli.messages import Failures
+from kineme.cli.reading import (
+    Effectors,
+    Fps,
+    Json,
+    Skeleton,
+    Unit,
+    Up,
+    effector_names,
+    read_options,
+)
+from kineme.errors import EndEffectorError
+
+if TYPE_CHECKING:
+    from kineme.features import Names
+    from kineme.motion import Motion
+
+
+def info(
+    files: Annotated[list[Path], typer.Argument(metavar="FILES...", help="BVH or AMC files.")],
+    joints: Annotated[bool, typer.Option("--joints", help="Show the tree of joints.")] = False,
+    json: Json = False,
+    skeleton: Skeleton = None,
+    fps: Fps = None,
+    unit: Unit = None,
+    up: Up = None,
+    effectors: Effectors = None,
+) -> None:
+    """Tell a recording's format, length, frame rate and skeleton."""
+    reading = read_options(skeleton, fps, unit, up)
+    from kineme.formats import read
+
+    failures = Failures()
+    for path in files:
+        with failures.caught(path):
+            motion = read(path, **reading)
+            facts = _facts(motion, effector_names(effectors))
+            if json:
+                typer.echo(dumps(facts))
+            else:
+                _show(facts, motion, joints=joints)
+    failures.exit()
+
+
+def _facts(motion: Motion, names: Names | None) -> dict[str, Any]:
+    from kineme.features import PARTS, end_effectors
+
+    source, skeleton = motion.provenance, motion.skeleton
+    notes = list(source.notes)
+    try:
+        found = end_effectors(motion, names=names)
+        parts = {
+            part: skeleton.names[joint] for part, joint in zip(PARTS, found.indices, strict=True)
+        }
+    except EndEffectorError as error:
+        parts = None
+        notes.append(str(error))
+    return {
+        "path": source.path,
+        "format": source.format,
+        "sha256": source.sha256,
+        "frames": motion.n_frames,
+        "fps": motion.fps,
+        "seconds": motion.duration,
+        "joints": [name for j, name in enumerate(skeleton.names) if j not in skeleton.end_sites],
+        "end_sites": [skeleton.names[j] for j in sorted(skeleton.end_sites)],
+        "end_effectors": parts,
+        "notes": notes,
+    }
+
+
+def _show(facts: dict[str, Any], motion: Motion, *, joints: bool) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    parts = facts["end_effectors"] or {}
+    lines = {
+        "format": facts["format"],
+        "length": f"{facts['frames']} frames at {facts['fps']:g} Hz, {facts['seconds']:.2f} s",
+        "joints": f"{len(facts['joints'])}, and {len(facts['end_sites'])} end sites",
+        "end effectors": ", ".join(
+            f"{part.replace('_', ' ')} {name}" for part, name in parts.items()
+        )
+        or "not found",
+        "SHA-256": facts["sha256"],
+    }
+    console = Console(highlight=False)
+    grid = Table.grid(padding=(0, 2))
+    for name, value in (*lines.items(), *(("note", note) for note in facts["notes"])):
+        grid.add_row(Text(name, style="dim"), Text(str(value)))
+    console.print(Text(str(facts["path"]), style="bold"))
+    console.print(grid)
+    if joints:
+        console.print(_tree(motion))
+    console.print()
+
+
+def _tree(motion: Motion) -> Any:
+    from rich.text import Text
+    from rich.tree import Tree
+
+    skeleton = motion.skeleton
+    trunk = Tree("", hide_root=True)
+    branches = {-1: trunk}
+    for joint, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
+        style = "dim" if joint in skeleton.end_sites else ""
+        branches[joint] = branches[parent].add(Text(name, style=style))
+    return trunk

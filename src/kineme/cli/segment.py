@@ -1,0 +1,115 @@
+"""``kineme segment``: recordings in, tables and pictures out."""
+
+from __future__ import annotations
+
+from json import dumps
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kineme.cli.messages import Failures, progress
+from kineme.cli.reading import (
+    Effectors,
+    Fps,
+    Json,
+    Quiet,
+    Skeleton,
+    Unit,
+    Up,
+    effector_names,
+    read_options,
+)
+from kineme.cli.targets import check_writable, targets
+from kineme.errors import ParameterError
+from kineme.segmentation.presets import PRESETS, Preset, resolve_preset
+from kineme.segmentation.table import Level
+
+if TYPE_CHECKING:
+    from kineme.features import Names
+    from kineme.graph import NeighborGraph
+    from kineme.segmentation.result import Segmentation
+
+
+def segment(
+    files: Annotated[list[Path], typer.Argument(metavar="FILES...", help="BVH or AMC files.")],
+    preset: Annotated[str, typer.Option(help=f"{' or '.join(PRESETS)}.")] = "voegele2014",
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            help="Segment table: .csv, .json or .parquet; a folder; or a name with {name} in it.",
+        ),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(help="Picture: .png, .pdf or .svg; a folder; or a name with {name} in it."),
+    ] = None,
+    level: Annotated[Level, typer.Option(help="Rows to print.")] = "activity",
+    json: Json = False,
+    quiet: Quiet = False,
+    skeleton: Skeleton = None,
+    fps: Fps = None,
+    unit: Unit = None,
+    up: Up = None,
+    effectors: Effectors = None,
+    overrides: dict[str, Any] | None = None,
+) -> None:
+    """Cut recordings into activities, transitions and repeated primitives."""
+    try:
+        chosen = resolve_preset(preset, **(overrides or {}))
+    except ParameterError as error:
+        raise typer.BadParameter(str(error)) from error
+    reading = read_options(skeleton, fps, unit, up)
+    tables = targets("--output", output, files, ".csv")
+    pictures = targets("--plot", plot, files, ".png")
+    failures = Failures()
+    names = effector_names(effectors)
+    for path, table, picture in zip(files, tables, pictures, strict=True):
+        with failures.caught(path):
+            check_writable(table, picture)
+            result, graph = run(path, reading, chosen, names, quiet=quiet)
+            write_results(result, graph, table, picture)
+            if json:
+                from kineme.export.json_table import as_object
+
+                typer.echo(dumps(as_object(result)))
+            elif not quiet:
+                from kineme.cli.tables import show_segments
+
+                show_segments(result, level)
+    failures.exit()
+
+
+def run(
+    path: Path,
+    reading: dict[str, Any],
+    preset: Preset,
+    effectors: Names | None,
+    *,
+    quiet: bool,
+) -> tuple[Segmentation, NeighborGraph]:
+    """The segments of a file, and the neighbour graph they were found in."""
+    with progress(path.name, quiet=quiet) as stage:
+        stage("reading")
+        from kineme.formats import read
+        from kineme.segmentation.segmenter import segment_and_analysis
+
+        motion = read(path, **reading)
+        result, analysis = segment_and_analysis(motion, preset, effectors=effectors, progress=stage)
+        return result, analysis.graph
+
+
+def write_results(
+    result: Segmentation, graph: NeighborGraph, table: Path | None, picture: Path | None
+) -> None:
+    """The table and the picture, where wanted."""
+    if table is not None:
+        from kineme.export import write_segments
+
+        write_segments(result, table)
+    if picture is not None:
+        from kineme.plot import plot_segmentation
+
+        plot_segmentation(result, graph, picture)

@@ -1,0 +1,106 @@
+"""Segments and recordings as tables for people."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich import box
+from rich.console import Console, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from kineme._colors import cluster_color
+from kineme.segmentation.result import Segmentation
+from kineme.segmentation.table import Level, Segment
+
+
+def show_segments(segmentation: Segmentation, level: Level) -> None:
+    """Print one row per segment of a level, a summary and the notes."""
+    console = Console(highlight=False)
+    source = segmentation.provenance["input"]["path"]
+    console.print(
+        Text.assemble(
+            (Path(source).name, "bold"),
+            f"  {segmentation.n_frames / segmentation.fps:.1f} s, {segmentation.n_frames} frames "
+            f"at {segmentation.fps:g} Hz, {segmentation.provenance['preset']}",
+        )
+    )
+    rows = _activity_rows if level == "activity" else _primitive_rows
+    console.print(rows(segmentation))
+    console.print(f"{_summary(segmentation)}.")
+    for note in segmentation.provenance["notes"]:
+        console.print(Text(f"note: {note}", style="dim"))
+    console.print()
+
+
+def _activity_rows(segmentation: Segmentation) -> Table:
+    """Activities and transitions with their repetitions counted."""
+    table = _table("#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label")
+    primitives = segmentation.primitives
+    for number, row in enumerate(segmentation.activities):
+        inside = primitives.cluster[primitives.activity == number].tolist()
+        count = _repetitions(inside, row.cluster) if row.kind == "activity" else ""
+        table.add_row(
+            *_span(number, row), count, _cluster(row.cluster), row.label, style=_style(row)
+        )
+    if any("+" in str(cell) for cell in table.columns[5].cells):
+        table.caption = "(+n): pieces of the activity that are in other clusters, or in none"
+        table.caption_justify = "left"
+    return _without_empty_labels(table, segmentation.activities.label.tolist())
+
+
+def _repetitions(clusters: list[int], main: int) -> str:
+    """How many primitives are in the activity's cluster, and how many are not."""
+    count = clusters.count(main) if main >= 0 else 0
+    others = len(clusters) - count
+    return f"{count} (+{others})" if others else str(count)
+
+
+def _primitive_rows(segmentation: Segmentation) -> Table:
+    table = _table("#", "kind", "start s", "stop s", "frames", "activity", "cluster", "label")
+    for number, row in enumerate(segmentation.primitives):
+        cells = str(row.activity), _cluster(row.cluster), row.label
+        table.add_row(*_span(number, row), *cells, style=_style(row))
+    return _without_empty_labels(table, segmentation.primitives.label.tolist())
+
+
+def _table(*names: str) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for name in names:
+        table.add_column(name, justify="left" if name in ("kind", "cluster", "label") else "right")
+    return table
+
+
+def _without_empty_labels(table: Table, labels: list[str]) -> Table:
+    if not any(labels):
+        table.columns.pop()
+    return table
+
+
+def _span(number: int, row: Segment) -> tuple[str, ...]:
+    frames = f"{row.start_frame}:{row.stop_frame}"
+    return str(number), row.kind, f"{row.start_s:.2f}", f"{row.stop_s:.2f}", frames
+
+
+def _cluster(cluster: int) -> RenderableType:
+    return Text.assemble(("■ ", cluster_color(cluster)), str(cluster)) if cluster >= 0 else ""
+
+
+def _style(row: Segment) -> str:
+    return "dim" if row.kind == "transition" else ""
+
+
+def _summary(segmentation: Segmentation) -> str:
+    kinds = segmentation.activities.kind.tolist()
+    return ", ".join(
+        [
+            _count(kinds.count("activity"), "activity", "activities"),
+            _count(kinds.count("transition"), "transition"),
+            _count(segmentation.primitives.kind.tolist().count("activity"), "primitive"),
+            _count(len(segmentation.repetitions()), "cluster"),
+        ]
+    )
+
+
+def _count(number: int, one: str, many: str = "") -> str:
+    return f"{number} {one if number == 1 else many or one + 's'}"
