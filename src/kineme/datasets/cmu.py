@@ -1,0 +1,177 @@
+"""Recordings of the CMU Graphics Lab Motion Capture Database, fetched from its own site.
+
+Files are kept as published: the subject's skeleton (ASF) and one AMC per trial,
+120 Hz. With subject 86, which the segmentation papers measure on, comes the
+human segmentation of its trials 1 to 14 from its authors' repository.
+
+Source: mocap.cs.cmu.edu, "free for all uses", funded by NSF EIA-0196217;
+annotations by Zhou, De la Torre and Hodgins, github.com/zhfe99/aca.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import count
+from os import PathLike, environ
+from pathlib import Path
+
+from kineme.datasets.download import TIMEOUT_S, Progress, fetch
+from kineme.errors import (
+    FileError,
+    KinemeWarning,
+    MissingDependencyError,
+    ParameterError,
+    ReadError,
+)
+
+SITE = "http://mocap.cs.cmu.edu"
+ANNOTATIONS = "https://raw.githubusercontent.com/zhfe99/aca/master/data/moc/mocap.txt"
+
+# The lengths of the annotated trials, 86_01 to 86_14: the frames in which the annotations end.
+FRAMES = {
+    f"86_{trial:02d}": frames
+    for trial, frames in enumerate(
+        (4579, 10617, 8401, 10078, 8340, 9939, 8702, 9206, 4794, 7583, 5674, 8856, 6221, 6055), 1
+    )
+}
+
+
+@dataclass(frozen=True)
+class Fetched:
+    """One file of the cache, checked; ``frames`` is None where it is no motion."""
+
+    path: Path
+    frames: int | None
+    size: int
+    new: bool
+
+
+def cache_folder() -> Path:
+    """Where recordings are kept: ``KINEME_CACHE``, else the system's place for caches.
+
+    Raises
+    ------
+    MissingDependencyError : pooch is not installed, and the variable is not set
+    """
+    named = environ.get("KINEME_CACHE")
+    if named:
+        return Path(named)
+    try:
+        import pooch
+    except ImportError as error:
+        raise MissingDependencyError("pooch", "data") from error
+    return Path(pooch.os_cache("kineme"))
+
+
+def fetch_subject(
+    subject: int,
+    trials: Sequence[int] | None = None,
+    *,
+    folder: str | PathLike[str] | None = None,
+    progress: Progress | None = None,
+    site: str = SITE,
+    annotations: str = ANNOTATIONS,
+    timeout_s: float = TIMEOUT_S,
+) -> Iterator[Fetched]:
+    """Skeleton, trials and, for subject 86, annotations, one after the other.
+
+    What is there already is checked and not fetched again; if it does not pass
+    it is fetched anew.
+
+    Parameters
+    ----------
+    subject : its number in the database
+    trials : their numbers; by default from 1 up to the first that the site does not have
+    folder : where to keep them; default ``cmuNN`` in `cache_folder`
+    progress : called while a file comes: name, bytes so far, bytes in all or None
+    site, annotations : addresses, for mirrors
+    timeout_s : a connection that is silent for so long is tried again
+
+    Raises
+    ------
+    ParameterError : numbers below 1
+    ReadError : no such subject or trial, or a file that cannot be had whole
+    WriteError : the folder cannot be written to
+    """
+    for number in (subject, *(trials or ())):
+        if number < 1:
+            raise ParameterError(f"subjects and trials count from 1, not {number}")
+    home = Path(folder) if folder is not None else cache_folder() / f"cmu{subject:02d}"
+    base = f"{site.rstrip('/')}/subjects/{subject:02d}/{subject:02d}"
+
+    def get(url: str) -> Fetched | None:
+        return _checked(url, home, progress, timeout_s)
+
+    skeleton = get(f"{base}.asf")
+    if skeleton is None:
+        raise ReadError(f"{base}.asf", f"the database has no subject {subject}")
+    yield skeleton
+    for trial in count(1) if trials is None else trials:
+        found = get(f"{base}_{trial:02d}.amc")
+        if found is not None:
+            yield found
+        elif trials is not None or trial == 1:
+            raise ReadError(f"{base}_{trial:02d}.amc", f"subject {subject} has no trial {trial}")
+        else:
+            break
+    if subject == 86:
+        text = get(annotations)
+        if text is None:
+            raise ReadError(annotations, "the annotations are not there any more")
+        yield text
+
+
+def _checked(url: str, folder: Path, progress: Progress | None, timeout_s: float) -> Fetched | None:
+    """The file of this address, once its content has been read."""
+    frames: list[int | None] = []
+
+    def check(path: Path) -> None:
+        frames.append(_content(path, folder))
+
+    path = folder / url.rsplit("/", 1)[-1]
+    if path.is_file():
+        try:
+            check(path)
+            return Fetched(path, frames[-1], path.stat().st_size, new=False)
+        except FileError:
+            path.unlink()
+    if fetch(url, folder, check=check, progress=progress, timeout_s=timeout_s) is None:
+        return None
+    return Fetched(path, frames[-1], path.stat().st_size, new=True)
+
+
+def _content(path: Path, folder: Path) -> int | None:
+    """Read a file of the database: the number of frames of a motion, else None."""
+    if path.suffix == ".amc":
+        return _n_frames(path, folder)
+    if path.suffix == ".asf":
+        from kineme.formats.asf import read_asf
+        from kineme.formats.files import load
+
+        read_asf(load(path))
+    else:
+        from kineme.evaluation import read_trials
+
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", KinemeWarning)
+            read_trials(path)
+    return None
+
+
+def _n_frames(path: Path, folder: Path) -> int:
+    """The length of a motion that is not truncated, of which the reader only warns."""
+    from kineme.formats import read
+
+    (skeleton,) = folder.glob("*.asf")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", KinemeWarning)
+        found = read(path, skeleton=skeleton).n_frames
+    for warning in caught:
+        if "truncated" in str(warning.message):
+            raise ReadError(path, str(warning.message).removeprefix(f"{path}, "))
+    known = FRAMES.get(path.stem, found)
+    if found != known:
+        raise ReadError(path, f"{found} frames, while trial {path.stem} has {known}")
+    return found
