@@ -1,0 +1,171 @@
+"""The pictures of the documentation, from the recording that comes with the package.
+
+    python docs/make_figures.py
+
+They follow figures 2 and 3 of Vögele, Krüger and Klein 2014.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+import kineme
+from kineme._colors import PALETTE, cluster_color
+from kineme.datasets import bundled_truth
+from kineme.graph import component_labels
+from kineme.plot import BORDER, INK, SHADES, draw_segmentation, similarity_image
+from kineme.segmentation.presets import VOEGELE2014 as PRESET
+from kineme.segmentation.primitives import primitive_cuts
+
+IMAGES = Path(__file__).parent / "images"
+EFFECTORS = ("left ankle", "right ankle", "head", "left wrist", "right wrist")
+FPS = PRESET.working_fps
+ZOOMED = 2  # the activity shown in the picture of the primitives: squats
+
+
+def main() -> None:
+    motion = kineme.read(kineme.bundled_recording())
+    segments, analysis = kineme.segment_and_analysis(motion, PRESET)
+    truth = kineme.read_segments(bundled_truth())
+
+    figure = _figure(7.6, 6.6)
+    draw_segmentation(figure.add_subplot(), segments, analysis.graph)
+    _save(figure, "exercises")
+
+    figure = _figure(8, 3)
+    draw_features(figure.add_subplot(), motion)
+    _save(figure, "features")
+
+    figure = _figure(9, 4.6)
+    draw_regions(figure.subplots(1, 2, sharey=True), analysis)
+    _save(figure, "activities")
+
+    figure = _figure(9, 4.6)
+    draw_paths(figure.subplots(1, 2, sharey=True), analysis)
+    _save(figure, "primitives")
+
+    rows = {"truth": truth, "voegele2014": segments}
+    rows["krueger2017"] = kineme.segment(motion, preset="krueger2017")
+    figure = _figure(9, 2.4)
+    draw_bars(figure.add_subplot(), rows)
+    _save(figure, "clusters")
+
+
+def draw_features(axes: Axes, motion: kineme.Motion) -> None:
+    """Heights of the five points relative to the pelvis."""
+    heights = kineme.pose_features(kineme.resample(motion, FPS))[:, 1::3]
+    seconds = np.arange(len(heights)) / FPS
+    for name, height, color in zip(EFFECTORS, heights.T, PALETTE, strict=False):
+        axes.plot(seconds, height, color=color, linewidth=1, label=name)
+    axes.set(xlabel="seconds", ylabel="metres above the pelvis", xlim=(0, seconds[-1]))
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(ncols=5, frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.15))
+
+
+def draw_regions(pair: np.ndarray, analysis: kineme.Analysis) -> None:
+    """Regions grown forward and backward, on the neighbours they count."""
+    n = len(analysis.graph)
+    graph = analysis.graph.nearest(PRESET.growth_neighbors)
+    graph = graph.restrict(min_lag=PRESET.frames(PRESET.diagonal_width))
+    cuts = analysis.activity_cuts
+    forward = np.concatenate([[0], cuts.forward, [n]])
+    backward = np.concatenate([[0], cuts.backward, [n]])
+    for axes, borders, title in zip(
+        pair, (forward, backward), ("grown forward: ends", "grown backward: starts"), strict=True
+    ):
+        _matrix(axes, similarity_image(graph), n)
+        for start, stop in zip(borders[:-1] / FPS, borders[1:] / FPS, strict=True):
+            size = stop - start
+            axes.add_patch(Rectangle((start, start), size, size, fill=False, color=BORDER))
+        axes.set_title(title, loc="left", fontsize=10)
+
+
+def draw_paths(pair: np.ndarray, analysis: kineme.Analysis) -> None:
+    """The connected components inside one activity, and the paths and cuts they give."""
+    first, stop = analysis.blocks[ZOOMED : ZOOMED + 2].tolist()
+    image, extent = components(analysis.graph, first, stop)
+    found = primitive_cuts(
+        analysis.graph,
+        (first, stop),
+        steps=PRESET.steps,
+        skip_penalty=PRESET.skip_penalty * PRESET.radius,
+        zero_cost=PRESET.zero_cost,
+        min_nodes=int(np.ceil(PRESET.min_path * FPS)),
+        separation=PRESET.frames(PRESET.path_separation or 0),
+        max_slope=PRESET.max_slope,
+        symmetry=PRESET.symmetry,
+        min_length=PRESET.min_primitive * FPS,
+    )
+    colors = ListedColormap(["white", *PALETTE])
+    pair[0].imshow(image, cmap=colors, vmin=0, vmax=len(PALETTE), extent=extent)
+    pair[0].set_title("connected components", loc="left", fontsize=10)
+    pair[1].imshow(image > 0, cmap=SHADES, vmax=3, extent=extent)
+    for rows, columns in found.paths:
+        pair[1].plot(columns / FPS, rows / FPS, color=INK, linewidth=1.2)
+    for cut in found.cuts / FPS:
+        pair[1].axvline(cut, color=BORDER, linewidth=1.5)
+    pair[1].set_title("warping paths that hold, and cuts", loc="left", fontsize=10)
+    for axes in pair:
+        axes.set(xlabel="seconds", xlim=extent[:2], ylim=extent[2:])
+    pair[0].set_ylabel("seconds")
+
+
+def components(
+    graph: kineme.NeighborGraph, first: int, stop: int
+) -> tuple[np.ndarray, tuple[float, float, float, float]]:
+    """A picture of one activity, numbered by component, and its extent in seconds."""
+    dense = graph.to_scipy()[first:stop, first:stop].tocoo()
+    inside = kineme.NeighborGraph(
+        np.concatenate([[0], np.cumsum(np.bincount(dense.row, minlength=stop - first))]),
+        dense.col.astype(np.int32),
+        dense.data,
+        stop - first,
+        graph.radius,
+    )
+    labels = component_labels(inside, steps=PRESET.steps)
+    _, number = np.unique(labels, return_inverse=True)
+    image = np.zeros((stop - first, stop - first))
+    image[dense.row, dense.col] = number % len(PALETTE) + 1
+    start_s, stop_s = first / FPS, stop / FPS
+    return image, (start_s, stop_s, stop_s, start_s)
+
+
+def draw_bars(axes: Axes, rows: dict[str, kineme.Segmentation]) -> None:
+    """One bar per result, coloured by cluster."""
+    for place, result in enumerate(rows.values()):
+        for row in result.primitives:
+            box = Rectangle((row.start_s, place), row.stop_s - row.start_s, 0.8)
+            box.set(facecolor=cluster_color(row.cluster), edgecolor="white", linewidth=0.8)
+            axes.add_patch(box)
+    axes.set(xlim=(0, result.n_frames / result.fps), ylim=(len(rows), 0), xlabel="seconds")
+    axes.set_yticks(np.arange(len(rows)) + 0.4, list(rows))
+    axes.tick_params(left=False)
+    axes.spines[:].set_visible(False)
+
+
+def _matrix(axes: Axes, image: np.ndarray, frames: int) -> None:
+    seconds = frames / FPS
+    axes.imshow(image, cmap=SHADES, vmin=0, vmax=1, extent=(0, seconds, seconds, 0))
+    axes.set(xlabel="seconds", ylabel="seconds")
+
+
+def _figure(width: float, height: float) -> Figure:
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _save(figure: Figure, name: str) -> None:
+    options = {"dpi": 120, "bbox_inches": "tight", "pil_kwargs": {"optimize": True}}
+    figure.savefig(IMAGES / f"{name}.png", **options)
+
+
+if __name__ == "__main__":
+    main()

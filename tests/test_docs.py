@@ -1,0 +1,57 @@
+"""The code in the README and the documentation runs as it stands there.
+
+Each page is run from top to bottom in an empty folder that holds a copy of the
+bundled recording as ``take.bvh``. Blocks marked ``python`` and ``bash`` are
+run; what sets up an environment is marked ``sh`` and left to ``.ci/run``.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from sybil import Example, Sybil
+from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
+
+from kineme.datasets import bundled_recording
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def run_in_shell(example: Example) -> None:
+    """Each command with the tests' own interpreter and its scripts first on the path."""
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", example.parsed],
+        env={**os.environ, "PATH": path, "COLUMNS": "100"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert done.returncode == 0, f"{example.parsed}\n{done.stdout}\n{done.stderr}"
+
+
+BLOCKS = Sybil(parsers=[PythonCodeBlockParser(), CodeBlockParser("bash", run_in_shell)])
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_code_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shutil.copy(bundled_recording(), tmp_path / "take.bvh")
+    monkeypatch.chdir(tmp_path)
+    for example in BLOCKS.parse(page).examples():
+        example.evaluate()
+
+
+def test_set_up_commands_are_the_first_of_the_readme() -> None:
+    """``.ci/run`` takes these two lines from the README."""
+    lines = (ROOT / "README.md").read_text(encoding="utf-8").splitlines()
+    commands = [line for line in lines if line.startswith("python3 -m venv ")]
+    assert len(commands) == 2
+    assert commands[0].endswith("kineme demo")
+    assert commands[1].endswith("-m pytest")
