@@ -95,7 +95,7 @@ def nearest_mask(indptr, distances, k):
         row = distances[first:last]
         low = row.min()
         span = row.max() - low
-        scale = np.float32(n_bins / span if span > 0 else 0)
+        scale = n_bins / span if span > 0 else 0.0
         bins[:] = 0
         for distance in row:
             bins[int((distance - low) * scale)] += 1

@@ -179,7 +179,8 @@ def choose_ends(roots, wanted, last_rows, costs, origins, node, separation):
             rest = [
                 v
                 for v in rest
-                if roots[v] != roots[end] or abs(origins[v] - origins[end]) >= separation
+                if roots[v] != roots[end]
+                or (v != end and abs(origins[v] - origins[end]) >= separation)
             ]
     return np.array(ends, dtype=np.int32)
 

@@ -169,9 +169,8 @@ def neighbor_graph(
             raise ParameterError(f"{name} must be at least 1, not {value}")
     lag = max(len(rows), len(columns)) if max_lag is None else max_lag
 
-    parts = [
-        part for block in _search(rows, columns, radius=float(radius), k=k, lag=lag) for part in block
-    ]
+    blocks = _search(rows, columns, radius=float(radius), k=k, lag=lag)
+    parts = [part for block in blocks for part in block]
     counts, indices, distances = (np.concatenate(part) for part in zip(*parts, strict=True))
     indptr = np.concatenate([[0], np.cumsum(counts)])
     return NeighborGraph(indptr, indices, distances, len(columns), float(radius))
@@ -190,7 +189,8 @@ def _search(
     ``margin``; what it lets through is measured in float64.
     """
     center = columns.mean(axis=0)
-    scale = max(np.abs(columns - center).max(), np.abs(rows - center).max()) or 1.0
+    spread = max(np.abs(columns - center).max(), np.abs(rows - center).max())
+    scale = max(spread, 1e-6 * radius) or 1.0  # so that radius / scale stays within float32
     rows32 = ((rows - center) / scale).astype(np.float32)
     columns32 = rows32 if columns is rows else ((columns - center) / scale).astype(np.float32)
     row_norms = np.einsum("ij,ij->i", rows32, rows32)
@@ -241,11 +241,12 @@ def _measure(
 ) -> Part:
     """The neighbours of some rows of a block: screened by estimate, measured, the k nearest."""
     counts = np.empty(part.stop - part.start, np.int64)
+    hits = screened[part]
     _kernels.screen_columns(
-        estimate[part], limits[part], column_norms, starts[part], stops[part], screened[part], counts
+        estimate[part], limits[part], column_norms, starts[part], stops[part], hits, counts
     )
     indices, distances = _kernels.measure_columns(
-        rows[part], columns, radius, first_column, screened[part], counts
+        rows[part], columns, radius, first_column, hits, counts
     )
     if k is None or counts.max(initial=0) <= k:
         return counts, indices, distances
