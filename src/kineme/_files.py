@@ -24,14 +24,14 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     """
     target = Path(path)
     if target.is_dir():
-        raise WriteError(path, "is a folder; name a file in it")
+        raise WriteError(path, "cannot be written: it is a folder; name a file in it")
     if not target.parent.is_dir():
-        raise WriteError(path, f"the folder {target.parent} does not exist")
+        raise WriteError(path, f"cannot be written: the folder {target.parent} does not exist")
     final = Path(os.path.realpath(target))
     draft = final.with_name(f".{secrets.token_hex(6)}{final.suffix}")
     try:
         yield draft
-        os.replace(draft, final)
+        draft.replace(final)
     except OSError as error:
         raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
     finally:

@@ -20,10 +20,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch, Rectangle
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from kineme._colors import NO_CLUSTER, cluster_color
@@ -41,6 +41,7 @@ INK = "#1B1F2A"
 BORDER = "#C2571A"
 SHADES = LinearSegmentedColormap.from_list("similarity", ["#FFFFFF", "#B9C0CE", INK])
 MAX_LEGEND = 16
+MAX_GAPS = 400  # bars; more are drawn without gaps between them
 
 
 def plot_segmentation(
@@ -144,13 +145,10 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
         for line in _cross(row.start_s, activities[row.activity])
     ]
     axes.add_collection(LineCollection(cuts, colors=BORDER, linewidths=0.5, alpha=0.75))
-    frames = [
-        Rectangle((row.start_s, row.start_s), *(2 * [row.stop_s - row.start_s]))
-        for row in activities
-        if row.kind == "activity"
-    ]
+    blocks = activities.select(activities.kind == "activity")
+    squares = _boxes(blocks.start_s, blocks.stop_s, blocks.start_s, blocks.stop_s)
     axes.add_collection(
-        PatchCollection(frames, facecolor="none", edgecolor=BORDER, linewidth=1.4, clip_on=False)
+        PolyCollection(squares, facecolor="none", edgecolor=BORDER, linewidth=1.4, clip_on=False)
     )
 
 
@@ -164,19 +162,22 @@ def _cross(at: float, within: Any) -> list[list[tuple[float, float]]]:
 
 def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
     seconds = segmentation.n_frames / segmentation.fps
-    rows = list(segmentation.primitives) or list(segmentation.activities)
-    colors = [cluster_color(row.cluster) for row in rows]
-    edge = "white" if len(rows) < 400 else "none"
-    for horizontal in (True, False):
-        bars = [
-            Rectangle((row.start_s, seconds + 0.4 * width), row.stop_s - row.start_s, width)
-            if horizontal
-            else Rectangle((-1.4 * width, row.start_s), width, row.stop_s - row.start_s)
-            for row in rows
-        ]
+    rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
+    colors = [cluster_color(cluster) for cluster in rows.cluster.tolist()]
+    below = _boxes(rows.start_s, rows.stop_s, seconds + 0.4 * width, seconds + 1.4 * width)
+    left = _boxes(-1.4 * width, -0.4 * width, rows.start_s, rows.stop_s)
+    gap = 0.6 if len(rows) < MAX_GAPS else 0.0
+    for bars in (below, left):
         axes.add_collection(
-            PatchCollection(bars, facecolors=colors, edgecolors=edge, linewidths=0.6)
+            PolyCollection(bars, facecolors=colors, edgecolors="white", linewidths=gap)
         )
+
+
+def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.float64]]:
+    """Corners (4, 2) of upright rectangles; a number stands for as many as needed."""
+    left, right, top, bottom = np.broadcast_arrays(left, right, top, bottom)
+    corners = [left, top, right, top, right, bottom, left, bottom]
+    return list(np.stack(corners, axis=-1).reshape(-1, 4, 2))
 
 
 def _legend(segmentation: Segmentation) -> list[Patch]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 from pathlib import Path
 
 import pandas as pd
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.export import read_segments, write_segments
@@ -145,10 +145,8 @@ def test_a_damaged_file_is_read_or_refused(folder: Path, suffix: str, data: st.D
         content[at : at + data.draw(st.integers(0, 40))] = data.draw(st.binary(max_size=4))
         content = content or bytearray(b"\0")
     path.write_bytes(content)
-    try:
+    with suppress(ReadError):
         read_segments(path)
-    except ReadError:
-        pass
 
 
 @pytest.mark.parametrize(
@@ -207,7 +205,7 @@ def test_missing_file_and_unknown_suffix(tmp_path: Path, small: Segmentation) ->
         read_segments(tmp_path / "none.json")
     with pytest.raises(WriteError, match=r"stored as \.csv, \.json, \.parquet, not '\.xlsx'"):
         write_segments(small, tmp_path / "cuts.xlsx")
-    with pytest.raises(WriteError, match="the folder .* does not exist"):
+    with pytest.raises(WriteError, match=r"the folder .* does not exist"):
         write_segments(small, tmp_path / "nowhere" / "cuts.csv")
 
 
@@ -222,7 +220,7 @@ def test_a_failed_write_leaves_the_old_file(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("kineme._files.os.replace", full)
+    monkeypatch.setattr("pathlib.Path.replace", full)
     with pytest.raises(WriteError, match="No space left on device"):
         write_segments(small, path)
     assert {file.name: file.read_bytes() for file in tmp_path.iterdir()} == before

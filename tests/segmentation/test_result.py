@@ -7,8 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from kineme.errors import ParameterError
 from kineme.segmentation.result import Segmentation
@@ -17,8 +16,16 @@ from segmentations import segmentations
 
 WALK_JUMP = {
     "level": ["activity"] * 3 + ["primitive"] * 5,
-    "kind": ["activity", "transition", "activity"]
-    + ["activity", "activity", "transition", "activity", "activity"],
+    "kind": [
+        "activity",
+        "transition",
+        "activity",
+        "activity",
+        "activity",
+        "transition",
+        "activity",
+        "activity",
+    ],
     "start_frame": [0, 40, 50, 0, 20, 40, 50, 70],
     "stop_frame": [40, 50, 90, 20, 40, 50, 70, 90],
     "cluster": [-1, -1, -1, 0, 0, -1, 1, 0],
@@ -112,13 +119,13 @@ def test_a_primitive_may_not_cross_an_activity_border() -> None:
         "start_frame": [0, 5, 0],
         "stop_frame": [5, 9, 9],
     }
-    with pytest.raises(ParameterError, match="frames 0 to 9 crosses the border .* at 5"):
+    with pytest.raises(ParameterError, match=r"frames 0 to 9 crosses the border .* at 5"):
         Segmentation.from_columns(columns, n_frames=9, fps=30.0)
 
 
 @pytest.mark.parametrize(("n_frames", "fps"), [(0, 30.0), (90, 0.0), (90, np.nan), (90, np.inf)])
 def test_a_recording_has_frames_and_a_rate(n_frames: int, fps: float) -> None:
-    with pytest.raises(ParameterError, match="recording|frame rate"):
+    with pytest.raises(ParameterError, match=r"recording|frame rate"):
         Segmentation.from_columns(WALK_JUMP, n_frames=n_frames, fps=fps)
 
 

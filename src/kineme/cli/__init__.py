@@ -17,6 +17,6 @@ def main() -> None:
         if hasattr(sys.stdout, "reconfigure"):
             sys.stdout.reconfigure(errors="backslashreplace")
         short_warnings()
-        app()
+        app(prog_name="kineme")
     except KeyboardInterrupt:
         sys.exit(130)

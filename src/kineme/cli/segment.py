@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 def segment(
-    files: Annotated[list[Path], typer.Argument(metavar="FILES...", help="BVH or AMC files.")],
+    files: Annotated[list[Path], typer.Argument(metavar="FILES", help="BVH or AMC files.")],
     preset: Annotated[str, typer.Option(help=f"{' or '.join(PRESETS)}.")] = "voegele2014",
     output: Annotated[
         Path | None,

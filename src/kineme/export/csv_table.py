@@ -34,6 +34,7 @@ NUMBERS: dict[str, type[int | float]] = {
 
 
 def write(segmentation: Segmentation, path: Path) -> None:
+    """Leave the table at ``path`` and the rest beside it."""
     beside = provenance_path(path)
     with atomic_write(beside) as head_draft, atomic_write(path) as draft:
         head_draft.write_text(json.dumps(head_of(segmentation), indent=2) + "\n", encoding="utf-8")
@@ -44,6 +45,7 @@ def write(segmentation: Segmentation, path: Path) -> None:
 
 
 def read(path: Path) -> Segmentation:
+    """The segmentation at ``path``, with what lies beside it if it is there."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         columns = _columns(csv.DictReader(file, strict=True), path)
     beside = provenance_path(path)

@@ -36,6 +36,7 @@ SCHEMA = "kineme.segments/1"
 
 
 def write(segmentation: Segmentation, path: Path) -> None:
+    """Leave everything at ``path``."""
     with atomic_write(path) as draft:
         draft.write_text(dumps(segmentation), encoding="utf-8")
 
@@ -53,6 +54,7 @@ def as_object(segmentation: Segmentation) -> dict[str, Any]:
 
 
 def read(path: Path) -> Segmentation:
+    """The segmentation at ``path``."""
     data = parse(path.read_text(encoding="utf-8-sig"), path)
     rows = data.get("segments")
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):

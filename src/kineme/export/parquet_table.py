@@ -20,6 +20,7 @@ KEY = b"kineme.segments"
 
 
 def write(segmentation: Segmentation, path: Path) -> None:
+    """Leave everything at ``path``."""
     arrow, parquet = _pyarrow()
     table = arrow.table(segmentation.table.columns())
     table = table.replace_schema_metadata({KEY: json.dumps(head_of(segmentation)).encode()})
@@ -28,6 +29,7 @@ def write(segmentation: Segmentation, path: Path) -> None:
 
 
 def read(path: Path) -> Segmentation:
+    """The segmentation at ``path``."""
     arrow, parquet = _pyarrow()
     content = path.read_bytes()
     try:
@@ -45,8 +47,8 @@ def read(path: Path) -> Segmentation:
 
 def _pyarrow() -> tuple[Any, Any]:
     try:
-        import pyarrow
-        import pyarrow.parquet
+        import pyarrow as pa
+        from pyarrow import parquet
     except ImportError as error:
         raise MissingDependencyError("pyarrow", "tables") from error
-    return pyarrow, pyarrow.parquet
+    return pa, parquet

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import sys
-import tempfile
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -18,7 +16,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.errors import KinemeWarning, ReadError, WriteError
+from kineme._files import atomic_write
+from kineme.errors import KinemeWarning, ReadError
 from kineme.motion import Provenance
 
 
@@ -81,24 +80,9 @@ def warn(message: str) -> None:
 
 
 def save(path: Path, text: Iterable[str]) -> None:
-    """Write ``text`` to ``path`` whole or not at all.
-
-    The text goes to a temporary file in the same folder, which then takes the
-    name over in one step.
-    """
-    temporary = None
-    try:
-        with tempfile.NamedTemporaryFile(
-            "w", encoding="utf-8", newline="\n", dir=path.parent, delete=False
-        ) as file:
-            temporary = file.name
-            file.writelines(text)
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
-    except OSError as error:
-        if temporary is not None:
-            Path(temporary).unlink(missing_ok=True)
-        raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
+    """Write ``text`` to ``path`` whole or not at all."""
+    with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as file:
+        file.writelines(text)
 
 
 def table(values: NDArray[np.float64]) -> list[str]:
@@ -114,12 +98,6 @@ def unique(names: Iterable[str]) -> list[str]:
         tries = (name if i == 1 else f"{name}_{i}" for i in count(1))
         given.append(next(new for new in tries if new and new not in given))
     return given
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _is_number(word: str | bytes) -> bool:

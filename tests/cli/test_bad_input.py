@@ -1,0 +1,139 @@
+"""Bad input at the command line: one sentence, exit code 1, nothing half-written."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from kineme.datasets import bundled_recording
+
+HIERARCHY = """HIERARCHY
+ROOT Hips
+{{
+  OFFSET 0 0 0
+  CHANNELS 3 Zrotation Xrotation Yrotation
+  End Site
+  {{
+    OFFSET 0 90 0
+  }}
+}}
+MOTION
+Frames: {frames}
+Frame Time: 0.01
+{values}
+"""
+BAD = {
+    "empty.bvh": "",
+    "binary.bvh": "\0\1\2" * 300,
+    "cut_short.bvh": "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0",
+    "nan.bvh": HIERARCHY.format(frames=3, values="0 nan 0\n0 0 0\n0 0 0"),
+    "infinite.bvh": HIERARCHY.format(frames=3, values="0 inf 0\n0 0 0\n0 0 0"),
+    "words.bvh": HIERARCHY.format(frames=3, values="0 0 0\n0 zero 0\n0 0 0"),
+    "no_frames.bvh": HIERARCHY.format(frames=0, values=""),
+    "ten_million.bvh": HIERARCHY.format(frames=10_000_000, values="0 0 0\n" * 10),
+    "no_hands.bvh": HIERARCHY.format(frames=2, values="0 0 0\n0 0 0"),
+    "alone.amc": ":FULLY-SPECIFIED\n:DEGREES\n1\nroot 0 0 0 0 0 0\n",
+    "unknown.xyz": "what is this?",
+}
+
+
+def test_each_bad_file_is_one_sentence(kineme, tmp_path: Path) -> None:
+    for name, text in BAD.items():
+        (tmp_path / name).write_text(text)
+    (tmp_path / "folder").mkdir()
+    before = sorted(path.name for path in tmp_path.iterdir())
+    done = kineme(
+        "segment", *BAD, "missing.bvh", "folder", "-o", "cuts/{name}.json", "--plot", "cuts"
+    )
+    assert done.returncode == 1
+    assert done.stdout == ""
+    lines = [line for line in done.stderr.splitlines() if not line.startswith("warning: ")]
+    assert len(lines) == len(BAD) + 2, done.stderr
+    for name, line in zip([*BAD, "missing.bvh", "folder"], lines, strict=True):
+        assert line.startswith(f"error: {name}"), line
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*before, "cuts"])
+    assert list((tmp_path / "cuts").iterdir()) == []
+
+
+def test_the_line_at_fault_is_named(kineme, tmp_path: Path) -> None:
+    (tmp_path / "words.bvh").write_text(BAD["words.bvh"])
+    done = kineme("info", "words.bvh")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith("error: words.bvh, line 15: ")
+
+
+@pytest.mark.parametrize(
+    ("option", "place", "reason"),
+    [
+        ("--output", "no/such/cuts.csv", "the folder no/such cannot be made"),
+        ("--output", "cuts.xlsx", "the suffix must be one of .csv, .json, .parquet"),
+        ("--plot", "cuts.jpeg2", "the suffix must be one of .png, .pdf, .svg"),
+        ("--output", "/proc/cuts.csv", "/proc"),
+    ],
+)
+def test_a_place_that_cannot_be_written(
+    kineme, tmp_path: Path, option: str, place: str, reason: str
+) -> None:
+    done = kineme("segment", bundled_recording(), option, place, "-q")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert reason in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (),
+        ("segment",),
+        ("cut", "a.bvh"),
+        ("segment", "a.bvh", "--preset", "voegele"),
+        ("segment", "a.bvh", "--radius", "-1"),
+        ("segment", "a.bvh", "--radius", "wide"),
+        ("segment", "a.bvh", "--growth", "circles"),
+        ("segment", "a.bvh", "--unit", "parsec"),
+        ("segment", "a.bvh", "--fps", "0"),
+        ("segment", "a.bvh", "--level", "phrase"),
+        ("segment", "a.bvh", "b.bvh", "-o", "cuts.csv"),
+        ("segment", "x/a.bvh", "y/a.bvh", "-o", "cuts"),
+    ],
+)
+def test_a_command_that_makes_no_sense_exits_with_2(kineme, arguments: tuple[str, ...]) -> None:
+    done = kineme(*arguments)
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+
+
+def test_warnings_are_short_lines(kineme, tmp_path: Path) -> None:
+    text = bundled_recording().read_text().replace("Frames: 2898", "Frames: 2900")
+    (tmp_path / "short.bvh").write_text(text)
+    done = kineme("segment", "short.bvh", "-q")
+    assert (done.returncode, done.stdout) == (0, "")
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("warning: short.bvh")
+    assert "2900" in line
+    assert "2898" in line
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs a named pipe")
+def test_control_c_ends_quietly_with_130(tmp_path: Path) -> None:
+    pipe = tmp_path / "slow.bvh"
+    os.mkfifo(pipe)
+    with (
+        subprocess.Popen(
+            [sys.executable, "-m", "kineme.cli", "segment", pipe, "-o", tmp_path / "cuts.csv"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        ) as process,
+        pipe.open("w"),
+    ):  # opens once the reader waits for data
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=30)
+    assert (process.returncode, out, err) == (130, "", "")
+    assert [path.name for path in tmp_path.iterdir()] == ["slow.bvh"]

@@ -1,0 +1,118 @@
+"""``kineme segment`` and ``kineme demo`` from file to file."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from matplotlib.image import imread
+
+import kineme as package
+from kineme.datasets import bundled_recording
+
+
+@pytest.fixture
+def recording(tmp_path: Path) -> Path:
+    return Path(shutil.copy(bundled_recording(), tmp_path / "exercises.bvh"))
+
+
+def test_the_table_counts_repetitions(kineme, recording: Path) -> None:
+    done = kineme("segment", recording, "--preset", "krueger2017")
+    assert (done.returncode, done.stderr) == (0, "")
+    rows = [line.split() for line in done.stdout.splitlines() if line.split()[1:2] == ["activity"]]
+    result = package.segment(package.read(recording), preset="krueger2017")
+    activities = [row for row in result.activities if row.kind == "activity"]
+    assert len(rows) == len(activities)
+    for cells, row in zip(rows, activities, strict=True):
+        inside = result.primitives.activity == row.activity
+        same = (result.primitives.cluster[inside] == row.cluster).sum()
+        assert cells[2:6] == [
+            f"{row.start_s:.2f}",
+            f"{row.stop_s:.2f}",
+            f"{row.start_frame}:{row.stop_frame}",
+            str(same),
+        ]
+    assert f"{len(result.repetitions())} clusters." in done.stdout
+    assert "note: unit cm inferred" in done.stdout
+
+
+def test_level_primitive_prints_every_one(kineme, recording: Path) -> None:
+    done = kineme("segment", recording, "--level", "primitive")
+    result = package.segment(package.read(recording))
+    rows = [line for line in done.stdout.splitlines() if line.lstrip()[:1].isdigit()]
+    assert len([row for row in rows if ":" in row]) == len(result.primitives)
+
+
+def test_json_is_pure_and_is_what_the_library_gives(kineme, recording: Path) -> None:
+    done = kineme("segment", recording, "--json", "--radius", 0.5, "--growth-neighbors", "none")
+    data = json.loads(done.stdout)
+    assert data["schema"] == "kineme.segments/1"
+    assert data["provenance"]["parameters"]["radius"] == 0.5
+    assert data["provenance"]["parameters"]["growth_neighbors"] is None
+    result = package.segment(package.read(recording), radius=0.5, growth_neighbors=None)
+    assert [row["start_frame"] for row in data["segments"]] == result.table.start_frame.tolist()
+    assert [row["cluster"] for row in data["segments"]] == result.table.cluster.tolist()
+
+
+def test_output_and_picture_are_written_quietly(kineme, tmp_path: Path, recording: Path) -> None:
+    table, picture = tmp_path / "cuts.parquet", tmp_path / "cuts.png"
+    done = kineme("segment", recording, "-q", "-o", table, "--plot", picture)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    written = package.read_segments(table)
+    assert written.table == package.segment(package.read(recording)).table
+    assert written.provenance["input"]["sha256"] == package.read(recording).provenance.sha256
+    assert min(imread(picture).shape[:2]) > 1000
+
+
+def test_several_files_go_into_a_folder_and_a_bad_one_stops_no_other(
+    kineme, tmp_path: Path, recording: Path
+) -> None:
+    (tmp_path / "broken.bvh").write_text("HIERARCHY\nROOT Hips\n{\n")
+    shutil.copy(recording, tmp_path / "again.bvh")
+    done = kineme("segment", "broken.bvh", "gone.bvh", "again.bvh", recording, "-o", "cuts", "-q")
+    assert done.returncode == 1
+    lines = done.stderr.splitlines()
+    assert len(lines) == 2
+    assert lines[0].startswith("error: broken.bvh")
+    assert lines[1].startswith("error: gone.bvh: cannot be opened")
+    tables = sorted(path.name for path in (tmp_path / "cuts").glob("*.csv"))
+    assert tables == ["again.csv", "exercises.csv"]
+
+
+def test_a_name_in_braces_is_replaced(kineme, tmp_path: Path, recording: Path) -> None:
+    shutil.copy(recording, tmp_path / "again.bvh")
+    kineme("segment", "again.bvh", recording, "-q", "-o", "{name}_cuts.json")
+    assert {path.name for path in tmp_path.glob("*.json")} == {
+        "again_cuts.json",
+        "exercises_cuts.json",
+    }
+
+
+def test_an_undecodable_name_is_no_obstacle(kineme, tmp_path: Path, recording: Path) -> None:
+    try:
+        odd = Path(shutil.copy(recording, tmp_path / "caf\udce9 [bold].bvh"))
+    except OSError:
+        pytest.skip("this file system takes no such name")
+    done = kineme("segment", odd, "-o", "cuts.json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "[bold].bvh" in done.stdout
+    assert package.read_segments(tmp_path / "cuts.json").provenance["input"]["path"] == str(odd)
+
+
+def test_the_demo_writes_table_and_picture(kineme, tmp_path: Path) -> None:
+    done = kineme("demo")
+    assert (done.returncode, done.stderr) == (0, "")
+    names = {path.name for path in tmp_path.iterdir()}
+    assert names == {"exercises.csv", "exercises.provenance.json", "exercises.png"}
+    assert "exercises.png" in done.stdout
+    assert len(package.read_segments(tmp_path / "exercises.csv")) > 20
+
+
+def test_a_real_recording(kineme, tmp_path: Path, data_dir: Path) -> None:
+    done = kineme("segment", data_dir / "cmu86" / "86_10.amc", "-o", tmp_path / "cuts.csv")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "63.2 s, 7583 frames at 120 Hz, voegele2014" in done.stdout
+    assert "frame rate 120 Hz assumed" in done.stdout
+    assert package.read_segments(tmp_path / "cuts.csv").n_frames == 7583
