@@ -7,17 +7,20 @@ run; what sets up an environment is marked ``sh`` and left to ``.ci/run``.
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+import jsonschema
 import pytest
 from sybil import Example, Sybil
 from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
 
 from kineme.datasets import bundled_recording
+from kineme.export import read_segments, write_segments
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -46,6 +49,17 @@ def test_code_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.chdir(tmp_path)
     for example in BLOCKS.parse(page).examples():
         example.evaluate()
+
+
+def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
+    schema = json.loads((ROOT / "docs" / "segments.schema.json").read_text(encoding="utf-8"))
+    truth = read_segments(bundled_recording().with_suffix(".json"))
+    write_segments(truth, tmp_path / "truth.json")
+    written = json.loads((tmp_path / "truth.json").read_text(encoding="utf-8"))
+    jsonschema.validate(written, schema)
+    del written["segments"][0]["stop_frame"]
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(written, schema)
 
 
 def test_set_up_commands_are_the_first_of_the_readme() -> None:
