@@ -421,3 +421,19 @@ def linked_segments(paths, borders, g, *, coverage, interpolate):
             if share >= coverage:
                 links.append((h, share))
     return links
+
+
+def clusters(links, connection):
+    """Labels by first appearance: segments that links lead between, both ways if strong."""
+    n = len(links)
+    reached = np.eye(n, dtype=bool)
+    for g, targets in enumerate(links):
+        reached[g, list(targets)] = True
+    if connection == "weak":
+        reached |= reached.T
+    for _ in range(n):
+        reached = (reached.astype(int) @ reached.astype(int)) > 0
+    together = reached & reached.T
+    firsts = [int(np.argmax(row)) for row in together]
+    order = sorted(set(firsts))
+    return [order.index(first) for first in firsts]
