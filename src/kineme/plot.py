@@ -40,6 +40,7 @@ ENTRIES_AT_ONCE = 1 << 20
 INK = "#1B1F2A"
 BORDER = "#C2571A"
 SHADES = LinearSegmentedColormap.from_list("similarity", ["#FFFFFF", "#B9C0CE", INK])
+NARROW = 0.004  # share of the picture below which borders would hide what they frame
 MAX_LEGEND = 16
 MAX_GAPS = 400  # bars; more are drawn without gaps between them
 
@@ -66,9 +67,9 @@ def plot_segmentation(
     """
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"pictures are written as {', '.join(SUFFIXES)}")
-    figure = Figure(figsize=(9.4, 8.2), layout="constrained")
+    figure = Figure(figsize=(9.4, 8.2))
     FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
+    axes = figure.add_axes((0.085, 0.075, 0.74, 0.86))
     draw_segmentation(axes, segmentation, graph)
     axes.set_title(
         _title(segmentation) if title is None else title, loc="left", fontsize=10, pad=10
@@ -138,17 +139,21 @@ def _row_blocks(indptr: NDArray[np.int64]) -> list[tuple[int, int]]:
 
 def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
     activities, primitives = segmentation.activities, segmentation.primitives
+    pieces = np.bincount(primitives.activity, minlength=len(activities))
+    lengths = (activities.stop_frame - activities.start_frame) / segmentation.n_frames
+    wide = lengths > pieces * NARROW
     cuts = [
         line
         for row in primitives
-        if row.start_s > activities.start_s[row.activity]
+        if row.start_s > activities.start_s[row.activity] and wide[row.activity]
         for line in _cross(row.start_s, activities[row.activity])
     ]
     axes.add_collection(LineCollection(cuts, colors=BORDER, linewidths=0.5, alpha=0.75))
     blocks = activities.select(activities.kind == "activity")
     squares = _boxes(blocks.start_s, blocks.stop_s, blocks.start_s, blocks.stop_s)
+    width = 1.4 if len(activities) * NARROW < 0.2 else 0.7
     axes.add_collection(
-        PolyCollection(squares, facecolor="none", edgecolor=BORDER, linewidth=1.4, clip_on=False)
+        PolyCollection(squares, facecolor="none", edgecolor=BORDER, linewidth=width, clip_on=False)
     )
 
 
@@ -197,13 +202,6 @@ def _legend(segmentation: Segmentation) -> list[Patch]:
 
 def _title(segmentation: Segmentation) -> str:
     source = segmentation.provenance.get("input", {}).get("path") or "recording"
-    kinds = segmentation.activities.kind.tolist()
     preset = segmentation.provenance.get("preset")
-    parts = [
-        Path(source).name,
-        f"{kinds.count('activity')} activities",
-        f"{len(segmentation.primitives)} primitives",
-        f"{len(segmentation.repetitions())} clusters",
-        *([preset] if preset else []),
-    ]
+    parts = [Path(source).name, segmentation.describe(), *([preset] if preset else [])]
     return "  ·  ".join(parts)

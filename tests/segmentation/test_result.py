@@ -54,7 +54,7 @@ def test_cuts_repetitions_and_frames() -> None:
         ["activity"] * 40 + ["transition"] * 10 + ["activity"] * 40
     )
     assert len(result) == len(list(result)) == 8
-    assert "2 activities, 1 transitions, 5 primitives, 2 clusters" in repr(result)
+    assert "2 activities, 1 transition, 4 primitives, 2 clusters" in repr(result)
 
 
 def test_pandas_sees_the_documented_columns() -> None:

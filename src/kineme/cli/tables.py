@@ -27,7 +27,7 @@ def show_segments(segmentation: Segmentation, level: Level) -> None:
     )
     rows = _activity_rows if level == "activity" else _primitive_rows
     console.print(rows(segmentation))
-    console.print(f"{_summary(segmentation)}.")
+    console.print(f"{segmentation.describe()}.")
     for note in segmentation.provenance["notes"]:
         console.print(Text(f"note: {note}", style="dim"))
     console.print()
@@ -88,19 +88,3 @@ def _cluster(cluster: int) -> RenderableType:
 
 def _style(row: Segment) -> str:
     return "dim" if row.kind == "transition" else ""
-
-
-def _summary(segmentation: Segmentation) -> str:
-    kinds = segmentation.activities.kind.tolist()
-    return ", ".join(
-        [
-            _count(kinds.count("activity"), "activity", "activities"),
-            _count(kinds.count("transition"), "transition"),
-            _count(segmentation.primitives.kind.tolist().count("activity"), "primitive"),
-            _count(len(segmentation.repetitions()), "cluster"),
-        ]
-    )
-
-
-def _count(number: int, one: str, many: str = "") -> str:
-    return f"{number} {one if number == 1 else many or one + 's'}"

@@ -112,6 +112,20 @@ class Segmentation:
         values: NDArray[Any] = getattr(rows, column)
         return np.repeat(values, rows.stop_frame - rows.start_frame)
 
+    def describe(self) -> str:
+        """How many of each there are, for people; primitives without transitions."""
+        kinds = self.activities.kind.tolist()
+        counts = {
+            "activity": kinds.count("activity"),
+            "transition": kinds.count("transition"),
+            "primitive": self.primitives.kind.tolist().count("activity"),
+            "cluster": len(self.repetitions()),
+        }
+        many = {"activity": "activities"}
+        return ", ".join(
+            f"{n} {name if n == 1 else many.get(name, name + 's')}" for name, n in counts.items()
+        )
+
     def to_pandas(self) -> pd.DataFrame:
         """The table as a DataFrame, one row per segment.
 
@@ -132,12 +146,8 @@ class Segmentation:
         return iter(self.table)
 
     def __repr__(self) -> str:
-        kinds = Counter(self.activities.kind.tolist())
-        return (
-            f"<Segmentation of {self.n_frames} frames ({self.n_frames / self.fps:.1f} s): "
-            f"{kinds['activity']} activities, {kinds['transition']} transitions, "
-            f"{len(self.primitives)} primitives, {len(self.repetitions())} clusters>"
-        )
+        seconds = self.n_frames / self.fps
+        return f"<Segmentation of {self.n_frames} frames ({seconds:.1f} s): {self.describe()}>"
 
 
 def _check_recording(n_frames: int, fps: float) -> None:
