@@ -70,7 +70,7 @@ def analyze(features: ArrayLike, preset: Preset, *, progress: Progress | None = 
             features,
             radius=preset.radius,
             k=preset.max_neighbors,
-            max_lag=None if preset.max_lag is None else preset.frames(preset.max_lag),
+            max_lag=None if preset.max_lag is None else max(1, preset.frames(preset.max_lag)),
         )
     with stage("activities"):
         off_diagonal = _growth_graph(graph, preset)

@@ -129,7 +129,7 @@ class Preset:
 
 _POSITIVE = (
     "working_fps", "radius", "max_neighbors", "max_lag", "growth_radius", "growth_neighbors",
-    "growth_gap", "cluster_neighbors", "zero_cost",
+    "growth_gap", "path_separation", "cluster_neighbors", "zero_cost",
 )  # fmt: skip
 _NOT_NEGATIVE = (
     "skip_penalty", "diagonal_width", "growth_count", "growth_distance", "min_path",
