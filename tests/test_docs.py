@@ -9,10 +9,13 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
+from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import pytest
@@ -21,6 +24,7 @@ from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
 
 from kineme.datasets import bundled_recording
 from kineme.export import read_segments, write_segments
+from kineme.segmentation.presets import PRESETS
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -60,6 +64,30 @@ def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
     del written["segments"][0]["stop_frame"]
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate(written, schema)
+
+
+def test_constants_in_the_docs_are_those_of_the_presets() -> None:
+    method = (ROOT / "docs" / "method.md").read_text(encoding="utf-8")
+    written = re.findall(r"^\| `(\w+)` \| (.+?) \| (.+?) \|", method, flags=re.MULTILINE)
+    one, other = PRESETS.values()
+    names = [field.name for field in fields(one) if field.name != "name"]
+    assert written == [
+        (name, shown(getattr(one, name)), shown(getattr(other, name))) for name in names
+    ]
+
+
+def shown(value: Any) -> str:
+    """A constant as the table in the docs has it."""
+    match value:
+        case None | bool():
+            return {None: "–", True: "yes", False: "no"}[value]
+        case float():
+            return f"{value:.4g}"
+        case ((_, _), *_):
+            return " ".join(map(str, value))
+        case tuple():
+            return ", ".join(map(shown, value))
+    return str(value)
 
 
 def test_set_up_commands_are_the_first_of_the_readme() -> None:
