@@ -437,3 +437,73 @@ def clusters(links, connection):
     firsts = [int(np.argmax(row)) for row in together]
     order = sorted(set(firsts))
     return [order.index(first) for first in firsts]
+
+
+# --- ACA and HACA (Zhou, De la Torre, Hodgins 2013): the programs' loops, entry by entry ---
+
+
+def dtak(kernel, a_weights, b_weights):
+    """Dynamic time alignment kernel of two pieces, from the kernel between their frames."""
+    n, m = kernel.shape
+    table = np.empty((n, m))
+    for i in range(n):
+        for j in range(m):
+            k, wi, wj = kernel[i, j], a_weights[i], b_weights[j]
+            steps = [(wi + wj) * k] if i == j == 0 else []
+            if i:
+                steps.append(table[i - 1, j] + wi * k)
+            if j:
+                steps.append(table[i, j - 1] + wj * k)
+            if i and j:
+                steps.append(table[i - 1, j - 1] + (wi + wj) * k)
+            table[i, j] = max(steps)
+    return table[-1, -1] / (sum(a_weights) + sum(b_weights))
+
+
+def propagated_kernel(kernel, longest):
+    """Entry (a, b), a < b: the best square of width 1 to longest that has it as a corner."""
+    n = len(kernel)
+    out = np.eye(n)
+    for w in range(1, longest + 1):
+        for i in range(n - w):
+            for j in range(i + 1, n - w):
+                shared = min(kernel[i, j], kernel[i + w, j + w])
+                for a, b in ((i, j), (i + w, j + w), (i, j + w), (i + w, j)):
+                    if a < b:
+                        out[a, b] = out[b, a] = max(out[a, b], shared)
+    return out
+
+
+def covers(n, shortest, longest):
+    """Every way to cut n frames into lengths of shortest to longest."""
+    if n == 0:
+        return [[]]
+    ways = []
+    for last in range(shortest, min(longest, n) + 1):
+        ways += [[*way, last] for way in covers(n - last, shortest, longest)]
+    return ways
+
+
+def cover_cost(costs, lengths):
+    """Total cost of consecutive windows of these lengths."""
+    stops = np.cumsum(lengths)
+    return sum(costs[stop - 1, length - 1] for stop, length in zip(stops, lengths, strict=True))
+
+
+def first_segmentation(labels, shortest, longest):
+    """Piece lengths as the program's ``mergeDP`` finds them, its slip included."""
+    n = len(labels)
+    best, length_at = [0.0] + [None] * n, [0] * (n + 1)
+    for v in range(1, n + 1):
+        for length in range(shortest, min(longest, v) + 1):
+            if best[v - length] is None:
+                continue
+            window = list(labels[v - length : v])
+            cost = best[v - length] + length - max(window.count(c) for c in set(window))
+            if best[v] is None or shortest < best[v]:
+                best[v], length_at[v] = cost, length
+    lengths, v = [], n
+    while v:
+        lengths.insert(0, length_at[v])
+        v -= length_at[v]
+    return lengths

@@ -1,0 +1,51 @@
+"""Pieces: what every method of this folder returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """A recording in consecutive pieces, each in a cluster.
+
+    Piece i is the span ``[starts[i], stops[i])``, in frames of the array the
+    method was given.
+
+    Parameters
+    ----------
+    cuts : first frames of all pieces but the first, ascending
+    clusters : one number per piece, so one more than cuts; equal numbers are
+        equal movements. A method that finds no clusters numbers the pieces.
+    n_frames : length of the recording
+    objective : what the method minimised, nan where it minimises nothing
+    """
+
+    cuts: Ints
+    clusters: Ints
+    n_frames: int
+    objective: float = float("nan")
+
+    @property
+    def starts(self) -> Ints:
+        """First frame of each piece."""
+        return np.concatenate([[0], self.cuts])
+
+    @property
+    def stops(self) -> Ints:
+        """One past the last frame of each piece."""
+        return np.concatenate([self.cuts, [self.n_frames]])
+
+    def per_frame(self) -> Ints:
+        """The cluster of every frame."""
+        return np.repeat(self.clusters, self.stops - self.starts)
+
+
+def unclustered(cuts: list[int] | Ints, n_frames: int) -> Pieces:
+    """Pieces of a method that finds cuts only: each is a cluster of its own."""
+    return Pieces(np.asarray(cuts, np.int64), np.arange(len(cuts) + 1), n_frames)
