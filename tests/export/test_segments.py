@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.export import read_segments, write_segments

@@ -148,9 +148,10 @@ def component_labels(
     pairs that share the label of pair (0, 0) lie on the main diagonal's.
     """
     indptr = graph.indptr
-    return _path_kernels.component_roots(
+    labels: NDArray[np.int32] = _path_kernels.component_roots(
         graph.indices, indptr[:-1], indptr, _as_steps(steps), 0, graph.n_columns
     )
+    return labels
 
 
 def _as_steps(steps: Sequence[Step]) -> NDArray[np.int64]:

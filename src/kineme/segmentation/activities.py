@@ -60,13 +60,13 @@ def square_cuts(
     min_distance : frames; of two peaks no farther apart the higher stays
     """
     n = len(graph)
-    pairs = _kernels.group_pairs(graph.indptr, graph.indices, True)
-    counts = _kernels.grow_squares_forward(*pairs, min_gap, min_count)
+    indptr, earlier = _kernels.group_pairs(graph.indptr, graph.indices, True)
+    counts = _kernels.grow_squares_forward(indptr, earlier, min_gap, min_count)
     forward = _peaks(counts, min_count, min_distance)
     mask = np.zeros(n, np.bool_)
     mask[forward] = True
-    pairs = _kernels.group_pairs(graph.indptr, graph.indices, False)
-    counts = _kernels.grow_squares_backward(*pairs, mask, min_gap, min_count)
+    indptr, later = _kernels.group_pairs(graph.indptr, graph.indices, False)
+    counts = _kernels.grow_squares_backward(indptr, later, mask, min_gap, min_count)
     backward = np.minimum(_peaks(counts, min_count, min_distance) + min_gap, n - 1)
     return ActivityCuts(forward, backward)
 

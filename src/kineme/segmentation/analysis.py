@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from math import ceil
 
@@ -167,7 +167,7 @@ def _separation(preset: Preset) -> int | None:
 
 def _stopwatch(
     timings: dict[str, float], progress: Progress | None
-) -> Callable[[str], contextmanager]:
+) -> Callable[[str], AbstractContextManager[None]]:
     @contextmanager
     def stage(name: str) -> Iterator[None]:
         if progress is not None:

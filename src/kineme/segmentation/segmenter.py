@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kineme._version import __version__
 from kineme.features import (
@@ -106,7 +106,7 @@ def _table(
     parents = np.searchsorted(analysis.blocks, analysis.segments[:-1], side="right") - 1
     clusters = _cluster_numbers(analysis, parents)
     kinds = np.where(analysis.repeats, "activity", "transition")
-    columns = {
+    columns: dict[str, ArrayLike] = {
         "level": ["activity"] * len(kinds) + ["primitive"] * len(parents),
         "kind": np.concatenate([kinds, kinds[parents]]),
         "start_frame": np.concatenate([blocks[:-1], segments[:-1]]),
@@ -114,6 +114,9 @@ def _table(
         "cluster": np.concatenate([_main_clusters(clusters, parents, np.diff(segments)), clusters]),
         "score": np.concatenate([analysis.repetition, analysis.clustering.scores]),
     }
+    # at low frame rates two borders may fall on the same frame
+    full = columns["start_frame"] < columns["stop_frame"]
+    columns = {name: np.asarray(column)[full] for name, column in columns.items()}
     return Segmentation.from_columns(
         columns, n_frames=motion.n_frames, fps=motion.fps, provenance=provenance, timings=timings
     )
@@ -122,7 +125,7 @@ def _table(
 def _source_frames(
     borders: NDArray[np.int64], ratio: float, n_frames: int
 ) -> NDArray[np.int64]:
-    frames = np.rint(borders * ratio).astype(np.int64)
+    frames: NDArray[np.int64] = np.rint(borders * ratio).astype(np.int64)
     frames[-1] = n_frames
     return frames
 
