@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from kineme._version import __version__
 from kineme.features import (
@@ -106,8 +106,8 @@ def _table(
     parents = np.searchsorted(analysis.blocks, analysis.segments[:-1], side="right") - 1
     clusters = _cluster_numbers(analysis, parents)
     kinds = np.where(analysis.repeats, "activity", "transition")
-    columns: dict[str, ArrayLike] = {
-        "level": ["activity"] * len(kinds) + ["primitive"] * len(parents),
+    columns: dict[str, NDArray[Any]] = {
+        "level": np.repeat(["activity", "primitive"], [len(kinds), len(parents)]),
         "kind": np.concatenate([kinds, kinds[parents]]),
         "start_frame": np.concatenate([blocks[:-1], segments[:-1]]),
         "stop_frame": np.concatenate([blocks[1:], segments[1:]]),
@@ -116,9 +116,12 @@ def _table(
     }
     # at low frame rates two borders may fall on the same frame
     full = columns["start_frame"] < columns["stop_frame"]
-    columns = {name: np.asarray(column)[full] for name, column in columns.items()}
     return Segmentation.from_columns(
-        columns, n_frames=motion.n_frames, fps=motion.fps, provenance=provenance, timings=timings
+        {name: column[full] for name, column in columns.items()},
+        n_frames=motion.n_frames,
+        fps=motion.fps,
+        provenance=provenance,
+        timings=timings,
     )
 
 
