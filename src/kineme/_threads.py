@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from itertools import pairwise
 from typing import TypeVar
 
 Item = TypeVar("Item")
@@ -22,7 +23,7 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
 def even_slices(n: int) -> list[slice]:
     """``range(n)`` in pieces of like size, a few for each core."""
     edges = [n * part // (2 * n_threads()) for part in range(2 * n_threads() + 1)]
-    return [slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True) if a < b]
+    return [slice(a, b) for a, b in pairwise(edges) if a < b]
 
 
 @cache
@@ -38,3 +39,7 @@ def n_threads() -> int:
 @cache
 def _pool() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(n_threads(), thread_name_prefix="kineme")
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_pool.cache_clear)  # threads do not survive a fork

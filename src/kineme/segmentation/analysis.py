@@ -80,7 +80,8 @@ def analyze(features: ArrayLike, preset: Preset, *, progress: Progress | None = 
         repeats = _repeats(blocks, cuts, np.add.reduceat(inner, blocks[:-1]), preset)
         repetition = np.add.reduceat(inner > 0, blocks[:-1]) / np.diff(blocks)
     with stage("primitives"):
-        segments = _borders(np.concatenate([blocks, *_primitives(graph, blocks, preset)]), len(graph))
+        cuts_inside = _primitives(graph, blocks, preset)
+        segments = _borders(np.concatenate([blocks, *cuts_inside]), len(graph))
     with stage("clusters"):
         clustering = _clusters(graph, segments, preset)
     return Analysis(graph, cuts, blocks, repeats, repetition, segments, clustering, timings)
@@ -117,7 +118,9 @@ def _borders(cuts: Frames, n: int) -> Frames:
     return np.concatenate([[0], inner[(inner > 0) & (inner < n - 1)], [n]])
 
 
-def _repeats(blocks: Frames, cuts: ActivityCuts, pairs: Frames, preset: Preset) -> NDArray[np.bool_]:
+def _repeats(
+    blocks: Frames, cuts: ActivityCuts, pairs: Frames, preset: Preset
+) -> NDArray[np.bool_]:
     """Blocks that repeat themselves; those from an end to the next start do not."""
     ends_only = np.isin(blocks[:-1], cuts.forward) & ~np.isin(blocks[:-1], cuts.backward)
     return (pairs > preset.growth_count) & ~(ends_only & np.isin(blocks[1:], cuts.backward))

@@ -1,0 +1,133 @@
+"""From a motion to its segments: what a recording may be, and what changes no cut."""
+
+from __future__ import annotations
+
+import multiprocessing
+import sys
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kineme.datasets import random_recording
+from kineme.errors import ParameterError
+from kineme.motion import Motion
+from kineme.operations import cut, move, resample, turn
+from kineme.segmentation.presets import PRESETS
+from kineme.segmentation.result import Segmentation
+from kineme.segmentation.segmenter import segment, segment_and_analysis
+
+presets = pytest.mark.parametrize("preset", PRESETS)
+few = settings(deadline=None, max_examples=5)
+
+
+@cache
+def recording(seed: int) -> Motion:
+    return random_recording(seed).motion
+
+
+@cache
+def found_in(seed: int, preset: str) -> Segmentation:
+    return segment(recording(seed), preset=preset)
+
+
+def still(motion: Motion, frames: int) -> Motion:
+    """The first pose, held."""
+    return Motion(motion.skeleton, np.repeat(motion.positions[:1], frames, axis=0), motion.fps)
+
+
+def growing(motion: Motion, frames: int) -> Motion:
+    """A body that grows all the time and so never looks as it did."""
+    held = still(motion, frames)
+    return replace(held, positions=held.positions * np.linspace(1, 80, frames)[:, None, None])
+
+
+def assert_one_segment(found: Segmentation, n_frames: int) -> None:
+    for level in (found.activities, found.primitives):
+        assert [(row.start_frame, row.stop_frame) for row in level] == [(0, n_frames)]
+
+
+@presets
+@given(st.integers(0, 2), st.floats(-7, 7), st.tuples(*[st.floats(-500, 500)] * 3))
+@few
+def test_moving_and_turning_a_recording_changes_no_cut(preset, seed, angle, offset) -> None:
+    moved = segment(move(turn(recording(seed), angle), offset), preset=preset)
+    expected = found_in(seed, preset)
+    for level in ("activities", "primitives"):
+        rows, wanted = getattr(moved, level), getattr(expected, level)
+        np.testing.assert_array_equal(rows.start_frame, wanted.start_frame)
+        np.testing.assert_array_equal(rows.cluster, wanted.cluster)
+        np.testing.assert_array_equal(rows.kind, wanted.kind)
+
+
+@presets
+@pytest.mark.parametrize("n_frames", [1, 2, 5, 40])
+def test_a_short_recording_is_one_segment(preset: str, n_frames: int) -> None:
+    assert_one_segment(segment(cut(recording(0), 0, n_frames), preset=preset), n_frames)
+
+
+@presets
+@pytest.mark.parametrize("n_frames", [1, 100, 1200, 5000])
+def test_a_pose_that_is_held_is_one_segment(preset: str, n_frames: int) -> None:
+    assert_one_segment(segment(still(recording(0), n_frames), preset=preset), n_frames)
+
+
+@presets
+def test_what_never_repeats_is_one_transition(preset: str) -> None:
+    found = segment(growing(recording(0), 4000), preset=preset)
+    assert_one_segment(found, 4000)
+    assert found.activities[0].kind == "transition"
+    assert found.activities[0].cluster == -1
+
+
+@presets
+@pytest.mark.parametrize("fps", [5.0, 12.5, 29.97, 59.94])
+def test_segments_tile_at_any_frame_rate(preset: str, fps: float) -> None:
+    for seed in range(2):
+        motion = resample(recording(seed), fps)
+        found = segment(motion, preset=preset)
+        for level in (found.activities, found.primitives):
+            assert level.start_frame[0] == 0
+            assert level.stop_frame[-1] == motion.n_frames
+            assert (level.start_frame < level.stop_frame).all()
+            np.testing.assert_array_equal(level.stop_frame[:-1], level.start_frame[1:])
+        assert set(found.activities.start_frame) <= set(found.primitives.start_frame)
+
+
+@presets
+def test_cuts_are_those_of_the_analysis_in_frames_of_the_source(preset: str) -> None:
+    motion = recording(1)
+    found, analysis = segment_and_analysis(motion, PRESETS[preset])
+    assert motion.fps == 120
+    np.testing.assert_array_equal(found.activities.start_frame, 4 * analysis.blocks[:-1])
+    np.testing.assert_array_equal(found.primitives.start_frame, 4 * analysis.segments[:-1])
+    np.testing.assert_allclose(found.primitives.start_s, analysis.segments[:-1] / 30)
+    np.testing.assert_array_equal(found.activities.kind == "activity", analysis.repeats)
+
+
+def test_provenance_says_how_it_was_made() -> None:
+    found = segment(cut(recording(0), 0, 90), radius=0.5)
+    assert found.provenance["preset"] == "voegele2014"
+    assert found.provenance["parameters"]["radius"] == 0.5
+    assert any("end effectors" in note for note in found.provenance["notes"])
+    assert [*found.timings] == ["features", "neighbors", "activities", "primitives", "clusters"]
+
+
+def test_an_unknown_constant_is_refused() -> None:
+    with pytest.raises(ParameterError, match="no parameter 'radios'; there are"):
+        segment(recording(0), radios=0.5)
+
+
+def _segment_in_child(seed: int) -> list[int]:
+    return segment(recording(seed), preset="krueger2017").primitives.start_frame.tolist()
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no fork")
+def test_a_forked_process_segments_as_well() -> None:
+    expected = found_in(0, "krueger2017").primitives.start_frame.tolist()
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        assert pool.apply_async(_segment_in_child, (0,)).get(timeout=20) == expected
