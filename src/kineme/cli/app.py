@@ -7,7 +7,9 @@ from typing import Annotated
 import typer
 
 from kineme._version import __version__
+from kineme.cli.data import data
 from kineme.cli.demo import demo
+from kineme.cli.evaluate import evaluate
 from kineme.cli.info import info
 from kineme.cli.preset_options import with_preset_options
 from kineme.cli.segment import segment
@@ -22,6 +24,8 @@ app = typer.Typer(
 app.command()(with_preset_options(segment))
 app.command()(info)
 app.command()(demo)
+app.command()(evaluate)
+app.command()(data)
 
 
 def _show_version(wanted: bool) -> None:

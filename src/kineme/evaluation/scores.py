@@ -20,7 +20,12 @@ from kineme.evaluation.frames import (
 )
 from kineme.evaluation.labelling import TRANSITION, Annotation, Labelling
 from kineme.evaluation.paper import majority_accuracy, strict_and_tolerant
-from kineme.evaluation.variance import feature_variance, overall, point_cloud_variance
+from kineme.evaluation.variance import (
+    feature_variance,
+    length_variance,
+    overall,
+    point_cloud_variance,
+)
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.table import SegmentTable
 
@@ -44,7 +49,8 @@ def evaluate(
     over true. ``count_error``, ``count_exact`` appear where the truth knows
     counts, ``cloud_distance``, ``cloud_variance`` (metres) with positions,
     ``feature_distance``, ``feature_variance`` with features: smaller is
-    better, 0 is best, ``count_exact`` apart.
+    better, 0 is best, ``count_exact`` apart. ``length_mean`` and
+    ``length_variance`` (seconds) describe the clusters and judge nothing.
 
     Parameters
     ----------
@@ -77,6 +83,7 @@ def evaluate(
     scores["cluster_ratio"] = cluster_ratio(truth, clusters)
     if any(count is not None for count in truth.counts):
         scores["count_error"], scores["count_exact"] = count_errors(truth, units)
+    scores["length_mean"], scores["length_variance"] = length_variance(units)
     if positions is not None:
         clouds = point_cloud_variance(positions, units)
         scores["cloud_distance"], scores["cloud_variance"] = overall(clouds)

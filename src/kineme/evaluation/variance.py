@@ -99,6 +99,21 @@ def overall(clusters: list[ClusterVariance]) -> tuple[float, float]:
     )
 
 
+def length_variance(found: Labelling) -> tuple[float, float]:
+    """Mean length in seconds, and mean variance of lengths, over the clusters as in `overall`."""
+    lengths: dict[str, list[float]] = {}
+    for label, frames in zip(found.labels, np.diff(found.borders), strict=True):
+        if label != TRANSITION:
+            lengths.setdefault(label, []).append(frames / found.fps)
+    shared = [seconds for seconds in lengths.values() if len(seconds) > 1]
+    if not shared:
+        return float("nan"), float("nan")
+    return (
+        float(np.mean([np.mean(seconds) for seconds in shared])),
+        float(np.mean([np.var(seconds, ddof=1) for seconds in shared])),
+    )
+
+
 def cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -> Floats:
     """``d[i, j]``: point clouds around frame i of ``rows`` and frame j of ``columns``, metres.
 

@@ -1,0 +1,145 @@
+"""``kineme data``: public recordings, fetched into a cache."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from kineme.cli.messages import Failures
+from kineme.cli.reading import Quiet
+
+if TYPE_CHECKING:
+    from kineme.datasets.cmu import Fetched
+    from kineme.datasets.download import Progress
+
+MEGABYTE = 1e6
+
+
+class Database(StrEnum):
+    """What can be fetched."""
+
+    CMU = "cmu"
+
+
+def data(
+    database: Annotated[  # noqa: ARG001 (there is one so far)
+        Database, typer.Argument(help="The CMU Graphics Lab Motion Capture Database.")
+    ],
+    subject: Annotated[int, typer.Argument(min=1, help="Number of the subject, such as 86.")],
+    trials: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NUMBER,NUMBER,…",
+            help="Trials to fetch, such as 1,2,9-11; by default from 1 up to the first that "
+            "does not exist.",
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Folder to keep the files in, instead of the cache."),
+    ] = None,
+    site: Annotated[str | None, typer.Option(envvar="KINEME_CMU_SITE", hidden=True)] = None,
+    annotations: Annotated[
+        str | None, typer.Option(envvar="KINEME_CMU_ANNOTATIONS", hidden=True)
+    ] = None,
+    timeout: Annotated[
+        float, typer.Option(help="Seconds of silence after which a connection is tried again.")
+    ] = 30.0,
+    quiet: Quiet = False,
+) -> None:
+    """Fetch recordings from their own site, for `kineme evaluate` and to try things on.
+
+    What broke off is continued; what is there already is checked and kept.
+    """
+    numbers = _numbers(trials)
+    from kineme.datasets.cmu import ANNOTATIONS, SITE, fetch_subject
+
+    failures = Failures()
+    start = time.perf_counter()
+    files: list[Fetched] = []
+    with failures.caught(f"subject {subject}"), _bars(quiet=quiet) as (shown, say):
+        for file in fetch_subject(
+            subject,
+            numbers,
+            folder=output,
+            progress=shown,
+            site=site or SITE,
+            annotations=annotations or ANNOTATIONS,
+            timeout_s=timeout,
+        ):
+            files.append(file)
+            say(_line(file))
+    if files and not quiet:
+        typer.echo(_summary(files, time.perf_counter() - start))
+    failures.exit()
+
+
+def _numbers(text: str | None) -> list[int] | None:
+    """``1,2,9-11`` as numbers."""
+    if text is None:
+        return None
+    found: list[int] = []
+    for part in text.split(","):
+        first, _, last = part.strip().partition("-")
+        try:
+            found += range(int(first), int(last or first) + 1)
+        except ValueError as error:
+            reason = f"{part!r} is not a number or a range"
+            raise typer.BadParameter(reason, param_hint="--trials") from error
+    if not found or min(found) < 1:
+        raise typer.BadParameter(f"{text!r} names no trial", param_hint="--trials")
+    return found
+
+
+@contextmanager
+def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], None]]]:
+    """What shows the progress of a file, and what prints a line above it."""
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        DownloadColumn,
+        TaskID,
+        TransferSpeedColumn,
+    )
+    from rich.progress import (
+        Progress as Bars,
+    )
+
+    console = Console(stderr=True, highlight=False)
+    if quiet:
+        yield None, lambda _: None
+        return
+    if not console.is_terminal:
+        yield None, lambda line: typer.echo(line, err=True)
+        return
+    columns = "[progress.description]{task.description}", BarColumn(), DownloadColumn()
+    with Bars(*columns, TransferSpeedColumn(), console=console, transient=True) as bars:
+        tasks: dict[str, TaskID] = {}
+
+        def show(name: str, done: int, total: int | None) -> None:
+            if name not in tasks:
+                tasks[name] = bars.add_task(name, total=total)
+            bars.update(tasks[name], completed=done, total=total, visible=done != total)
+
+        yield show, console.print
+
+
+def _line(file: Fetched) -> str:
+    length = "" if file.frames is None else f"{file.frames} frames, "
+    how = "fetched" if file.new else "there already"
+    return f"{file.path.name}: {length}{file.size / MEGABYTE:.1f} MB, {how}"
+
+
+def _summary(files: list[Fetched], seconds: float) -> str:
+    new = [file for file in files if file.new]
+    size = sum(file.size for file in new) / MEGABYTE
+    return (
+        f"{len(files)} files in {files[0].path.parent}: {len(new)} fetched, {size:.1f} MB, "
+        f"{seconds:.1f} s"
+    )

@@ -1,0 +1,49 @@
+"""Scores as tables for people: one per trial, and the means."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from kineme.evaluation.benchmark import Result, mean_scores
+from kineme.evaluation.tables import score_rows
+
+Scores = Mapping[str, float]
+
+NARROW = 80
+
+
+def show_results(results: Sequence[Result]) -> None:
+    """Print one table per trial, methods as columns, and the means over the trials."""
+    by_trial: dict[str, dict[str, Scores]] = {}
+    for result in results:
+        by_trial.setdefault(result.trial.name, {})[result.method] = result.scores
+    for trial, columns in by_trial.items():
+        _show(trial, columns)
+    if len(by_trial) > 1:
+        _show(f"mean of {len(by_trial)} trials", mean_scores(results))
+
+
+def show_one(name: str, scores: Scores) -> None:
+    """Print the scores of a single result."""
+    _show(name, {"score": scores})
+
+
+def _show(title: str, columns: Mapping[str, Scores]) -> None:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    table.add_column("", no_wrap=True)
+    for name in columns:
+        table.add_column(name, justify="right", overflow="fold")
+    for group, rows in score_rows(columns):
+        table.add_row(Text(group, style="bold"))
+        for name, cells in rows:
+            table.add_row(f"  {name}", *cells)
+    console = Console(highlight=False)
+    if not console.is_terminal:  # a file has no edge: keep the columns whole
+        console = Console(highlight=False, width=max(NARROW, 28 + 14 * len(columns)))
+    console.print(Text(title, style="bold"))
+    console.print(table)

@@ -1,0 +1,166 @@
+"""The paper's figures and tables, made anew by one call (``kineme evaluate cmu86 --figures``)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from kineme._files import atomic_write
+from kineme.evaluation.benchmark import (
+    PublishedCuts,
+    Result,
+    mean,
+    mean_scores,
+    score_published_cuts,
+)
+from kineme.evaluation.labelling import Labelling
+from kineme.evaluation.paper import strict_and_tolerant
+from kineme.evaluation.reoccurrence import Recording, share_of_poses, survey
+from kineme.evaluation.tables import markdown, markdown_scores, shown
+from kineme.evaluation.trials import FPS, Trial
+
+UNIFORM_FRAMES = (36, 15, 5)
+
+
+def make_figures(
+    results: Sequence[Result],
+    data: Path,
+    folder: Path,
+    *,
+    progress: Callable[[str], None] | None = None,
+) -> dict[str, str]:
+    """Markdown tables by name, also in ``tables.md`` beside the pictures this leaves in ``folder``.
+
+    Parameters
+    ----------
+    results : of all methods and trials that the figures are to show
+    data : folder of the benchmark; recordings beside it are surveyed, too
+    folder : where to, made beforehand
+    progress : called with the name of each figure before it is made
+
+    Raises
+    ------
+    WriteError : the folder cannot be written to
+    """
+    from kineme.evaluation.figures import (
+        accuracy,
+        bars,
+        matrix,
+        reoccurrence,
+        sensitivity,
+        timing,
+        variance,
+    )
+
+    say = progress or (lambda _: None)
+    trials = list(dict.fromkeys(r.trial for r in results))
+    say("segments")
+    bars.plot_bars(results, folder / "segments.png")
+    say("accuracies")
+    accuracy.plot_accuracies(results, folder / "accuracies.png")
+    published = _published(data)
+    if published:
+        accuracy.plot_published_cuts(published, folder / "published_cuts.png")
+    say("variances")
+    clusters = variance.measure([r for r in results if r.method in variance.METHODS])
+    if clusters:
+        variance.plot_by_class(clusters, folder / "variances.png")
+        variance.plot_spread(clusters, folder / "distances.png")
+    say("timings")
+    timing.plot_timings(trials, folder / "timings.png")
+    timing.plot_growth(trials, folder / "growth.png")
+    say("sensitivity")
+    sensitivity.plot_sensitivity(trials, folder / "sensitivity.png")
+    say("self-similarity")
+    matrix.plot_regions(trials[0], folder / "regions.png")
+    matrix.plot_paths(trials[0], folder / "paths.png")
+    say("recordings whose poses reoccur")
+    recordings = survey(_recordings(data))
+    reoccurrence.plot_reoccurrence(recordings, folder / "reoccurrence.png")
+    tables = make_tables(results, published, recordings)
+    with atomic_write(folder / "tables.md") as draft:
+        text = "\n".join(f"## {title}\n\n{table}" for title, table in tables.items())
+        draft.write_text(text, encoding="utf-8")
+    return tables
+
+
+def make_tables(
+    results: Sequence[Result],
+    published: Sequence[PublishedCuts],
+    recordings: Sequence[Recording],
+) -> dict[str, str]:
+    """Every table of the results as Markdown, by title."""
+    trials = list(dict.fromkeys(r.trial for r in results))
+    tables = {"means": markdown_scores(mean_scores(results))}
+    for trial in trials:
+        own = {r.method: r.scores for r in results if r.trial is trial}
+        tables[trial.name] = markdown_scores(own)
+    tables["uniform cuts"] = _uniform_table(trials)
+    if published:
+        tables["published cuts"] = _published_table(published)
+    tables["reoccurrence"] = _reoccurrence_table(recordings)
+    return tables
+
+
+def _uniform_table(trials: Sequence[Trial]) -> str:
+    rows = []
+    for step in UNIFORM_FRAMES:
+        scores = []
+        for trial in trials:
+            cuts = np.arange(step, trial.truth.frames, step)
+            found = Labelling.from_cuts(cuts, frames=trial.truth.frames, fps=trial.truth.fps)
+            scores.append(strict_and_tolerant(trial.truth, found))
+        strict, tolerant = np.mean(scores, axis=0)
+        rows.append([f"{step / FPS:.2f} s", shown(strict), shown(tolerant)])
+    return markdown(["a cut every", "strict", "tolerant"], rows)
+
+
+def _published_table(found: Sequence[PublishedCuts]) -> str:
+    names = ("strict", "tolerant")
+    rows = []
+    for method in ("aca", "haca"):
+        own = [p for p in found if p.method == method]
+        lines = [(p.trial, p.scores, p.printed) for p in own]
+        lines.append(("**mean**", mean([p.scores for p in own]), mean([p.printed for p in own])))
+        for trial, scores, printed in lines:
+            cells = [shown(scores[n]) for n in names] + [shown(printed[n]) for n in names]
+            cells += [f"{printed[n] - scores[n]:+.3f}" for n in names]
+            cells += [
+                shown(scores.get(n, np.nan)) or "–" for n in ("one_to_one", "one_to_one_agreed")
+            ]
+            rows.append([f"{method.upper()} {trial}", *cells])
+    header = [
+        "", "strict", "tolerant", "printed strict", "printed tolerant", "gap strict",
+        "gap tolerant", "one to one", "one to one, agreed",
+    ]  # fmt: skip
+    return markdown(header, rows)
+
+
+def _reoccurrence_table(recordings: Sequence[Recording]) -> str:
+    if not recordings:
+        return "No recording is longer than 8 s.\n"
+    mostly = float(np.mean([r.share >= 0.5 for r in recordings]))
+    rows = [
+        ["recordings longer than 8 s", str(len(recordings))],
+        ["poses that reoccur, of all poses", f"{share_of_poses(recordings):.1%}"],
+        ["poses that reoccur, mean over recordings",
+         f"{float(np.mean([r.share for r in recordings])):.1%}"],
+        ["recordings in which at least half of the poses reoccur", f"{mostly:.1%}"],
+    ]  # fmt: skip
+    return markdown(["", "share"], rows)
+
+
+def _published(data: Path) -> list[PublishedCuts]:
+    return score_published_cuts(data) if (data / "published.json").is_file() else []
+
+
+def _recordings(data: Path) -> Iterable[Path]:
+    """The recordings of the benchmark, and those beside its folder if it is one of several.
+
+    Of a take that is there in two formats, the AMC.
+    """
+    root = data.parent if (data.name == "cmu86" and data.parent.name != "") else data
+    found = sorted([*root.rglob("*.bvh"), *root.rglob("*.amc")], key=lambda path: path.suffix)
+    return sorted({path.stem: path for path in reversed(found)}.values())

@@ -1,0 +1,171 @@
+"""The self-similarity matrix, and how activities and primitives come out of it.
+
+`plot_regions` is figure 2 of Vögele, Krüger, Klein 2014: the matrix with the
+truth; without its main diagonal, with the regions grown forward and backward;
+and what they cut. `plot_paths` is its figure 3: one activity, its connected
+components, and the cheapest warping paths that hold.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from kineme._colors import PALETTE
+from kineme.evaluation.figures.style import BETWEEN, heading, new_figure, save
+from kineme.evaluation.labelling import TRANSITION, Annotation
+from kineme.evaluation.trials import Trial
+from kineme.graph import NeighborGraph, component_labels, warping_paths
+from kineme.plot import SHADES, similarity_image
+from kineme.segmentation.analysis import Analysis
+from kineme.segmentation.presets import PRESETS, Preset
+from kineme.segmentation.segmenter import segment_and_analysis
+
+FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
+
+
+def plot_regions(trial: Trial, path: Path, preset: Preset = PRESETS["voegele2014"]) -> Path:
+    """Truth, forward regions, backward regions and activities in one matrix each."""
+    _, analysis = segment_and_analysis(trial.motion, preset)
+    n, fps = len(analysis.graph), preset.working_fps
+    figure = new_figure(9.2, 9.2)
+    panels = figure.subplots(2, 2).ravel()
+    off_diagonal = _growth_pairs(analysis, preset)
+    for axes, graph in zip(
+        panels, (analysis.graph, off_diagonal, off_diagonal, analysis.graph), strict=True
+    ):
+        _draw_matrix(axes, graph, n / fps)
+    _draw_truth(panels[0], trial.truth)
+    cuts = analysis.activity_cuts
+    _draw_squares(panels[1], np.concatenate([[0], cuts.forward]) / fps, FORWARD)
+    _draw_squares(panels[2], np.concatenate([cuts.backward, [n]]) / fps, BACKWARD)
+    spans = analysis.blocks / fps
+    for repeats, start, stop in zip(analysis.repeats, spans[:-1], spans[1:], strict=True):
+        _draw_squares(panels[3], np.array([start, stop]), FINAL if repeats else BETWEEN)
+    for axes, text in zip(
+        panels,
+        (
+            f"{trial.name}: neighbours, and what people say",
+            "regions grown forward: their ends end activities",
+            "regions grown backward: their starts start activities",
+            "activities (green), transitions (dark)",
+        ),
+        strict=True,
+    ):
+        heading(axes, text)
+    return save(figure, path)
+
+
+def plot_paths(trial: Trial, path: Path, preset: Preset = PRESETS["voegele2014"]) -> Path:
+    """The longest activity: matrix, connected components, warping paths."""
+    found, analysis = segment_and_analysis(trial.motion, preset)
+    lengths = np.diff(analysis.blocks) * analysis.repeats
+    first, stop = analysis.blocks[lengths.argmax() :][:2].tolist()
+    graph, fps = analysis.graph, preset.working_fps
+    labels = component_labels(graph, steps=preset.steps)
+    figure = new_figure(9.2, 3.5)
+    panels = figure.subplots(1, 3)
+    block = _block(graph, graph.distances, first, stop)
+    shades = SHADES(np.where(np.isnan(block), 0, 1 - 0.85 * block / graph.radius))
+    groups = _component_colors(_block(graph, labels.astype(float), first, stop))
+    extent = (first / fps, stop / fps, stop / fps, first / fps)
+    for axes, image in zip(panels, (shades, groups, shades), strict=True):
+        axes.imshow(image, extent=extent, interpolation="nearest")
+        axes.tick_params(labelsize=7, length=2)
+    paths = warping_paths(
+        graph,
+        (first, stop),
+        (first, stop),
+        steps=preset.steps,
+        skip_penalty=preset.skip_penalty * preset.radius,
+        zero_cost=preset.zero_cost,
+        min_nodes=max(2, preset.frames(preset.min_path)),
+        max_slope=preset.max_slope,
+    )
+    lines = [np.column_stack([columns, rows]) / fps for rows, columns in paths]
+    panels[2].add_collection(LineCollection(lines, colors="#D62728", linewidths=1.3))
+    inside = found.primitives.start_s
+    for second in inside[(inside > first / fps) & (inside < stop / fps)]:
+        panels[2].axvline(second, color=FINAL, linewidth=0.8, linestyle="--")
+    for axes, text in zip(
+        panels,
+        (
+            f"{trial.name}, {first / fps:.1f} to {stop / fps:.1f} s",
+            "connected components",
+            "warping paths; cuts (dashed)",
+        ),
+        strict=True,
+    ):
+        heading(axes, text)
+    return save(figure, path)
+
+
+def _growth_pairs(analysis: Analysis, preset: Preset) -> NeighborGraph:
+    """The pairs that regions count, with the band as main diagonal."""
+    graph = analysis.graph
+    if preset.growth_neighbors is not None:
+        graph = graph.nearest(preset.growth_neighbors)
+    lag = preset.frames(preset.diagonal_width)
+    return graph.restrict(radius=preset.growth_radius, min_lag=lag)
+
+
+def _draw_matrix(axes: Axes, graph: NeighborGraph, seconds: float) -> None:
+    axes.imshow(
+        similarity_image(graph, 900), cmap=SHADES, vmin=0, vmax=1,
+        extent=(0, seconds, seconds, 0), interpolation="antialiased",
+    )  # fmt: skip
+    axes.tick_params(labelsize=7, length=2)
+
+
+def _draw_squares(axes: Axes, borders: NDArray[np.float64], color: str) -> None:
+    boxes = [
+        Rectangle((start, start), stop - start, stop - start)
+        for start, stop in pairwise(borders.tolist())
+    ]
+    axes.add_collection(PatchCollection(boxes, facecolor="none", edgecolor=color, linewidth=1.5))
+
+
+def _draw_truth(axes: Axes, truth: Annotation) -> None:
+    whole = truth.labelling()
+    for label, start, stop in zip(whole.labels, whole.starts, whole.stops, strict=True):
+        first, last = start / whole.fps, stop / whole.fps
+        if label == TRANSITION:
+            for draw in (axes.axvspan, axes.axhspan):
+                draw(first, last, color=FORWARD, alpha=0.25, linewidth=0)
+        else:
+            axes.text(
+                *(first, last, f" {label} "), fontsize=7, color=FINAL, ha="left", va="bottom",
+                bbox={"facecolor": "white", "alpha": 0.75, "linewidth": 0, "pad": 0.5},
+            )  # fmt: skip
+
+
+def _block(
+    graph: NeighborGraph, values: NDArray[np.floating], first: int, stop: int
+) -> NDArray[np.float64]:
+    """The values of a square of the matrix; nan where nothing is stored."""
+    image = np.full((stop - first, stop - first), np.nan)
+    for row in range(first, stop):
+        entries = slice(graph.indptr[row], graph.indptr[row + 1])
+        columns = graph.indices[entries]
+        inside = (columns >= first) & (columns < stop)
+        image[row - first, columns[inside] - first] = values[entries][inside]
+    return image
+
+
+def _component_colors(labels: NDArray[np.float64]) -> NDArray[np.float64]:
+    """One colour of the palette per component, the largest first; small ones grey."""
+    stored = ~np.isnan(labels)
+    names, counts = np.unique(labels[stored], return_counts=True)
+    image = np.ones((*labels.shape, 3))
+    image[stored] = to_rgb("#D5D7DC")
+    shown = names[np.argsort(-counts, kind="stable")][: 2 * len(PALETTE)]
+    for i, name in enumerate(shown):
+        image[labels == name] = to_rgb(PALETTE[i % len(PALETTE)])
+    return image

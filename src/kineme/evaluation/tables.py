@@ -1,0 +1,137 @@
+"""Scores as tables: in which order, under which names, and as JSON, CSV or Markdown.
+
+nan, which a score is where it cannot be had, is empty in CSV and Markdown and
+null in JSON.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from kineme._files import atomic_write
+from kineme._version import __version__
+from kineme.errors import WriteError
+
+if TYPE_CHECKING:
+    from kineme.evaluation.benchmark import Result
+
+GROUPS: Mapping[str, Mapping[str, str]] = {
+    "published protocols": {
+        "strict": "strict",
+        "tolerant": "tolerant",
+        "majority": "majority",
+        "majority_agreed": "majority, agreed",
+    },
+    "fair": {
+        "one_to_one": "one to one",
+        "one_to_one_agreed": "one to one, agreed",
+        "rand_index": "adjusted Rand",
+        "mutual_information": "mutual information",
+        "border_precision": "border precision",
+        "border_recall": "border recall",
+        "border_f1": "border F1",
+        "covering": "covering",
+    },
+    "found / true": {
+        "border_ratio": "borders",
+        "cut_ratio": "cuts",
+        "cluster_ratio": "clusters",
+    },
+    "repetitions": {"count_error": "count error", "count_exact": "counted exactly"},
+    "within clusters": {
+        "cloud_distance": "cloud distance, m",
+        "cloud_variance": "cloud variance, m²",
+        "feature_distance": "feature distance, m",
+        "feature_variance": "feature variance, m²",
+        "length_mean": "length, s",
+        "length_variance": "length variance, s²",
+    },
+    "cost": {"seconds": "seconds"},
+}
+OUTPUTS = (".json", ".csv")
+
+
+def score_rows(
+    columns: Mapping[str, Mapping[str, float]],
+) -> list[tuple[str, list[tuple[str, list[str]]]]]:
+    """Groups of rows ready to print: a group's title, and per row its name and cells.
+
+    Parameters
+    ----------
+    columns : scores by column title; scores that no column has are left out
+    """
+    groups = []
+    for group, names in GROUPS.items():
+        rows = [
+            (title, [shown(scores.get(name, math.nan)) for scores in columns.values()])
+            for name, title in names.items()
+            if any(name in scores for scores in columns.values())
+        ]
+        if rows:
+            groups.append((group, rows))
+    return groups
+
+
+def shown(value: float) -> str:
+    """A score with three digits behind the point, empty for nan."""
+    return f"{value:.3f}" if math.isfinite(value) else ""
+
+
+def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A Markdown table whose first column is left-aligned, the others right."""
+    lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def markdown_scores(columns: Mapping[str, Mapping[str, float]]) -> str:
+    """The table of `score_rows`, groups in bold."""
+    rows: list[list[str]] = []
+    for group, lines in score_rows(columns):
+        rows.append([f"**{group}**", *[""] * len(columns)])
+        rows += [[title, *cells] for title, cells in lines]
+    return markdown(["", *columns], rows)
+
+
+def as_records(results: Sequence[Result]) -> list[dict[str, Any]]:
+    """One record per trial and method, then one per method with the means (trial ``mean``)."""
+    from kineme.evaluation.benchmark import mean_scores
+
+    records: list[dict[str, Any]] = [
+        {"trial": r.trial.name, "method": r.method, **r.scores} for r in results
+    ]
+    means = mean_scores(results)
+    return records + [{"trial": "mean", "method": m, **scores} for m, scores in means.items()]
+
+
+def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
+    """Write records as JSON (with the version) or CSV, by suffix.
+
+    Raises
+    ------
+    WriteError : another suffix, or the file cannot be written
+    """
+    suffix = path.suffix.lower()
+    if suffix not in OUTPUTS:
+        raise WriteError(path, f"scores are written as {' or '.join(OUTPUTS)}")
+    plain = [{name: _finite(value) for name, value in record.items()} for record in records]
+    with (
+        atomic_write(path) as draft,
+        draft.open("w", encoding="utf-8", newline="\n" if suffix == ".json" else "") as file,
+    ):
+        if suffix == ".json":
+            json.dump({"kineme": __version__, "scores": plain}, file, indent=1, ensure_ascii=False)
+            file.write("\n")
+        else:
+            names = list(dict.fromkeys(name for record in plain for name in record))
+            table = csv.DictWriter(file, names, lineterminator="\n")
+            table.writeheader()
+            table.writerows(plain)
+
+
+def _finite(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value

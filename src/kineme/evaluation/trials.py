@@ -1,0 +1,141 @@
+"""The benchmark's recordings: CMU subject 86, trials 1 to 14, with what people said of them.
+
+They are found in a folder that holds the recordings as published (``86.asf``,
+``86_01.amc``, …) and the annotations (``annotations.json`` or the authors'
+``mocap.txt``). Where no folder is named, it is ``KINEME_DATA``, else the cache
+that ``kineme data cmu 86`` fills.
+"""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
+from kineme.evaluation.annotations import read_trials
+from kineme.evaluation.labelling import Annotation
+from kineme.motion import Motion
+
+Floats = NDArray[np.float64]
+
+FPS = 30.0
+TRIALS = tuple(f"86_{number:02d}" for number in range(1, 15))
+ANNOTATIONS = ("annotations.json", "mocap.txt")
+FETCH = "fetch it with: kineme data cmu 86"
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """One recording at its own rate, and its truth at 30 Hz."""
+
+    name: str
+    motion: Motion
+    truth: Annotation
+
+    @cached_property
+    def positions(self) -> Floats:
+        """Joint positions (frames, joints, 3) at 30 Hz, metres."""
+        from kineme.operations import resample
+
+        return resample(self.motion, FPS).positions
+
+    @cached_property
+    def features(self) -> Floats:
+        """The 45 stacked features of Vögele et al. 2014 (frames, 45) at 30 Hz, metres."""
+        from kineme.segmentation.presets import VOEGELE2014
+        from kineme.segmentation.segmenter import motion_features
+
+        return motion_features(self.motion, VOEGELE2014)
+
+
+def find_folder(data: str | PathLike[str] | None = None) -> Path:
+    """The folder with the benchmark's files: this one, or ``cmu86`` in it.
+
+    Raises
+    ------
+    ReadError : it holds no annotations, or no folder is known
+    """
+    named = data or os.environ.get("KINEME_DATA") or _cache()
+    if named is None:
+        raise ReadError("cmu86", "no data folder: name one with --data or KINEME_DATA")
+    for folder in (Path(named), Path(named) / "cmu86"):
+        if _annotations(folder) is not None:
+            return folder
+    raise ReadError(named, f"no {' or '.join(ANNOTATIONS)} here or in cmu86/: {FETCH}")
+
+
+def read_truths(folder: Path) -> dict[str, Annotation]:
+    """The truth of every annotated trial, at 30 Hz; errors known of are mended in silence."""
+    path = _annotations(folder)
+    if path is None:
+        raise ReadError(folder, f"no {' or '.join(ANNOTATIONS)} here: {FETCH}")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KinemeWarning)
+        return read_trials(path, fps=FPS)
+
+
+def load_trials(
+    folder: Path,
+    names: Sequence[str] | None = None,
+    *,
+    progress: Callable[[str], None] | None = None,
+) -> list[Trial]:
+    """The named trials, by default all at hand, in order.
+
+    Raises
+    ------
+    ParameterError : a name that is no trial
+    ReadError : a trial is not at hand or does not read, or its annotation is
+        of another length
+    """
+    unknown = [name for name in names or () if name not in TRIALS]
+    if unknown:
+        raise ParameterError(f"no trial {unknown[0]!r}; there are {TRIALS[0]} to {TRIALS[-1]}")
+    chosen = names or [name for name in TRIALS if (folder / f"{name}.amc").is_file()]
+    if not chosen:
+        raise ReadError(folder, f"no recording of subject 86 here: {FETCH}")
+    truths = read_truths(folder)
+    trials = []
+    for name in sorted(set(chosen)):
+        if progress is not None:
+            progress(f"reading {name}")
+        trials.append(_trial(folder / f"{name}.amc", truths))
+    return trials
+
+
+def _trial(path: Path, truths: dict[str, Annotation]) -> Trial:
+    from kineme.formats import read
+
+    if not path.is_file():
+        raise ReadError(path, f"not at hand; {FETCH}")
+    if path.stem not in truths:
+        raise ReadError(path, "the annotations do not know this trial")
+    motion, truth = read(path), truths[path.stem]
+    frames = int((motion.n_frames - 1) * FPS / motion.fps) + 1
+    if frames != truth.frames:
+        raise ReadError(
+            path,
+            f"the recording has {frames} frames at {FPS:g} Hz, its annotation {truth.frames}",
+        )
+    return Trial(path.stem, motion, truth)
+
+
+def _annotations(folder: Path) -> Path | None:
+    return next((folder / name for name in ANNOTATIONS if (folder / name).is_file()), None)
+
+
+def _cache() -> Path | None:
+    from kineme.datasets.cmu import cache_folder
+
+    try:
+        return cache_folder()
+    except MissingDependencyError:
+        return None
