@@ -1,0 +1,34 @@
+"""Cuts and clusters against the authors' program, on five recordings (see benchmarks)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from benchmarks.agreement import CONFIGURATIONS, TRIALS, compare
+
+EXACT_2017 = ["2017_plain", "2017_evaluation_1", "2017_evaluation_2"]
+
+
+@pytest.mark.parametrize("trial", TRIALS)
+@pytest.mark.parametrize("configuration", EXACT_2017)
+def test_2017_is_equal_to_the_authors_program(data_dir: Path, configuration, trial) -> None:
+    for level, agreement in compare(data_dir, configuration, trial).items():
+        assert agreement.total > 0
+        assert agreement.differences == (), level
+
+
+@pytest.mark.parametrize("trial", TRIALS)
+@pytest.mark.parametrize("configuration", sorted(CONFIGURATIONS.keys() - EXACT_2017))
+def test_2014_finds_the_activities_of_the_authors_program(
+    data_dir: Path, configuration, trial
+) -> None:
+    assert compare(data_dir, configuration, trial)["activities"].differences == ()
+
+
+def test_2014_is_near_the_reading_of_its_lost_functions(data_dir: Path) -> None:
+    """With the values of that run; both are readings of the paper, so equality is not asked."""
+    for level in ("primitives", "clusters"):
+        found = [compare(data_dir, "voegele2014 as run", trial)[level] for trial in TRIALS]
+        differing = sum(len(agreement.differences) for agreement in found)
+        assert differing <= 0.06 * sum(agreement.total for agreement in found), level
