@@ -507,3 +507,56 @@ def first_segmentation(labels, shortest, longest):
         lengths.insert(0, length_at[v])
         v -= length_at[v]
     return lengths
+
+
+# --- PCA and probabilistic PCA segmentation (Barbič et al. 2004), one model at a time ---
+
+
+def pca_cut(features, first, lag):
+    """First frame whose projection error rises by more than mean + 3 deviations, or None."""
+
+    def spectrum(count):
+        part = features[:count]
+        return np.linalg.svd(part - part.mean(axis=0), compute_uv=False) ** 2
+
+    n = len(features)
+    if n < first + 2 * lag:
+        return None
+    start = spectrum(first)
+    kept = next(r for r in range(1, len(start) + 1) if start[:r].sum() / start.sum() > 0.9)
+    error = {i: spectrum(i)[kept:].sum() for i in range(first, n + 1)}
+    rises = []
+    for i in range(first + lag, n + 1):
+        rise = error[i] - error[i - lag]
+        if len(rises) >= lag and rise > np.mean(rises) + 3 * np.std(rises):
+            return i
+        rises.append(rise)
+    return None
+
+
+def ppca_distances(features, ahead, growth):
+    """H by number of frames modelled."""
+    found = {}
+    for count in range(ahead, len(features) - ahead + 1, growth):
+        part, following = features[:count], features[count : count + ahead]
+        _, sigma, axes = np.linalg.svd(part - part.mean(axis=0), full_matrices=True)
+        variances = np.zeros(features.shape[1])
+        variances[: len(sigma)] = sigma**2 / (count - 1)
+        share = np.cumsum(variances) / variances.sum()
+        kept = min(int(np.argmax(share > 0.95)) + 1, len(variances) - 1)
+        variances[kept:] = variances[kept:].mean()
+        inverse = np.linalg.inv(axes.T @ np.diag(variances) @ axes)
+        off = following - part.mean(axis=0)
+        found[count] = np.mean([x @ inverse @ x for x in off])
+    return found
+
+
+def ppca_cut(features, ahead, growth):
+    """First peak of H a tenth of its range above the lowest H before it, or None."""
+    found = ppca_distances(features, ahead, growth)
+    counts, values = list(found), list(found.values())
+    for i in range(1, len(values) - 1):
+        peak = values[i] > values[i - 1] and values[i] >= values[i + 1]
+        if peak and values[i] - min(values[:i]) >= (max(values) - min(values)) / 10:
+            return counts[i]
+    return None
