@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from threadpoolctl import threadpool_limits
 
 import kineme
 import naive
@@ -19,6 +20,13 @@ from kineme.errors import ParameterError
 from kineme.evaluation import Labelling, border_score, read_trials
 
 SEEDS = st.integers(0, 2**32 - 1)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _one_thread():
+    """Many small matrices: more threads only wait for each other."""
+    with threadpool_limits(1):
+        yield
 
 
 def changing(seed: int, spans: tuple[int, ...] = (60, 70, 50)) -> np.ndarray:
