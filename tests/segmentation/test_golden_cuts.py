@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+
 from agreement import CONFIGURATIONS, TRIALS, compare
 
 EXACT_2017 = ["2017_plain", "2017_evaluation_1", "2017_evaluation_2"]
