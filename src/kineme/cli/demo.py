@@ -11,7 +11,7 @@ from kineme.cli.messages import Failures
 from kineme.cli.reading import Quiet
 from kineme.cli.segment import run, write_results
 from kineme.cli.targets import check_writable
-from kineme.segmentation.presets import PRESETS
+from kineme.segmentation.presets import KINEME
 
 
 def demo(
@@ -28,7 +28,7 @@ def demo(
     failures = Failures()
     with failures.caught(path):
         check_writable(table, picture)
-        result, graph = run(path, {}, PRESETS["voegele2014"], None, quiet=quiet)
+        result, graph = run(path, {}, KINEME, None, quiet=quiet)
         write_results(result, graph, table, picture)
         if not quiet:
             from kineme.cli.tables import show_segments

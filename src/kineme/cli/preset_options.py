@@ -1,4 +1,4 @@
-"""Each constant of a preset as an option of its own, made from the fields of ``Preset``.
+"""Each constant of a preset as an option of its own, made from the fields of the presets.
 
 Names, types, choices and help come from the dataclass and its docstring: a
 constant added there appears here.
@@ -9,17 +9,20 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
 from functools import partial, wraps
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import typer
 
-from kineme.segmentation.presets import PRESETS, Preset
+from kineme.segmentation.presets import PRESETS, ActionPreset, Preset, RegionPreset
 
-PANEL = "Constants of the preset (seconds, metres)"
-NAMES = tuple(field.name for field in fields(Preset) if field.name != "name")
+PANEL = "Constants of the preset (seconds, metres; body sizes in kineme)"
+KINDS = (ActionPreset, RegionPreset)
+NAMES = tuple(
+    dict.fromkeys(field.name for kind in KINDS for field in fields(kind) if field.name != "name")
+)
 
 
 def with_preset_options(command: Callable[..., None]) -> Callable[..., None]:
@@ -40,12 +43,16 @@ def with_preset_options(command: Callable[..., None]) -> Callable[..., None]:
 
 
 def _hints() -> dict[str, Any]:
-    hints = get_type_hints(Preset)
+    hints = {name: hint for kind in KINDS for name, hint in get_type_hints(kind).items()}
     return {name: hints[name] for name in NAMES}
 
 
 def _parameter(name: str, hint: Any) -> inspect.Parameter:
-    defaults = ", ".join(f"{preset.name} {_shown(preset, name)}" for preset in PRESETS.values())
+    defaults = ", ".join(
+        f"{preset.name} {_shown(preset, name)}"
+        for preset in PRESETS.values()
+        if hasattr(preset, name)
+    )
     option = typer.Option(
         f"--{name.replace('_', '-')}",
         parser=partial(_parse, hint),
@@ -119,6 +126,7 @@ def _short(value: object) -> str:
 
 
 def _descriptions() -> dict[str, str]:
-    """What the docstring of ``Preset`` says of each field."""
-    entries = re.findall(r"^    (\w+) : (.+(?:\n        .+)*)", Preset.__doc__ or "", re.MULTILINE)
+    """What the docstrings of the presets say of each field."""
+    texts = [base.__doc__ or "" for kind in KINDS for base in kind.__mro__ if is_dataclass(base)]
+    entries = re.findall(r"^    (\w+) : (.+(?:\n        .+)*)", "\n".join(texts), re.MULTILINE)
     return {name: " ".join(text.replace("``", "").split()) for name, text in entries}

@@ -22,7 +22,7 @@ from kineme.cli.reading import (
 )
 from kineme.cli.targets import check_writable, targets
 from kineme.errors import ParameterError
-from kineme.segmentation.presets import PRESETS, Preset, resolve_preset
+from kineme.segmentation.presets import DEFAULT, PRESETS, Preset, resolve_preset
 from kineme.segmentation.table import Level
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 def segment(
     files: Annotated[list[Path], typer.Argument(metavar="FILES", help="BVH or AMC files.")],
-    preset: Annotated[str, typer.Option(help=f"{' or '.join(PRESETS)}.")] = "voegele2014",
+    preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
     output: Annotated[
         Path | None,
         typer.Option(

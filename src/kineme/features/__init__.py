@@ -3,12 +3,14 @@
 from kineme.features.body_frame import body_frame
 from kineme.features.effectors import PARTS, EndEffectors, Names, end_effectors
 from kineme.features.pose import offsets_in_frames, pose_features, stack
+from kineme.features.size import body_size
 
 __all__ = [
     "PARTS",
     "EndEffectors",
     "Names",
     "body_frame",
+    "body_size",
     "end_effectors",
     "offsets_in_frames",
     "pose_features",

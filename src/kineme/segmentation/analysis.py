@@ -5,9 +5,6 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from math import ceil
 
@@ -19,11 +16,11 @@ from kineme.graph import NeighborGraph, component_labels, neighbor_graph
 from kineme.segmentation import _kernels
 from kineme.segmentation.activities import ActivityCuts, scan_line_cuts, square_cuts
 from kineme.segmentation.clustering import Clustering, cluster_segments
-from kineme.segmentation.presets import Preset
+from kineme.segmentation.presets import RegionPreset
 from kineme.segmentation.primitives import primitive_cuts
+from kineme.segmentation.stages import Progress, stopwatch
 
 Frames = NDArray[np.int64]
-Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +49,7 @@ class Analysis:
     timings: dict[str, float] = field(default_factory=dict)
 
 
-def analyze(features: ArrayLike, preset: Preset, *, progress: Progress | None = None) -> Analysis:
+def analyze(features: ArrayLike, preset: RegionPreset, *, progress: Progress | None = None) -> Analysis:
     """Neighbour graph, activities, primitives and clusters of a sequence of features.
 
     Parameters
@@ -60,11 +57,11 @@ def analyze(features: ArrayLike, preset: Preset, *, progress: Progress | None = 
     features : (frames, dims)
         Stacked search vectors at the working rate, in metres where the
         preset's radius is to mean what its source means.
-    preset : Preset
+    preset : RegionPreset
     progress : called with the name of each stage before it runs
     """
     timings: dict[str, float] = {}
-    stage = _stopwatch(timings, progress)
+    stage = stopwatch(timings, progress)
     with stage("neighbors"):
         graph = neighbor_graph(
             features,
@@ -87,7 +84,7 @@ def analyze(features: ArrayLike, preset: Preset, *, progress: Progress | None = 
     return Analysis(graph, cuts, blocks, repeats, repetition, segments, clustering, timings)
 
 
-def _growth_graph(graph: NeighborGraph, preset: Preset) -> NeighborGraph:
+def _growth_graph(graph: NeighborGraph, preset: RegionPreset) -> NeighborGraph:
     """The pairs that growing regions count: near enough, and off the main diagonal."""
     if preset.growth_neighbors is not None:
         graph = graph.nearest(preset.growth_neighbors)
@@ -100,7 +97,7 @@ def _growth_graph(graph: NeighborGraph, preset: Preset) -> NeighborGraph:
     )
 
 
-def _activity_cuts(graph: NeighborGraph, preset: Preset) -> ActivityCuts:
+def _activity_cuts(graph: NeighborGraph, preset: RegionPreset) -> ActivityCuts:
     gap = max(1, preset.frames(preset.growth_gap))
     if preset.growth == "squares":
         return square_cuts(
@@ -119,14 +116,14 @@ def _borders(cuts: Frames, n: int) -> Frames:
 
 
 def _repeats(
-    blocks: Frames, cuts: ActivityCuts, pairs: Frames, preset: Preset
+    blocks: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionPreset
 ) -> NDArray[np.bool_]:
     """Blocks that repeat themselves; those from an end to the next start do not."""
     ends_only = np.isin(blocks[:-1], cuts.forward) & ~np.isin(blocks[:-1], cuts.backward)
     return (pairs > preset.growth_count) & ~(ends_only & np.isin(blocks[1:], cuts.backward))
 
 
-def _primitives(graph: NeighborGraph, blocks: Frames, preset: Preset) -> list[Frames]:
+def _primitives(graph: NeighborGraph, blocks: Frames, preset: RegionPreset) -> list[Frames]:
     frames = np.minimum(blocks, len(graph) - 1).tolist()
 
     def cuts_of(block: int) -> Frames:
@@ -146,7 +143,7 @@ def _primitives(graph: NeighborGraph, blocks: Frames, preset: Preset) -> list[Fr
     return map_threads(cuts_of, range(len(blocks) - 1))
 
 
-def _clusters(graph: NeighborGraph, segments: Frames, preset: Preset) -> Clustering:
+def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionPreset) -> Clustering:
     if preset.cluster_neighbors is not None:
         graph = graph.nearest(preset.cluster_neighbors)
     return cluster_segments(
@@ -164,19 +161,5 @@ def _clusters(graph: NeighborGraph, segments: Frames, preset: Preset) -> Cluster
     )
 
 
-def _separation(preset: Preset) -> int | None:
+def _separation(preset: RegionPreset) -> int | None:
     return None if preset.path_separation is None else preset.frames(preset.path_separation)
-
-
-def _stopwatch(
-    timings: dict[str, float], progress: Progress | None
-) -> Callable[[str], AbstractContextManager[None]]:
-    @contextmanager
-    def stage(name: str) -> Iterator[None]:
-        if progress is not None:
-            progress(name)
-        start = time.perf_counter()
-        yield
-        timings[name] = time.perf_counter() - start
-
-    return stage

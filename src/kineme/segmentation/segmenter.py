@@ -12,23 +12,33 @@ from numpy.typing import NDArray
 from kineme._version import __version__
 from kineme.features import (
     EndEffectors,
+    body_size,
     end_effectors,
     offsets_in_frames,
     pose_features,
     stack,
 )
+from kineme.errors import ParameterError
 from kineme.features.effectors import Names
 from kineme.motion import Motion
 from kineme.operations import resample
-from kineme.segmentation.analysis import Analysis, Progress, analyze
-from kineme.segmentation.presets import Preset, resolve_preset
+from kineme.segmentation.action_analysis import ActionAnalysis, analyze_actions
+from kineme.segmentation.analysis import Analysis, analyze
+from kineme.segmentation.presets import (
+    DEFAULT,
+    ActionPreset,
+    Preset,
+    RegionPreset,
+    resolve_preset,
+)
 from kineme.segmentation.result import Segmentation
+from kineme.segmentation.stages import Progress
 
 
 def segment(
     motion: Motion,
     *,
-    preset: str | Preset = "voegele2014",
+    preset: str | Preset = DEFAULT,
     effectors: Names | None = None,
     progress: Progress | None = None,
     **overrides: Any,
@@ -43,7 +53,8 @@ def segment(
     motion : Motion
         At least one frame. What is too short or never repeats is one segment.
     preset : str or Preset
-        ``voegele2014`` or ``krueger2017``; see :mod:`kineme.segmentation.presets`.
+        ``kineme``, ``voegele2014`` or ``krueger2017``; see
+        :mod:`kineme.segmentation.presets`.
     effectors : joints to take for head, hands and feet where names do not tell
     progress : called with the name of each stage before it runs
     **overrides : constants of the preset to change, such as ``radius=0.5``
@@ -63,7 +74,7 @@ def segment_and_analysis(
     *,
     effectors: Names | None = None,
     progress: Progress | None = None,
-) -> tuple[Segmentation, Analysis]:
+) -> tuple[Segmentation, Analysis | ActionAnalysis]:
     """The segments, and what each stage found on the way to them (for pictures)."""
     if progress is not None:
         progress("features")
@@ -71,7 +82,15 @@ def segment_and_analysis(
     found = end_effectors(motion, names=effectors)
     features = motion_features(motion, preset, effectors=found)
     seconds = time.perf_counter() - start
-    analysis = analyze(features, preset, progress=progress)
+    analysis: Analysis | ActionAnalysis
+    if isinstance(preset, ActionPreset):
+        analysis = analyze_actions(features, preset, progress=progress)
+        columns = _action_columns(analysis)
+    elif isinstance(preset, RegionPreset):
+        analysis = analyze(features, preset, progress=progress)
+        columns = _region_columns(analysis)
+    else:
+        raise ParameterError(f"no method goes with a preset of type {type(preset).__name__}")
     source = motion.provenance
     provenance = {
         "kineme": __version__,
@@ -81,56 +100,79 @@ def segment_and_analysis(
         "notes": [*source.notes, f"end effectors: {found.describe(motion.skeleton)}"],
     }
     timings = {"features": seconds, **analysis.timings}
-    return _table(analysis, motion, preset.working_fps, provenance, timings), analysis
-
-
-def motion_features(
-    motion: Motion, preset: Preset, *, effectors: EndEffectors | Names | None = None
-) -> NDArray[np.float64]:
-    """Search vectors (frames, dims) of a motion at the preset's working rate, in metres."""
-    pose = pose_features(resample(motion, preset.working_fps), effectors=effectors)
-    return stack(pose, offsets_in_frames(preset.offsets, preset.working_fps))
-
-
-def _table(
-    analysis: Analysis,
-    motion: Motion,
-    working_fps: float,
-    provenance: dict[str, Any],
-    timings: dict[str, float],
-) -> Segmentation:
-    blocks, segments = (
-        _source_frames(borders, motion.fps / working_fps, motion.n_frames)
-        for borders in (analysis.blocks, analysis.segments)
-    )
-    parents = np.searchsorted(analysis.blocks, analysis.segments[:-1], side="right") - 1
-    clusters = _cluster_numbers(analysis, parents)
-    kinds = np.where(analysis.repeats, "activity", "transition")
-    columns: dict[str, NDArray[Any]] = {
-        "level": np.repeat(["activity", "primitive"], [len(kinds), len(parents)]),
-        "kind": np.concatenate([kinds, kinds[parents]]),
-        "start_frame": np.concatenate([blocks[:-1], segments[:-1]]),
-        "stop_frame": np.concatenate([blocks[1:], segments[1:]]),
-        "cluster": np.concatenate([_main_clusters(clusters, parents, np.diff(segments)), clusters]),
-        "score": np.concatenate([analysis.repetition, analysis.clustering.scores]),
-    }
-    # at low frame rates two borders may fall on the same frame
-    full = columns["start_frame"] < columns["stop_frame"]
-    return Segmentation.from_columns(
-        {name: column[full] for name, column in columns.items()},
+    result = Segmentation.from_columns(
+        _at_source_rate(columns, motion, preset.working_fps),
         n_frames=motion.n_frames,
         fps=motion.fps,
         provenance=provenance,
         timings=timings,
     )
+    return result, analysis
 
 
-def _source_frames(
-    borders: NDArray[np.int64], ratio: float, n_frames: int
-) -> NDArray[np.int64]:
-    frames: NDArray[np.int64] = np.rint(borders * ratio).astype(np.int64)
-    frames[-1] = n_frames
-    return frames
+def motion_features(
+    motion: Motion, preset: Preset, *, effectors: EndEffectors | None = None
+) -> NDArray[np.float64]:
+    """Search vectors (frames, dims) of a motion at the preset's working rate.
+
+    In metres for the published methods; for ``kineme`` in body sizes, over the
+    root of the number of stacked poses, so that distances do not depend on
+    either.
+    """
+    effectors = effectors or end_effectors(motion)
+    pose = pose_features(resample(motion, preset.working_fps), effectors=effectors)
+    stacked = stack(pose, offsets_in_frames(preset.offsets, preset.working_fps))
+    if isinstance(preset, ActionPreset):
+        stacked /= body_size(motion, effectors) * np.sqrt(len(preset.offsets))
+    return stacked
+
+
+Columns = dict[str, NDArray[Any]]
+
+
+def _region_columns(analysis: Analysis) -> Columns:
+    parents = np.searchsorted(analysis.blocks, analysis.segments[:-1], side="right") - 1
+    clusters = _cluster_numbers(analysis, parents)
+    of_blocks = _main_clusters(clusters, parents, np.diff(analysis.segments))
+    return {
+        "level": np.repeat(["activity", "primitive"], [len(of_blocks), len(parents)]),
+        "kind": _kinds(analysis.repeats, parents),
+        "start_frame": np.concatenate([analysis.blocks[:-1], analysis.segments[:-1]]),
+        "stop_frame": np.concatenate([analysis.blocks[1:], analysis.segments[1:]]),
+        "cluster": np.concatenate([of_blocks, clusters]),
+        "score": np.concatenate([analysis.repetition, analysis.clustering.scores]),
+    }
+
+
+def _action_columns(analysis: ActionAnalysis) -> Columns:
+    parents = np.searchsorted(analysis.blocks, analysis.segments[:-1], side="right") - 1
+    return {
+        "level": np.repeat(["activity", "primitive"], [len(analysis.labels), len(parents)]),
+        "kind": _kinds(analysis.labels >= 0, parents),
+        "start_frame": np.concatenate([analysis.blocks[:-1], analysis.segments[:-1]]),
+        "stop_frame": np.concatenate([analysis.blocks[1:], analysis.segments[1:]]),
+        "cluster": np.concatenate([analysis.labels, analysis.labels[parents]]),
+        "score": np.concatenate([analysis.confidence, analysis.agreement]),
+    }
+
+
+def _kinds(is_activity: NDArray[np.bool_], parents: NDArray[np.intp]) -> NDArray[np.str_]:
+    kinds = np.where(is_activity, "activity", "transition")
+    return np.concatenate([kinds, kinds[parents]])
+
+
+def _at_source_rate(columns: Columns, motion: Motion, working_fps: float) -> Columns:
+    """The columns in frames of the motion, without rows that vanish there."""
+    ratio = motion.fps / working_fps
+    last = columns["stop_frame"].max()
+    frames = {}
+    for name in ("start_frame", "stop_frame"):
+        at_source = np.rint(columns[name] * ratio).astype(np.int64)
+        frames[name] = np.where(columns[name] == last, motion.n_frames, at_source)
+    columns = {**columns, **frames}
+    # At low frame rates two borders may fall on the same frame.
+    full = columns["start_frame"] < columns["stop_frame"]
+    return {name: column[full] for name, column in columns.items()}
 
 
 def _cluster_numbers(analysis: Analysis, parents: NDArray[np.intp]) -> NDArray[np.int64]:

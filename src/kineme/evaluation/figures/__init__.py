@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme._files import atomic_write
 from kineme.evaluation.benchmark import (
     PublishedCuts,
     Result,
@@ -31,7 +30,7 @@ def make_figures(
     *,
     progress: Callable[[str], None] | None = None,
 ) -> dict[str, str]:
-    """Markdown tables by name, also in ``tables.md`` beside the pictures this leaves in ``folder``.
+    """Markdown tables by name; the pictures are left in ``folder``.
 
     Parameters
     ----------
@@ -79,11 +78,7 @@ def make_figures(
     say("recordings whose poses reoccur")
     recordings = survey(_recordings(data))
     reoccurrence.plot_reoccurrence(recordings, folder / "reoccurrence.png")
-    tables = make_tables(results, published, recordings)
-    with atomic_write(folder / "tables.md") as draft:
-        text = "\n".join(f"## {title}\n\n{table}" for title, table in tables.items())
-        draft.write_text(text, encoding="utf-8")
-    return tables
+    return make_tables(results, published, recordings)
 
 
 def make_tables(

@@ -9,6 +9,7 @@ components, and the cheapest warping paths that hold.
 from __future__ import annotations
 
 from itertools import pairwise
+from math import ceil
 from pathlib import Path
 
 import numpy as np
@@ -22,16 +23,17 @@ from kineme._colors import PALETTE
 from kineme.evaluation.figures.style import BETWEEN, heading, new_figure, save
 from kineme.evaluation.labelling import TRANSITION, Annotation
 from kineme.evaluation.trials import Trial
-from kineme.graph import NeighborGraph, component_labels, warping_paths
+from kineme.graph import NeighborGraph, component_labels
 from kineme.plot import SHADES, similarity_image
 from kineme.segmentation.analysis import Analysis
-from kineme.segmentation.presets import PRESETS, Preset
+from kineme.segmentation.presets import PUBLISHED, RegionPreset
+from kineme.segmentation.primitives import primitive_cuts
 from kineme.segmentation.segmenter import segment_and_analysis
 
 FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
 
 
-def plot_regions(trial: Trial, path: Path, preset: Preset = PRESETS["voegele2014"]) -> Path:
+def plot_regions(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voegele2014"]) -> Path:
     """Truth, forward regions, backward regions and activities in one matrix each."""
     _, analysis = segment_and_analysis(trial.motion, preset)
     n, fps = len(analysis.graph), preset.working_fps
@@ -63,7 +65,7 @@ def plot_regions(trial: Trial, path: Path, preset: Preset = PRESETS["voegele2014
     return save(figure, path)
 
 
-def plot_paths(trial: Trial, path: Path, preset: Preset = PRESETS["voegele2014"]) -> Path:
+def plot_paths(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voegele2014"]) -> Path:
     """The longest activity: matrix, connected components, warping paths."""
     found, analysis = segment_and_analysis(trial.motion, preset)
     lengths = np.diff(analysis.blocks) * analysis.repeats
@@ -79,16 +81,20 @@ def plot_paths(trial: Trial, path: Path, preset: Preset = PRESETS["voegele2014"]
     for axes, image in zip(panels, (shades, groups, shades), strict=True):
         axes.imshow(image, extent=extent, interpolation="nearest")
         axes.tick_params(labelsize=7, length=2)
-    paths = warping_paths(
+    paths = primitive_cuts(
         graph,
-        (first, stop),
-        (first, stop),
+        (first, min(stop, len(graph) - 1)),
         steps=preset.steps,
         skip_penalty=preset.skip_penalty * preset.radius,
         zero_cost=preset.zero_cost,
-        min_nodes=max(2, preset.frames(preset.min_path)),
+        min_nodes=ceil(preset.min_path * fps),
+        separation=None
+        if preset.path_separation is None
+        else preset.frames(preset.path_separation),
         max_slope=preset.max_slope,
-    )
+        symmetry=preset.symmetry,
+        min_length=preset.min_primitive * fps,
+    ).paths
     lines = [np.column_stack([columns, rows]) / fps for rows, columns in paths]
     panels[2].add_collection(LineCollection(lines, colors="#D62728", linewidths=1.3))
     inside = found.primitives.start_s
@@ -107,7 +113,7 @@ def plot_paths(trial: Trial, path: Path, preset: Preset = PRESETS["voegele2014"]
     return save(figure, path)
 
 
-def _growth_pairs(analysis: Analysis, preset: Preset) -> NeighborGraph:
+def _growth_pairs(analysis: Analysis, preset: RegionPreset) -> NeighborGraph:
     """The pairs that regions count, with the band as main diagonal."""
     graph = analysis.graph
     if preset.growth_neighbors is not None:

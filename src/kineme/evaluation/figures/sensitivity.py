@@ -17,7 +17,7 @@ from kineme.evaluation.benchmark import Scores, mean
 from kineme.evaluation.figures.style import FAINT, heading, new_figure, save, tidy
 from kineme.evaluation.scores import evaluate_segmentation
 from kineme.evaluation.trials import Trial
-from kineme.segmentation.presets import PRESETS, Preset
+from kineme.segmentation.presets import PUBLISHED, RegionPreset
 from kineme.segmentation.segmenter import segment
 
 SHARES = (0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4)
@@ -31,21 +31,21 @@ CURVES: Mapping[str, tuple[str, str]] = {
 }
 
 
-def scores_by_radius(trials: Sequence[Trial], preset: Preset) -> list[tuple[float, Scores]]:
+def scores_by_radius(trials: Sequence[Trial], preset: RegionPreset) -> list[tuple[float, Scores]]:
     """Radius in metres and mean scores; the smaller radius for activities changes with it."""
     return [(share * preset.radius, _mean(trials, _wider(preset, share))) for share in SHARES]
 
 
-def scores_by_neighbors(trials: Sequence[Trial], preset: Preset) -> list[tuple[float, Scores]]:
+def scores_by_neighbors(trials: Sequence[Trial], preset: RegionPreset) -> list[tuple[float, Scores]]:
     """Number of neighbours and mean scores; what is derived from it changes with it."""
     return [(float(k), _mean(trials, _with_neighbors(preset, k))) for k in NEIGHBORS]
 
 
 def plot_sensitivity(trials: Sequence[Trial], path: Path) -> Path:
     """Scores against r (left) and k (right), a row per preset."""
-    figure = new_figure(9.2, 2.6 * len(PRESETS) + 0.3)
-    panels = figure.subplots(len(PRESETS), 2, sharey=True, squeeze=False)
-    for row, preset in zip(panels, PRESETS.values(), strict=True):
+    figure = new_figure(9.2, 2.6 * len(PUBLISHED) + 0.3)
+    panels = figure.subplots(len(PUBLISHED), 2, sharey=True, squeeze=False)
+    for row, preset in zip(panels, PUBLISHED.values(), strict=True):
         _draw(row[0], scores_by_radius(trials, preset), preset.radius)
         _draw(row[1], scores_by_neighbors(trials, preset), preset.max_neighbors)
         row[1].set_xscale("log", base=2)
@@ -70,18 +70,18 @@ def _draw(axes: Axes, scores: Sequence[tuple[float, Scores]], own: float) -> Non
     tidy(axes)
 
 
-def _mean(trials: Sequence[Trial], preset: Preset) -> Scores:
+def _mean(trials: Sequence[Trial], preset: RegionPreset) -> Scores:
     return mean([evaluate_segmentation(t.truth, segment(t.motion, preset=preset)) for t in trials])
 
 
-def _wider(preset: Preset, share: float) -> Preset:
+def _wider(preset: RegionPreset, share: float) -> RegionPreset:
     inner = preset.growth_radius
     return preset.replace(
         radius=share * preset.radius, growth_radius=None if inner is None else share * inner
     )
 
 
-def _with_neighbors(preset: Preset, k: int) -> Preset:
+def _with_neighbors(preset: RegionPreset, k: int) -> RegionPreset:
     changed = {
         name: max(1, round(own * k / preset.max_neighbors))
         for name in ("growth_neighbors", "cluster_neighbors")

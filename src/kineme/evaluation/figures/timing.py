@@ -17,7 +17,7 @@ from kineme._colors import PALETTE
 from kineme.evaluation.figures.style import INK, heading, new_figure, save, tidy
 from kineme.evaluation.trials import Trial
 from kineme.segmentation.analysis import analyze
-from kineme.segmentation.presets import PRESETS, Preset
+from kineme.segmentation.presets import PUBLISHED, RegionPreset
 from kineme.segmentation.segmenter import motion_features, segment
 
 STEPS = ("features", "neighbors", "activities", "primitives", "clusters")
@@ -28,7 +28,7 @@ POINTS = 7
 Timings = dict[str, float]
 
 
-def time_trials(trials: Sequence[Trial], preset: Preset) -> list[Timings]:
+def time_trials(trials: Sequence[Trial], preset: RegionPreset) -> list[Timings]:
     """Seconds per step and trial, without reading the file."""
     return [
         _least([dict(segment(trial.motion, preset=preset).timings) for _ in range(RUNS)])
@@ -36,7 +36,7 @@ def time_trials(trials: Sequence[Trial], preset: Preset) -> list[Timings]:
     ]
 
 
-def time_growth(trials: Sequence[Trial], preset: Preset) -> list[tuple[int, Timings]]:
+def time_growth(trials: Sequence[Trial], preset: RegionPreset) -> list[tuple[int, Timings]]:
     """Frames and seconds per step, for longer and longer parts of all trials in a row, twice."""
     features = np.concatenate([motion_features(trial.motion, preset) for trial in trials] * 2)
     lengths: NDArray[np.int64] = np.geomspace(500, len(features), POINTS).astype(np.int64)
@@ -49,8 +49,8 @@ def time_growth(trials: Sequence[Trial], preset: Preset) -> list[tuple[int, Timi
 def plot_timings(trials: Sequence[Trial], path: Path) -> Path:
     """Stacked bars per trial, one panel per preset."""
     figure = new_figure(9.2, 3.2)
-    panels = figure.subplots(1, len(PRESETS), sharey=True, squeeze=False)[0]
-    for axes, preset in zip(panels, PRESETS.values(), strict=True):
+    panels = figure.subplots(1, len(PUBLISHED), sharey=True, squeeze=False)[0]
+    for axes, preset in zip(panels, PUBLISHED.values(), strict=True):
         rows = time_trials(trials, preset)
         bottom = np.zeros(len(trials))
         for step in STEPS:
@@ -69,8 +69,8 @@ def plot_timings(trials: Sequence[Trial], path: Path) -> Path:
 def plot_growth(trials: Sequence[Trial], path: Path) -> Path:
     """Seconds per step against frames, both axes logarithmic."""
     figure = new_figure(9.2, 3.6)
-    panels = figure.subplots(1, len(PRESETS), sharey=True, squeeze=False)[0]
-    for axes, preset in zip(panels, PRESETS.values(), strict=True):
+    panels = figure.subplots(1, len(PUBLISHED), sharey=True, squeeze=False)[0]
+    for axes, preset in zip(panels, PUBLISHED.values(), strict=True):
         growth = time_growth(trials, preset)
         frames = np.array([n for n, _ in growth])
         for step in STEPS[1:]:

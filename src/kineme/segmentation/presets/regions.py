@@ -1,7 +1,6 @@
-"""Presets: the constants of the published methods, and where each comes from.
+"""The published methods' constants, and where each comes from.
 
-Lengths are metres, times seconds; they become frames of the working rate in
-one place, ``Preset.frames``. Sources are named as
+Lengths are metres, times seconds. Sources are named as
 
 - V14: Vögele, Krüger and Klein 2014, by section
 - K17: Krüger, Vögele, Willig, Yao, Klein and Weber 2017, by section
@@ -12,11 +11,11 @@ one place, ``Preset.frames``. Sources are named as
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Literal
 
 from kineme.errors import ParameterError
+from kineme.segmentation.presets.base import Preset
 
 Step = tuple[int, int]
 
@@ -24,17 +23,13 @@ BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
 
 
 @dataclass(frozen=True, kw_only=True)
-class Preset:
-    """Every constant of one way to segment.
+class RegionPreset(Preset):
+    """Constants of the published methods: growing regions and warping paths.
 
     Parameters
     ----------
-    name : str
-    working_fps : frames per second at which the recording is looked at
-    offsets : seconds of the neighbouring frames stacked into one search vector
     radius : largest distance of two neighbours, metres in the stacked space
     max_neighbors : neighbours kept per frame at most, the nearest
-    max_lag : look for neighbours no farther away than this, seconds; None for everywhere
     steps : warping steps (a, b)
     skip_penalty : cost of each frame a step passes over, in radii
     zero_cost : cost of a node whose distance is zero, metres
@@ -61,12 +56,8 @@ class Preset:
     connection : links one way make a cluster (``weak``), or links both ways (``strong``)
     """
 
-    name: str
-    working_fps: float = 30.0
-    offsets: tuple[float, ...]
     radius: float
     max_neighbors: int
-    max_lag: float | None = None
     steps: tuple[Step, ...]
     skip_penalty: float
     zero_cost: float
@@ -90,14 +81,7 @@ class Preset:
     connection: Literal["weak", "strong"]
 
     def __post_init__(self) -> None:
-        for name in _POSITIVE:
-            value = getattr(self, name)
-            if value is not None and not (math.isfinite(value) and value > 0):
-                raise ParameterError(f"{name} must be a positive number, not {value}")
-        for name in _NOT_NEGATIVE:
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value >= 0):
-                raise ParameterError(f"{name} must be a number from 0, not {value}")
+        self._check(_POSITIVE, _NOT_NEGATIVE)
         for name in ("symmetry", "coverage"):
             if not 0 < getattr(self, name) <= 1:
                 raise ParameterError(f"{name} is a share above 0 and at most 1")
@@ -108,23 +92,6 @@ class Preset:
                 raise ParameterError(
                     f"{name} must be {' or '.join(choices)}, not {getattr(self, name)!r}"
                 )
-
-    def frames(self, seconds: float) -> int:
-        """Seconds in whole frames of the working rate."""
-        return round(seconds * self.working_fps)
-
-    def replace(self, **overrides: Any) -> Preset:
-        """The same preset with some constants changed.
-
-        Raises
-        ------
-        ParameterError : a constant that does not exist, or a value it cannot take
-        """
-        known = [field.name for field in fields(self)]
-        for name in overrides:
-            if name not in known[1:]:
-                raise ParameterError(f"no parameter {name!r}; there are {', '.join(known[1:])}")
-        return replace(self, **overrides)
 
 
 _POSITIVE = (
@@ -141,7 +108,7 @@ _CHOICES = {
     "connection": ("weak", "strong"),
 }
 
-VOEGELE2014 = Preset(
+VOEGELE2014 = RegionPreset(
     name="voegele2014",
     offsets=(-1 / 6, 0.0, 1 / 6),  # V14 3: preceding and succeeding frame; program: 5 frames
     radius=0.64,  # V14 5: 64 cm
@@ -165,7 +132,7 @@ VOEGELE2014 = Preset(
     connection="weak",  # V14 4; program: strong
 )
 
-KRUEGER2017 = Preset(
+KRUEGER2017 = RegionPreset(
     name="krueger2017",
     offsets=(-1 / 3, -1 / 6, 0.0, 1 / 6, 1 / 3),  # K17 VI
     radius=0.302 * math.sqrt(5),  # program, timing script: generalised radius 30.2 cm
@@ -185,19 +152,3 @@ KRUEGER2017 = Preset(
     interpolate=True,  # program
     connection="strong",  # program
 )
-
-PRESETS: Mapping[str, Preset] = {p.name: p for p in (VOEGELE2014, KRUEGER2017)}
-
-
-def resolve_preset(preset: str | Preset, **overrides: Any) -> Preset:
-    """A preset by name or as it is, with some constants changed.
-
-    Raises
-    ------
-    ParameterError : no preset has that name, or an override does not fit
-    """
-    if isinstance(preset, str):
-        if preset not in PRESETS:
-            raise ParameterError(f"no preset {preset!r}; there are {', '.join(PRESETS)}")
-        preset = PRESETS[preset]
-    return preset.replace(**overrides)

@@ -1,0 +1,199 @@
+"""The ``kineme`` method: what each stage finds, in frames of the working rate.
+
+Nothing here knows what a skeleton is: any array of frames × dims will do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._threads import map_threads
+from kineme.graph import NeighborGraph, neighbor_graph
+from kineme.segmentation import _recurrence_kernels as kernels
+from kineme.segmentation import actions as steps
+from kineme.segmentation.actions import Actions
+from kineme.segmentation.presets import ActionPreset
+from kineme.segmentation.recurrence import Recurrence, recurrence
+from kineme.segmentation.repetitions import Repetitions, repetitions
+from kineme.segmentation.stages import Progress, stopwatch
+
+Frames = NDArray[np.int64]
+
+# For pictures: neighbours per frame at most.
+PICTURED = 256
+# Ends of an activity that recur worse than this many times its upper quartile are
+# not counted as repetition, over at most so many seconds and a quarter of it.
+CORE_FACTOR, CORE_QUANTILE, CORE_SECONDS = 1.2, 0.75, 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class ActionAnalysis:
+    """What the stages found.
+
+    Parameters
+    ----------
+    features : (frames, dims), scaled so that distances are body sizes
+    recurrence : how alike the moments are
+    blocks : (blocks + 1,) borders of activities and transitions, from 0 to n
+    labels : (blocks,) action of each block, -1 for transitions
+    confidence : (blocks,) how sure the block's action is, nan for transitions
+    segments : (segments + 1,) borders of the primitives, from 0 to n, blocks' included
+    agreement : (segments,) share of poses that agree on the count, nan in transitions
+    timings : seconds per stage
+    """
+
+    features: NDArray[np.float64]
+    recurrence: Recurrence
+    preset: ActionPreset
+    blocks: Frames
+    labels: Frames
+    confidence: NDArray[np.float64]
+    segments: Frames
+    agreement: NDArray[np.float64]
+    timings: dict[str, float] = field(default_factory=dict)
+
+    @cached_property
+    def graph(self) -> NeighborGraph:
+        """Neighbours of every frame, for pictures; the method itself does not need them."""
+        return neighbor_graph(
+            self.features,
+            radius=2 * self.preset.max_scale,
+            k=PICTURED,
+            max_lag=max(1, self.preset.frames(self.preset.window)),
+        )
+
+
+def analyze_actions(
+    features: NDArray[np.float64], preset: ActionPreset, *, progress: Progress | None = None
+) -> ActionAnalysis:
+    """Recurrence, actions and repetitions of a sequence of features.
+
+    Parameters
+    ----------
+    features : (frames, dims)
+        Stacked poses at the working rate, scaled so that distances are body
+        sizes: divided by the size of the body and by the root of the number
+        of stacked blocks.
+    preset : ActionPreset
+    progress : called with the name of each stage before it runs
+    """
+    timings: dict[str, float] = {}
+    stage = stopwatch(timings, progress)
+    reach = preset.window if preset.max_lag is None else min(preset.window, preset.max_lag)
+    with stage("recurrence"):
+        likeness = recurrence(
+            features,
+            step=preset.step,
+            width=max(1, preset.moments(reach)),
+            phase=preset.moments(preset.phase),
+            rank=preset.moments(preset.recurrence_time),
+            low=preset.min_scale,
+            high=preset.max_scale,
+            softness=preset.softness,
+        )
+    with stage("actions"):
+        found = find_actions(likeness, preset)
+        blocks, labels, confidence = _blocks(found, likeness, preset, len(features))
+    with stage("repetitions"):
+        counted = _count(likeness, blocks, labels, preset)
+    segments = np.unique(np.concatenate([blocks, *(c.cuts for c in counted)]))
+    parents = np.searchsorted(blocks, segments[:-1], side="right") - 1
+    agreement = np.array([c.agreement for c in counted])[parents]
+    return ActionAnalysis(
+        features, likeness, preset, blocks, labels, confidence, segments, agreement, timings
+    )
+
+
+def find_actions(likeness: Recurrence, preset: ActionPreset) -> Actions:
+    """Stretches of one action each, in moments."""
+    borders = steps.change_points(
+        likeness,
+        penalty=preset.border_cost * preset.working_fps / preset.step,
+        min_length=max(1, preset.moments(preset.min_stretch)),
+    )
+    borders = steps.merge_parts(
+        borders,
+        likeness,
+        gap=preset.moments(preset.part_gap),
+        softness=preset.part_softness,
+        least=preset.part_share,
+    )
+    labels = steps.link(
+        borders,
+        likeness,
+        likeness=preset.likeness,
+        max_lag=None if preset.max_lag is None else preset.moments(preset.max_lag),
+    )
+    repeats = steps.repeating(
+        borders, labels, likeness, softness=preset.part_softness, least=preset.min_repetition
+    )
+    return steps.refine(
+        borders,
+        np.where(repeats, labels, -1),
+        likeness,
+        switch_cost=preset.switch_cost * preset.working_fps / preset.step,
+        no_action_cost=preset.no_action_cost,
+        min_length=max(1, preset.moments(preset.min_action)),
+    )
+
+
+def _blocks(
+    found: Actions, likeness: Recurrence, preset: ActionPreset, n: int
+) -> tuple[Frames, Frames, NDArray[np.float64]]:
+    """Borders, labels and confidence of activities and the transitions between them, in frames."""
+    heads, tails = steps.transition_ends(
+        found,
+        likeness,
+        factor=preset.transition_factor,
+        longest=preset.moments(preset.max_transition),
+    )
+    borders = np.column_stack(
+        [found.borders[:-1], found.borders[:-1] + heads, found.borders[1:] - tails]
+    ).ravel()
+    none = np.full_like(found.labels, -1)
+    labels = np.column_stack([none, found.labels, none]).ravel()
+    confidence = np.column_stack([none, found.confidence, none]).ravel()
+    filled = np.append(borders[1:], found.borders[-1]) > borders
+    borders, labels, confidence = borders[filled], labels[filled], confidence[filled]
+    first = np.concatenate([[True], labels[1:] != labels[:-1]])
+    confidence = np.where(labels < 0, np.nan, confidence)
+    return (
+        np.append(borders[first] * likeness.step, n),
+        labels[first],
+        confidence[first],
+    )
+
+
+def _count(
+    likeness: Recurrence, blocks: Frames, labels: Frames, preset: ActionPreset
+) -> list[Repetitions]:
+    """Repetitions of each block; none in transitions."""
+
+    def count(block: int) -> Repetitions:
+        start, stop = int(blocks[block]), int(blocks[block + 1])
+        if labels[block] < 0:
+            return Repetitions(np.empty(0, np.int64), np.nan)
+        return repetitions(
+            likeness.features, start, stop, _core(likeness, start, stop, preset)
+        )
+
+    return map_threads(count, range(len(labels)))
+
+
+def _core(likeness: Recurrence, start: int, stop: int, preset: ActionPreset) -> tuple[int, int]:
+    """The frames of an activity without the ends that hardly recur in it."""
+    step = likeness.step
+    nearest = kernels.recurrence_distances(
+        likeness.near, start // step, -(-stop // step), likeness.phase
+    )
+    known = np.isfinite(nearest)
+    if not known.any():
+        return start, stop
+    strange = nearest > CORE_FACTOR * np.quantile(nearest[known], CORE_QUANTILE)
+    limit = min(preset.moments(CORE_SECONDS), len(strange) // 4)
+    head, tail = steps.leading(strange[:limit]), steps.leading(strange[::-1][:limit])
+    return start + head * step, stop - tail * step

@@ -1,0 +1,293 @@
+"""Actions: activities between their borders, each known again when it returns.
+
+1. Borders are the change points of the phase-blurred similarity: the cheapest
+   division into stretches whose moments are alike.
+2. A stretch that repeats less within itself than in its neighbour is part of
+   that neighbour (one slow repetition of several).
+3. Stretches whose moments are alike belong to one action, wherever they are.
+4. Each moment then goes to the action it is most like; changing costs, so
+   that borders fall where the evidence turns.
+5. What at either end of an activity recurs nowhere in it is transition.
+
+Sources: kernel change-point detection after Arlot, Celisse and Harchaoui 2019;
+the rest is ours. See ``docs/method.md`` for what each step contributes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.cluster.hierarchy import fcluster, linkage
+from scipy.spatial.distance import squareform
+
+from kineme._threads import even_slices, map_threads
+from kineme.segmentation import _recurrence_kernels as kernels
+from kineme.segmentation.recurrence import Recurrence
+
+Bins = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Actions:
+    """Stretches of one action each.
+
+    Parameters
+    ----------
+    borders : (stretches + 1,) bins, from 0 to the end
+    labels : (stretches,) action of each, from 0 by first appearance; -1: none; neighbours differ
+    confidence : (stretches,) how much more alike its moments are to their own action than to
+        any other, 0 to 1
+    """
+
+    borders: Bins
+    labels: Bins
+    confidence: NDArray[np.float64]
+
+
+def change_points(recurrence: Recurrence, *, penalty: float, min_length: int) -> Bins:
+    """Borders of the stretches whose moments are most alike, ends included.
+
+    Parameters
+    ----------
+    recurrence : Recurrence
+    penalty : bins of likeness that a border must gain
+    min_length : shortest stretch, bins
+    """
+    borders: Bins = kernels.change_points(recurrence.similarity, penalty, min_length)
+    return borders
+
+
+def merge_parts(
+    borders: Bins, recurrence: Recurrence, *, gap: int, softness: float, least: float
+) -> Bins:
+    """Borders without those between a stretch and the neighbour in which it recurs.
+
+    A border falls if one side recurs in the other more than in itself, and by
+    at least ``least``; the clearest first.
+
+    Parameters
+    ----------
+    borders : bins, ends included
+    recurrence : Recurrence
+    gap : bins; what is no farther away does not count as recurrence
+    softness : scales at which recurrence has fallen to 1/e
+    least : share of the stretch that must recur
+    """
+    cuts = borders.tolist()
+
+    def covered(g: int, h: int) -> float:
+        share: float = kernels.coverage(
+            recurrence.near, recurrence.scales, cuts[g], cuts[g + 1], cuts[h], cuts[h + 1],
+            gap, softness,
+        )  # fmt: skip
+        return share
+
+    def gain(left: int) -> float:
+        pairs = ((left, left + 1), (left + 1, left))
+        return max(covered(g, h) / max(covered(g, g), least) for g, h in pairs)
+
+    gains = [gain(left) for left in range(len(cuts) - 2)]
+    while gains and max(gains) >= 1:
+        best = int(np.argmax(gains))
+        del cuts[best + 1], gains[best]
+        for left in (best - 1, best):
+            if 0 <= left < len(gains):
+                gains[left] = gain(left)
+    return np.array(cuts, np.int64)
+
+
+def link(
+    borders: Bins, recurrence: Recurrence, *, likeness: float, max_lag: int | None
+) -> Bins:
+    """One label per stretch: equal where the moments of two stretches are alike.
+
+    Average linkage on the mean similarity of two stretches, relative to that
+    within each.
+
+    Parameters
+    ----------
+    borders : bins, ends included
+    recurrence : Recurrence
+    likeness : relative similarity from which stretches are one action, 0 to 1
+    max_lag : bins; stretches farther apart are not compared, and differ
+    """
+    k = len(borders) - 1
+    if k == 1:
+        return np.zeros(1, np.int64)
+    mean = np.zeros((k, k))
+    pairs = [(g, h) for g in range(k) for h in range(g, k)]
+    similarity = map_threads(lambda pair: _similarity(borders, recurrence, max_lag, *pair), pairs)
+    for (g, h), value in zip(pairs, similarity, strict=True):
+        mean[g, h] = mean[h, g] = value
+    within = np.sqrt(np.maximum(mean.diagonal(), 1e-9))
+    distance = 1 - np.clip(mean / np.outer(within, within), 0, 1)
+    np.fill_diagonal(distance, 0)
+    tree = linkage(squareform(distance, checks=False), "average")
+    return _by_first_appearance(fcluster(tree, 1 - likeness, "distance"))
+
+
+# Of stretches that the band does not reach across, so many bins are compared.
+EXCERPT = 60
+STRIDE = 2
+
+
+def _similarity(
+    borders: Bins, recurrence: Recurrence, max_lag: int | None, g: int, h: int
+) -> float:
+    """Mean similarity of two stretches, g not after h: from the band, else measured anew."""
+    g_start, g_stop, h_start, h_stop = borders[[g, g + 1, h, h + 1]].tolist()
+    apart = h_start - g_stop
+    width = recurrence.similarity.shape[1]
+    if apart < width - EXCERPT or g == h:
+        in_band: float = kernels.mean_similarity(
+            recurrence.similarity, g_start, g_stop, h_start, h_stop, recurrence.phase
+        )
+        return in_band
+    if max_lag is not None and apart > max_lag:
+        return 0.0
+    distant: float = kernels.distant_similarity(
+        recurrence.features, recurrence.scales, recurrence.step, recurrence.phase, STRIDE,
+        recurrence.softness, *_excerpt(g_start, g_stop), *_excerpt(h_start, h_stop),
+    )  # fmt: skip
+    return distant
+
+
+def _excerpt(start: int, stop: int) -> tuple[int, int]:
+    middle = (start + stop) // 2
+    return max(start, middle - EXCERPT // 2), min(stop, middle + EXCERPT // 2)
+
+
+def repeating(
+    borders: Bins, labels: Bins, recurrence: Recurrence, *, softness: float, least: float
+) -> NDArray[np.bool_]:
+    """Which stretches repeat: within themselves, or in another stretch of their action.
+
+    Parameters
+    ----------
+    borders, labels : stretches and their actions
+    recurrence : Recurrence
+    softness : scales at which recurrence has fallen to 1/e
+    least : share of a stretch that must recur within it
+    """
+    shared = np.bincount(labels)[labels] > 1
+    within = [
+        kernels.coverage(
+            recurrence.near, recurrence.scales, start, stop, start, stop, recurrence.phase, softness
+        )
+        for start, stop in zip(borders[:-1], borders[1:], strict=True)
+    ]
+    return shared | (np.array(within) >= least)
+
+
+def refine(
+    borders: Bins,
+    labels: Bins,
+    recurrence: Recurrence,
+    *,
+    switch_cost: float,
+    no_action_cost: float,
+    min_length: int,
+    rounds: int = 2,
+) -> Actions:
+    """Each moment given to the action it is most like, or to none; changing costs.
+
+    Parameters
+    ----------
+    borders, labels : stretches and their actions to begin with; -1 for none
+    recurrence : Recurrence
+    switch_cost : bins of unlikeness that a change of action costs
+    no_action_cost : unlikeness, from 0 to 1, at which a moment is better in no action
+    min_length : bins; an action with less is given up
+    rounds : times that actions are learnt anew from their moments
+    """
+    per_bin = np.repeat(labels, np.diff(borders))
+    for _ in range(rounds):
+        relative = _relative_affinity(recurrence, per_bin, min_length)
+        costs = np.column_stack([1 - relative, np.full(len(per_bin), no_action_cost)])
+        per_bin = kernels.cheapest_labels(costs, switch_cost)
+        per_bin[per_bin == relative.shape[1]] = -1
+        rare = np.bincount(per_bin + 1)[per_bin + 1] < min_length
+        per_bin = _by_first_appearance(np.where(rare, -1, per_bin))
+    found = np.concatenate([[0], np.flatnonzero(np.diff(per_bin)) + 1, [len(per_bin)]])
+    return Actions(found, per_bin[found[:-1]], _confidence(recurrence, per_bin, found, min_length))
+
+
+def _relative_affinity(
+    recurrence: Recurrence, per_bin: Bins, min_count: int
+) -> NDArray[np.float64]:
+    """Mean similarity of each bin to each action, relative to the action's own median, to 1."""
+    # Bins of no action count as one action more, which is left out.
+    classes = int(per_bin.max()) + 1
+    labels = np.where(per_bin < 0, classes, per_bin)
+    affinity = np.empty((len(labels), classes + 1))
+
+    def fill(part: slice) -> None:
+        kernels.class_affinities(
+            recurrence.similarity, labels, recurrence.phase, min_count, part.start, part.stop,
+            affinity,
+        )  # fmt: skip
+
+    map_threads(fill, even_slices(len(labels)))
+    own = np.array([np.median(affinity[labels == c, c]) for c in range(classes)])
+    return np.minimum(affinity[:, :classes] / np.maximum(own, 0.05), 1)
+
+
+def _confidence(
+    recurrence: Recurrence, per_bin: Bins, borders: Bins, min_count: int
+) -> NDArray[np.float64]:
+    """How much more alike the bins of each stretch are to their own action than to the next."""
+    relative = _relative_affinity(recurrence, per_bin, min_count)
+    every = np.arange(len(per_bin))
+    own = np.where(per_bin < 0, 0, relative[every, np.maximum(per_bin, 0)])
+    relative[every[per_bin >= 0], per_bin[per_bin >= 0]] = 0
+    margin = own - relative.max(axis=1, initial=0)
+    return np.clip(np.add.reduceat(margin, borders[:-1]) / np.diff(borders), 0, 1)
+
+
+def _by_first_appearance(labels: NDArray[np.integer]) -> Bins:
+    """The same labels counted from 0 in order of appearance; -1 stays."""
+    known = labels >= 0
+    _, first, inverse = np.unique(labels[known], return_index=True, return_inverse=True)
+    numbered = np.full(len(labels), -1, np.int64)
+    numbered[known] = np.argsort(np.argsort(first))[inverse]
+    return numbered
+
+
+def transition_ends(
+    actions: Actions, recurrence: Recurrence, *, factor: float, longest: int
+) -> tuple[Bins, Bins]:
+    """Bins at the start and at the end of each stretch that do not recur in it.
+
+    A bin does not recur if its nearest like in the stretch is farther than
+    ``factor`` times the median of the stretch. The recording's own ends are
+    no transitions.
+
+    Parameters
+    ----------
+    actions : Actions
+    recurrence : Recurrence
+    factor : of the median distance
+    longest : bins to take from one end at most
+    """
+    k = len(actions.labels)
+    heads, tails = np.zeros(k, np.int64), np.zeros(k, np.int64)
+    for g in range(k):
+        start, stop = actions.borders[g : g + 2]
+        nearest = kernels.recurrence_distances(recurrence.near, start, stop, recurrence.phase)
+        known = np.isfinite(nearest)
+        if not known.any():
+            continue
+        strange = nearest > factor * np.median(nearest[known])
+        limit = min(longest, (stop - start) // 4)
+        if g > 0:
+            heads[g] = leading(strange[:limit])
+        if g < k - 1:
+            tails[g] = leading(strange[::-1][:limit])
+    return heads, tails
+
+
+def leading(mask: NDArray[np.bool_]) -> int:
+    """How many of the first values are true."""
+    return len(mask) if mask.all() else int(np.argmin(mask))

@@ -1,0 +1,55 @@
+"""Presets: every constant of each way to segment, in seconds and metres.
+
+``kineme`` is the default; ``voegele2014`` and ``krueger2017`` are the published
+methods. Seconds become frames of the working rate in one place,
+``Preset.frames``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from kineme.errors import ParameterError
+from kineme.segmentation.presets.actions import KINEME, ActionPreset
+from kineme.segmentation.presets.base import Preset
+from kineme.segmentation.presets.regions import (
+    BASIC_STEPS,
+    KRUEGER2017,
+    VOEGELE2014,
+    RegionPreset,
+    Step,
+)
+
+__all__ = [
+    "BASIC_STEPS",
+    "DEFAULT",
+    "KINEME",
+    "KRUEGER2017",
+    "PRESETS",
+    "PUBLISHED",
+    "VOEGELE2014",
+    "ActionPreset",
+    "Preset",
+    "RegionPreset",
+    "Step",
+    "resolve_preset",
+]
+
+PUBLISHED: Mapping[str, RegionPreset] = {p.name: p for p in (VOEGELE2014, KRUEGER2017)}
+PRESETS: Mapping[str, Preset] = {KINEME.name: KINEME, **PUBLISHED}
+DEFAULT = KINEME.name
+
+
+def resolve_preset(preset: str | Preset, **overrides: Any) -> Preset:
+    """A preset by name or as it is, with some constants changed.
+
+    Raises
+    ------
+    ParameterError : no preset has that name, or an override does not fit
+    """
+    if isinstance(preset, str):
+        if preset not in PRESETS:
+            raise ParameterError(f"no preset {preset!r}; there are {', '.join(PRESETS)}")
+        preset = PRESETS[preset]
+    return preset.replace(**overrides)
