@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme._files import atomic_write
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Quiet
 from kineme.errors import ParameterError, WriteError
@@ -185,7 +186,10 @@ def _draw(
     if figures is not None:
         from kineme.evaluation.figures import make_figures
 
-        make_figures(results, data, figures, progress=stage)
+        tables = make_figures(results, data, figures, progress=stage)
+        text = "\n".join(f"## {title}\n\n{table}" for title, table in tables.items())
+        with atomic_write(figures / "tables.md") as draft:
+            draft.write_text(text, encoding="utf-8")
 
 
 def _check_output(output: Path | None) -> None:

@@ -12,13 +12,11 @@ from functools import partial
 from types import MappingProxyType
 from typing import Any
 
-import numpy as np
-
 from kineme._version import __version__
 from kineme.baselines import Pieces
 from kineme.errors import ParameterError
 from kineme.evaluation.labelling import TRANSITION
-from kineme.evaluation.trials import Trial
+from kineme.evaluation.trials import Floats, Trial
 from kineme.segmentation.presets import PRESETS, Preset
 from kineme.segmentation.result import Segmentation
 
@@ -90,18 +88,40 @@ def _haca(trial: Trial) -> Pieces:
     return haca(_log_maps(trial), n_classes=_n_classes(trial), **options)
 
 
+def _pca(trial: Trial) -> Pieces:
+    from kineme.baselines.pca import pca
+
+    return pca(_quaternions(trial), fps=trial.motion.fps)
+
+
+def _ppca(trial: Trial) -> Pieces:
+    from kineme.baselines.pca import ppca
+
+    return ppca(_quaternions(trial), fps=trial.motion.fps)
+
+
+def _gmm(trial: Trial) -> Pieces:
+    from kineme.baselines.gmm import gmm
+
+    return gmm(_quaternions(trial), n_classes=_n_classes(trial))
+
+
 def _uniform(trial: Trial) -> Pieces:
-    n = trial.motion.n_frames
-    cuts = np.arange(1, int(n / trial.motion.fps / UNIFORM_S) + 1) * UNIFORM_S * trial.motion.fps
-    cuts = np.rint(cuts).astype(np.int64)
-    cuts = cuts[cuts < n]
-    return Pieces(cuts, np.arange(cuts.size + 1), n)
+    from kineme.baselines.uniform import uniform
+
+    return uniform(trial.motion.n_frames, fps=trial.motion.fps, seconds=UNIFORM_S)
 
 
-def _log_maps(trial: Trial) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _log_maps(trial: Trial) -> Floats:
     from kineme.baselines.joints import joint_quaternions, log_maps
 
     return log_maps(joint_quaternions(trial.motion))
+
+
+def _quaternions(trial: Trial) -> Floats:
+    from kineme.baselines.joints import joint_quaternions
+
+    return joint_quaternions(trial.motion).reshape(trial.motion.n_frames, -1)
 
 
 def _n_classes(trial: Trial) -> int:
@@ -111,6 +131,9 @@ def _n_classes(trial: Trial) -> int:
 _PIECES: Mapping[str, Callable[[Trial], Pieces]] = {
     "aca": _aca,
     "haca": _haca,
+    "pca": _pca,
+    "ppca": _ppca,
+    "gmm": _gmm,
     "uniform": _uniform,
 }
 

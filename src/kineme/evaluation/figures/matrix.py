@@ -25,17 +25,17 @@ from kineme.evaluation.labelling import TRANSITION, Annotation
 from kineme.evaluation.trials import Trial
 from kineme.graph import NeighborGraph, component_labels
 from kineme.plot import SHADES, similarity_image
-from kineme.segmentation.analysis import Analysis
+from kineme.segmentation.analysis import Analysis, analyze
 from kineme.segmentation.presets import PUBLISHED, RegionPreset
 from kineme.segmentation.primitives import primitive_cuts
-from kineme.segmentation.segmenter import segment_and_analysis
+from kineme.segmentation.segmenter import motion_features
 
 FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
 
 
 def plot_regions(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voegele2014"]) -> Path:
     """Truth, forward regions, backward regions and activities in one matrix each."""
-    _, analysis = segment_and_analysis(trial.motion, preset)
+    analysis = analyze(motion_features(trial.motion, preset), preset)
     n, fps = len(analysis.graph), preset.working_fps
     figure = new_figure(9.2, 9.2)
     panels = figure.subplots(2, 2).ravel()
@@ -67,7 +67,7 @@ def plot_regions(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voe
 
 def plot_paths(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voegele2014"]) -> Path:
     """The longest activity: matrix, connected components, warping paths."""
-    found, analysis = segment_and_analysis(trial.motion, preset)
+    analysis = analyze(motion_features(trial.motion, preset), preset)
     lengths = np.diff(analysis.blocks) * analysis.repeats
     first, stop = analysis.blocks[lengths.argmax() :][:2].tolist()
     graph, fps = analysis.graph, preset.working_fps
@@ -88,18 +88,16 @@ def plot_paths(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voege
         skip_penalty=preset.skip_penalty * preset.radius,
         zero_cost=preset.zero_cost,
         min_nodes=ceil(preset.min_path * fps),
-        separation=None
-        if preset.path_separation is None
-        else preset.frames(preset.path_separation),
+        separation=round((preset.path_separation or 0) * fps) or None,
         max_slope=preset.max_slope,
         symmetry=preset.symmetry,
         min_length=preset.min_primitive * fps,
     ).paths
     lines = [np.column_stack([columns, rows]) / fps for rows, columns in paths]
     panels[2].add_collection(LineCollection(lines, colors="#D62728", linewidths=1.3))
-    inside = found.primitives.start_s
-    for second in inside[(inside > first / fps) & (inside < stop / fps)]:
-        panels[2].axvline(second, color=FINAL, linewidth=0.8, linestyle="--")
+    cuts = analysis.segments
+    for cut in cuts[(first < cuts) & (cuts < stop)]:
+        panels[2].axvline(cut / fps, color=FINAL, linewidth=0.8, linestyle="--")
     for axes, text in zip(
         panels,
         (

@@ -36,7 +36,9 @@ def scores_by_radius(trials: Sequence[Trial], preset: RegionPreset) -> list[tupl
     return [(share * preset.radius, _mean(trials, _wider(preset, share))) for share in SHARES]
 
 
-def scores_by_neighbors(trials: Sequence[Trial], preset: RegionPreset) -> list[tuple[float, Scores]]:
+def scores_by_neighbors(
+    trials: Sequence[Trial], preset: RegionPreset
+) -> list[tuple[float, Scores]]:
     """Number of neighbours and mean scores; what is derived from it changes with it."""
     return [(float(k), _mean(trials, _with_neighbors(preset, k))) for k in NEIGHBORS]
 

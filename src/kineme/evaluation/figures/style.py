@@ -21,6 +21,7 @@ OTHER = "#BBBBBB"
 DPI = 130
 
 METHOD_COLORS = {
+    "kineme": PALETTE[5],
     "voegele2014": PALETTE[2],
     "krueger2017": PALETTE[7],
     "aca": PALETTE[4],

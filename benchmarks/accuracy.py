@@ -1,0 +1,52 @@
+"""Both presets on the benchmark, beside the accuracies that are promised.
+
+    python benchmarks/accuracy.py [FOLDER OF RECORDINGS]
+
+Strict and tolerant accuracy as their authors coded them, on every trial at
+hand; the promise is for the mean of trials 1, 9, 10, 11 and 14. A uniform cut
+every half second stands beside, because it passes both under this protocol.
+Exits with 1 if a promise is not kept.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from pathlib import Path
+
+from kineme.evaluation.benchmark import mean_scores, run
+from kineme.evaluation.methods import METHODS
+from kineme.evaluation.trials import find_folder, load_trials
+
+TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
+PROMISED = {"voegele2014": (0.91, 0.98), "krueger2017": (0.91, 0.975)}
+
+
+def main() -> int:
+    beside = Path(__file__).resolve().parents[2] / "shared" / "data"
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else os.environ.get("KINEME_DATA", beside))
+    methods = {name: METHODS[name] for name in (*PROMISED, "uniform")}
+    results = run(load_trials(find_folder(folder), TRIALS), methods)
+    print(f"{'trial':8} {'method':12} {'strict':>7} {'tolerant':>9}")
+    for result in results:
+        scores = result.scores
+        print(
+            f"{result.trial.name:8} {result.method:12} {scores['strict']:7.4f} "
+            f"{scores['tolerant']:9.4f}"
+        )
+    kept = True
+    for name, scores in mean_scores(results).items():
+        line = f"{'mean':8} {name:12} {scores['strict']:7.4f} {scores['tolerant']:9.4f}"
+        if name in PROMISED:
+            strict, tolerant = PROMISED[name]
+            good = scores["strict"] >= strict and scores["tolerant"] >= tolerant
+            kept &= good
+            line += f"   promised {strict:.3f} {tolerant:.3f}   {'kept' if good else 'NOT KEPT'}"
+        print(line)
+    return 0 if kept else 1
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    sys.exit(main())

@@ -1,0 +1,234 @@
+"""Methods run on trials, published cuts scored, tables written, figures drawn."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.datasets import Action, synthesize
+from kineme.errors import ParameterError, ReadError, WriteError
+from kineme.evaluation import Annotation, Labelling, evaluate_segmentation
+from kineme.evaluation.benchmark import mean, mean_scores, run, score_published_cuts
+from kineme.evaluation.methods import METHODS, method, preset_method
+from kineme.evaluation.reoccurrence import reoccurring
+from kineme.evaluation.tables import as_records, markdown_scores, write_records
+from kineme.evaluation.trials import Trial, find_folder, load_trials
+from kineme.segmentation.presets import VOEGELE2014
+
+
+@pytest.fixture(scope="module")
+def folder(data_dir: Path) -> Path:
+    return find_folder(data_dir)
+
+
+@pytest.fixture(scope="module")
+def trial(folder: Path) -> Trial:
+    return load_trials(folder, ["86_11"])[0]
+
+
+@pytest.fixture(scope="module")
+def results(trial: Trial):
+    return run([trial], {name: METHODS[name] for name in ("voegele2014", "gmm", "uniform")})
+
+
+def test_the_promised_accuracies_hold(folder):
+    names = ["86_01", "86_09", "86_10", "86_11", "86_14"]
+    trials = load_trials(folder, names)
+    means = {
+        name: mean([evaluate_segmentation(trial.truth, METHODS[name](trial)) for trial in trials])
+        for name in ("voegele2014", "krueger2017", "uniform")
+    }
+    assert means["voegele2014"]["strict"] >= 0.91
+    assert means["voegele2014"]["tolerant"] >= 0.98
+    assert means["krueger2017"]["strict"] >= 0.91
+    assert means["krueger2017"]["tolerant"] >= 0.975
+    # The published protocol misleads, the fair scores do not.
+    assert means["uniform"]["strict"] > means["voegele2014"]["strict"]
+    assert means["uniform"]["border_f1"] < 0.2
+    assert means["uniform"]["one_to_one"] < 0.1
+
+
+def test_every_method_of_the_list_tiles_the_trial(trial):
+    for result in run([trial], {n: m for n, m in METHODS.items() if n != "haca"}):
+        assert result.found.n_frames == trial.motion.n_frames
+        assert result.scores["seconds"] > 0
+        assert 0 <= result.scores["strict"] <= 1
+
+
+def test_every_call_reports_every_score(results):
+    wanted = {
+        *("strict", "tolerant", "majority", "majority_agreed"),
+        *("one_to_one", "one_to_one_agreed", "rand_index", "mutual_information"),
+        *("border_precision", "border_recall", "border_f1", "covering"),
+        *("border_ratio", "cut_ratio", "cluster_ratio"),
+        *("cloud_distance", "cloud_variance", "feature_distance", "feature_variance"),
+        *("length_mean", "length_variance", "seconds"),
+    }
+    for result in results:
+        assert set(result.scores) == wanted
+
+
+def test_a_changed_preset_is_a_method_too(trial):
+    coarse = VOEGELE2014.replace(min_primitive=3.0)
+    fine, rough = (len(preset_method(preset)(trial).primitives) for preset in (VOEGELE2014, coarse))
+    assert rough < fine
+
+
+def test_an_unknown_method_is_named_with_those_there_are():
+    with pytest.raises(ParameterError, match=r"no method 'kmeans'; there are .*haca"):
+        method("kmeans")
+
+
+@pytest.mark.parametrize(
+    ("name", "strict", "tolerant", "one_to_one", "agreed"),
+    [("aca", 0.880, 0.964, 0.843, 0.954), ("haca", 0.881, 0.964, 0.850, 0.962)],
+)
+def test_published_cuts_of_all_fourteen_trials(folder, name, strict, tolerant, one_to_one, agreed):
+    own = [found for found in score_published_cuts(folder) if found.method == name]
+    assert len(own) == 14
+    scores = mean([found.scores for found in own])
+    expected = {
+        "strict": strict,
+        "tolerant": tolerant,
+        "one_to_one": one_to_one,
+        "one_to_one_agreed": agreed,
+    }
+    assert scores == pytest.approx(expected, abs=5e-3)
+    printed = mean([found.printed for found in own])
+    assert printed["strict"] == pytest.approx(0.79, abs=0.005)
+    assert max(abs(f.printed["strict"] - f.scores["strict"]) for f in own) > 0.2
+
+
+def test_published_cuts_that_are_not_there_are_an_error(folder, tmp_path):
+    (tmp_path / "annotations.json").write_bytes((folder / "annotations.json").read_bytes())
+    with pytest.raises(ReadError, match="no published cuts"):
+        score_published_cuts(tmp_path)
+
+
+def test_a_mean_leaves_out_what_is_no_number():
+    assert mean([{"a": 1.0, "b": math.nan}, {"a": 3.0}]) == pytest.approx(
+        {"a": 2.0, "b": math.nan}, nan_ok=True
+    )
+
+
+def test_the_folder_is_the_one_named_or_cmu86_in_it(folder, tmp_path, monkeypatch):
+    assert find_folder(folder) == find_folder(folder.parent) == folder
+    with pytest.raises(ReadError, match="kineme data cmu 86"):
+        find_folder(tmp_path)
+    monkeypatch.setenv("KINEME_DATA", str(folder.parent))
+    assert find_folder() == folder
+    monkeypatch.delenv("KINEME_DATA")
+    monkeypatch.setenv("KINEME_CACHE", str(folder.parent))
+    assert find_folder() == folder
+
+
+def test_trials_that_cannot_be_had_are_one_sentence(folder, tmp_path):
+    with pytest.raises(ParameterError, match="no trial '86_15'"):
+        load_trials(folder, ["86_15"])
+    with pytest.raises(ReadError, match=r"86_02\.amc: not at hand; fetch it"):
+        load_trials(folder, ["86_02"])
+    (tmp_path / "annotations.json").write_bytes((folder / "annotations.json").read_bytes())
+    with pytest.raises(ReadError, match="no recording of subject 86"):
+        load_trials(tmp_path)
+
+
+def test_an_annotation_of_another_length_is_refused(folder, tmp_path):
+    content = json.loads((folder / "annotations.json").read_text())
+    content["trials"]["86_01"][-1].update(end_earliest=5000, end_mean=5000, end_latest=5000)
+    (tmp_path / "annotations.json").write_text(json.dumps(content))
+    for name in ("86.asf", "86_01.amc"):
+        (tmp_path / name).symlink_to(folder / name)
+    with pytest.raises(ReadError, match="1145 frames at 30 Hz, its annotation 1250"):
+        load_trials(tmp_path, ["86_01"])
+
+
+def test_records_as_csv_and_json(results, tmp_path):
+    records = as_records(results)
+    assert [(r["trial"], r["method"]) for r in records[:4]] == [
+        ("86_11", "voegele2014"),
+        ("86_11", "gmm"),
+        ("86_11", "uniform"),
+        ("mean", "voegele2014"),
+    ]
+    write_records(records, tmp_path / "scores.csv")
+    rows = list(csv.DictReader((tmp_path / "scores.csv").read_text().splitlines()))
+    assert float(rows[0]["strict"]) == records[0]["strict"]
+    assert rows[2]["cloud_distance"] == ""
+    write_records(records, tmp_path / "scores.json")
+    scores = json.loads((tmp_path / "scores.json").read_text())["scores"]
+    assert scores[0]["border_f1"] == records[0]["border_f1"]
+    assert scores[2]["cloud_distance"] is None
+    with pytest.raises(WriteError, match=r"\.json or \.csv"):
+        write_records(records, tmp_path / "scores.txt")
+
+
+def test_markdown_has_a_column_per_method(results):
+    table = markdown_scores(mean_scores(results))
+    assert table.splitlines()[0] == "|  | voegele2014 | gmm | uniform |"
+    assert any(line.startswith("| border F1 |") for line in table.splitlines())
+    assert len({line.count("|") for line in table.splitlines()}) == 1
+
+
+def test_poses_reoccur_in_repetitions_and_not_in_a_single_motion():
+    squats = synthesize([Action("squat", 5)], seed=1).motion
+    single = synthesize([Action("squat", 1)], seed=1).motion
+    assert reoccurring(squats).mean() > 0.8
+    assert reoccurring(single).mean() < reoccurring(squats).mean()
+
+
+def test_the_papers_figures_and_tables_are_made_anew(results, folder, tmp_path, monkeypatch):
+    from kineme.evaluation import figures
+    from kineme.evaluation.figures import sensitivity, timing
+
+    (tmp_path / "data" / "cmu86").mkdir(parents=True)
+    for name in ("86.asf", "86_11.amc", "annotations.json", "published.json"):
+        (tmp_path / "data" / "cmu86" / name).symlink_to(folder / name)
+    monkeypatch.setattr(sensitivity, "SHARES", (0.9, 1.1))
+    monkeypatch.setattr(sensitivity, "NEIGHBORS", (64, 128))
+    monkeypatch.setattr(timing, "RUNS", 1)
+    monkeypatch.setattr(timing, "POINTS", 4)
+    out = tmp_path / "figures"
+    out.mkdir()
+    tables = figures.make_figures(results, tmp_path / "data" / "cmu86", out)
+    assert {path.name for path in out.iterdir()} == {
+        *("segments.png", "accuracies.png", "published_cuts.png", "variances.png"),
+        *("distances.png", "timings.png", "growth.png", "sensitivity.png"),
+        *("regions.png", "paths.png", "reoccurrence.png"),
+    }
+    assert all(2_000 < path.stat().st_size < 200_000 for path in out.iterdir())
+    assert set(tables) >= {"means", "86_11", "uniform cuts", "published cuts", "reoccurrence"}
+    assert "| HACA 86_14 |" in tables["published cuts"]
+
+
+def test_a_cluster_has_the_colour_of_the_class_it_is_assigned_to():
+    from kineme.evaluation.figures.bars import _colors
+
+    truth = Labelling.from_cuts([10], ["walk", "run"], frames=20, fps=10.0)
+    found = Labelling.from_cuts([8, 10], ["a", "b", "c"], frames=20, fps=10.0)
+    own = {"walk": ("#000001", 0.0), "run": ("#000002", 0.0)}
+    colors = _colors(truth, found, own)
+    assert colors["a"] == own["walk"]
+    assert colors["c"] == own["run"]
+    assert colors["b"][0] == "#000001"
+    assert colors["b"][1] > 0
+
+
+def test_a_preset_segmentation_scores_the_same_read_back_from_its_table(trial, tmp_path):
+    from kineme.evaluation.inputs import read_result, read_truth, score
+
+    found = kineme.segment(trial.motion, preset="voegele2014")
+    kineme.write_segments(found, tmp_path / "found.csv")
+    read = read_result(tmp_path / "found.csv")
+    annotations = Path(trial.motion.provenance.path).parent / "annotations.json"
+    truth = read_truth(annotations, read)
+    assert isinstance(truth, Annotation)
+    scores = score(truth, read, trial.motion)
+    expected = run([trial], {"voegele2014": METHODS["voegele2014"]})[0].scores
+    assert scores == pytest.approx({n: v for n, v in expected.items() if n != "seconds"})
+    assert np.isfinite(scores["cloud_distance"])
