@@ -133,7 +133,9 @@ def amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, F
     records = re.split(r"^\d+\s*$", amc, flags=re.MULTILINE)[1:]
     results = []
     for frame in frames:
-        values = {words[0]: words[1:] for words in map(str.split, records[frame].splitlines()) if words}
+        values = {
+            words[0]: words[1:] for words in map(str.split, records[frame].splitlines()) if words
+        }
         move = [float(x) for x in values["root"]]
         at = {"root": np.array([[0.0, 0, 0], [0, 0, 0]]) + unit * np.array(move[:3])}
         turned = {"root": Rotation.from_euler("xyz", move[3:], degrees=True)}
@@ -144,7 +146,9 @@ def amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, F
                 waiting.append(name)
                 continue
             bone = bones[name]
-            frame_of = Rotation.from_euler("xyz", [float(x) for x in bone["axis"][:3]], degrees=True)
+            frame_of = Rotation.from_euler(
+                "xyz", [float(x) for x in bone["axis"][:3]], degrees=True
+            )
             angles = dict(zip(bone.get("dof", []), map(float, values.get(name, [])), strict=True))
             own = Rotation.from_euler(
                 "xyz", [angles.get("rx", 0), angles.get("ry", 0), angles.get("rz", 0)], degrees=True

@@ -36,7 +36,8 @@ SCHEMES = {
     "optitrack": "LFoot RFoot Head LHand RHand",
     "lower case": "leftfoot rightfoot head lefthand righthand",
     "upper case": "LEFT_FOOT RIGHT_FOOT HEAD LEFT_HAND RIGHT_HAND",
-    "maya path": "|rig|ns:LeftFoot |rig|ns:RightFoot |rig|ns:Head |rig|ns:LeftHand |rig|ns:RightHand",
+    "maya path": "|rig|ns:LeftFoot |rig|ns:RightFoot |rig|ns:Head |rig|ns:LeftHand "
+    "|rig|ns:RightHand",
 }
 PLAIN = ("LeftFoot", "RightFoot", "Head", "LeftHand", "RightHand")
 

@@ -24,7 +24,7 @@ from kineme.datasets.figure import ANGLES, LIMBS, SIDES
 
 Floats = NDArray[np.float64]
 
-STANDING = {name: 0.0 for name in ANGLES} | {
+STANDING = dict.fromkeys(ANGLES, 0.0) | {
     f"{side} {limb}": angle
     for side in SIDES
     for limb, angle in (("spread", 3.0), ("raise", 9.0), ("elbow", 14.0), ("roll", 15.0))

@@ -77,7 +77,7 @@ def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) ->
         frames = now + np.rint(np.cumsum([0.0, *lasting]) * fps).astype(np.int64)
         if np.diff(frames).min() < 3:
             raise ParameterError(
-                f"{action.name!r} at speed {action.speed:g} is too fast for {fps:g} frames per second"
+                f"{action.name!r} at speed {action.speed:g} is too fast for {fps:g} Hz"
             )
         last = place == len(actions) - 1
         fade_out = 0 if last else round(rng.uniform(*_TRANSITION_S) * fps)

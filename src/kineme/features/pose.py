@@ -69,7 +69,7 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
         raise ParameterError(f"features must be frames x dims, not of shape {features.shape}")
     if len(offsets) == 0 or len(set(offsets)) < len(offsets):
         raise ParameterError(f"offsets must be different frames, at least one, not {offsets!r}")
-    before, after = max(0, -min(offsets)), max(0, max(offsets))
+    before, after = max(0, -min(offsets)), max(0, *offsets)
     longer = _extrapolated(features, before, after)
     frames, dims = features.shape
     stacked = np.empty((frames, len(offsets), dims))

@@ -45,7 +45,7 @@ def find_by_shape(parents: Sequence[int], pose: Floats) -> dict[str, int]:
     pose : (joints, 3), metres, y up: a pose in which the legs are the lower limbs
     """
     paths, lengths = _longest_paths(parents, pose)
-    pairs = _limb_pairs(parents, paths, lengths, pose)[:2]
+    pairs = _limb_pairs(parents, paths, pose)[:2]
     if len(pairs) < 2:
         return {}
     legs, arms = sorted(pairs, key=lambda pair: float(pose[[limb.end for limb in pair], 1].sum()))
@@ -72,7 +72,7 @@ def _longest_paths(parents: Sequence[int], pose: Floats) -> tuple[list[list[int]
 
 
 def _limb_pairs(
-    parents: Sequence[int], paths: list[list[int]], lengths: list[float], pose: Floats
+    parents: Sequence[int], paths: list[list[int]], pose: Floats
 ) -> list[tuple[_Limb, _Limb]]:
     """Pairs of like branches of one joint, the longest first."""
     children: dict[int, list[int]] = {}

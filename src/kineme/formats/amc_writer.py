@@ -78,7 +78,8 @@ def write_amc(motion: Motion, path: Path) -> None:
 def _bones(skeleton: Skeleton, slides: NDArray[np.bool_]) -> list[Bone]:
     """The root and all bones, parents first."""
     inner = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
-    names = dict(zip(inner, unique([ROOT, *map(_word, (skeleton.names[j] for j in inner[1:]))])))
+    words = unique([ROOT, *map(_word, (skeleton.names[j] for j in inner[1:]))])
+    names = dict(zip(inner, words, strict=True))
     bones: list[Bone] = []
     hangs_on = {0: ROOT}
     for j in inner:

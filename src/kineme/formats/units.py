@@ -96,7 +96,8 @@ def infer_unit(
 
     The height is taken as three quarters of the longest way along the bones,
     hand to foot; in nine skeletons (CMU, HDM05, PyMO, aitviewer) that is
-    within 7 % of the way along the bones from head to toes. Warns if no unit fits, and takes the nearest.
+    within 7 % of the way along the bones from head to toes. Warns if no unit
+    fits, and takes the nearest.
     """
     height = 0.75 * _longest_way(skeleton, np.linalg.norm(translations.mean(axis=0), axis=1))
     fits = {name: HEIGHTS[0] <= height * size <= HEIGHTS[1] for name, size in UNITS.items()}

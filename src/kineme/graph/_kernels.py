@@ -124,10 +124,14 @@ def nearest_mask(indptr, distances, k):
     return mask
 
 
-@njit("int64(int64[::1], int32[::1], float32[::1], float32, int64, int64[::1], int32[::1],"
-      " float32[::1])", **OPTIONS)
-def copy_restricted(indptr, indices, distances, radius, min_lag, out_indptr, out_indices,
-                    out_distances):
+@njit(
+    "int64(int64[::1], int32[::1], float32[::1], float32, int64, int64[::1], int32[::1],"
+    " float32[::1])",
+    **OPTIONS,
+)
+def copy_restricted(
+    indptr, indices, distances, radius, min_lag, out_indptr, out_indices, out_distances
+):
     """Copy the entries within the radius and at least min_lag off the diagonal."""
     kept = 0
     for i in range(indptr.shape[0] - 1):

@@ -17,8 +17,9 @@ from numba import njit
 from kineme.graph._kernels import OPTIONS
 
 
-@njit("Tuple((int64[::1], int64[::1]))(int64[::1], int32[::1], int64, int64, int64, int64)",
-      **OPTIONS)
+@njit(
+    "Tuple((int64[::1], int64[::1]))(int64[::1], int32[::1], int64, int64, int64, int64)", **OPTIONS
+)
 def box_rows(indptr, indices, row_start, row_stop, column_start, column_stop):
     """``first`` and ``node`` of the rows of a box."""
     rows = row_stop - row_start
@@ -42,8 +43,11 @@ def empty_ring(steps, width):
     return np.full(depth * (width + reach), -1, np.int32), width + reach, reach
 
 
-@njit("void(int32[::1], int64, int64[::1], int64, int32[::1], int64[::1], int64[::1],"
-      " int64[:, ::1], int64)", **OPTIONS)
+@njit(
+    "void(int32[::1], int64, int64[::1], int64, int32[::1], int64[::1], int64[::1],"
+    " int64[:, ::1], int64)",
+    **OPTIONS,
+)
 def enter_row(ring, line, looks, r, indices, first, node, steps, offset):
     """Put row r into the ring in place of the row that falls out of reach.
 
@@ -99,11 +103,14 @@ def component_roots(indices, first, node, steps, column_start, width):
     return parents
 
 
-@njit("Tuple((float64[::1], int32[::1], int32[::1]))(int32[::1], float32[::1], int64[::1],"
-      " int64[::1], int64[:, ::1], float64[::1], int64, int64, int32[::1], boolean[::1], float64)",
-      **OPTIONS)
-def cheapest_arrivals(indices, distances, first, node, steps, penalties, column_start, width,
-                      roots, wanted, zero_cost):
+@njit(
+    "Tuple((float64[::1], int32[::1], int32[::1]))(int32[::1], float32[::1], int64[::1],"
+    " int64[::1], int64[:, ::1], float64[::1], int64, int64, int32[::1], boolean[::1], float64)",
+    **OPTIONS,
+)
+def cheapest_arrivals(
+    indices, distances, first, node, steps, penalties, column_start, width, roots, wanted, zero_cost
+):
     """Cost, predecessor and first column of the cheapest path to every node.
 
     Paths begin at any node of the first row of their component. A node costs
@@ -155,8 +162,10 @@ def survey_components(roots, node, min_nodes):
     return wanted, last_rows
 
 
-@njit("int32[::1](int32[::1], boolean[::1], int64[::1], float64[::1], int32[::1], int64[::1],"
-      " int64)", **OPTIONS)
+@njit(
+    "int32[::1](int32[::1], boolean[::1], int64[::1], float64[::1], int32[::1], int64[::1], int64)",
+    **OPTIONS,
+)
 def choose_ends(roots, wanted, last_rows, costs, origins, node, separation):
     """Nodes of the last row of each component at which a path ends, cheapest first.
 
@@ -185,18 +194,42 @@ def choose_ends(roots, wanted, last_rows, costs, origins, node, separation):
     return np.array(ends, dtype=np.int32)
 
 
-@njit("Tuple((int64[::1], int32[::1], int32[::1], float64[::1]))"
-      "(int64[::1], int32[::1], float32[::1], int64, int64, int64, int64, int64[:, ::1],"
-      " float64[::1], float64, int64, int64)", **OPTIONS)
-def paths_in_box(indptr, indices, distances, row_start, row_stop, column_start, column_stop,
-                 steps, penalties, zero_cost, min_nodes, separation):
+@njit(
+    "Tuple((int64[::1], int32[::1], int32[::1], float64[::1]))"
+    "(int64[::1], int32[::1], float32[::1], int64, int64, int64, int64, int64[:, ::1],"
+    " float64[::1], float64, int64, int64)",
+    **OPTIONS,
+)
+def paths_in_box(
+    indptr,
+    indices,
+    distances,
+    row_start,
+    row_stop,
+    column_start,
+    column_stop,
+    steps,
+    penalties,
+    zero_cost,
+    min_nodes,
+    separation,
+):
     """Cheapest paths through the components of a box: pointers, rows, columns, costs."""
     width = column_stop - column_start
     first, node = box_rows(indptr, indices, row_start, row_stop, column_start, column_stop)
     roots = component_roots(indices, first, node, steps, column_start, width)
     wanted, last_rows = survey_components(roots, node, min_nodes)
     costs, before, origins = cheapest_arrivals(
-        indices, distances, first, node, steps, penalties, column_start, width, roots, wanted,
+        indices,
+        distances,
+        first,
+        node,
+        steps,
+        penalties,
+        column_start,
+        width,
+        roots,
+        wanted,
         zero_cost,
     )
     ends = choose_ends(roots, wanted, last_rows, costs, origins, node, separation)

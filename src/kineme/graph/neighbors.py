@@ -88,7 +88,6 @@ class NeighborGraph:
         if self.n_entries == 0 or k >= self.counts.max():
             return self
 
-
         def mask(rows: slice) -> NDArray[np.bool_]:
             indptr = self.indptr[rows.start : rows.stop + 1]
             kept: NDArray[np.bool_] = _kernels.nearest_mask(
@@ -159,9 +158,7 @@ def neighbor_graph(
     rows = _as_features(features, "features")
     columns = rows if others is None else _as_features(others, "others")
     if rows.shape[1] != columns.shape[1]:
-        raise ParameterError(
-            f"features have {rows.shape[1]} dimensions, others {columns.shape[1]}"
-        )
+        raise ParameterError(f"features have {rows.shape[1]} dimensions, others {columns.shape[1]}")
     if not (np.isfinite(radius) and radius >= 0):
         raise ParameterError(f"the radius must be a finite number from 0, not {radius}")
     for name, value in (("k", k), ("max_lag", max_lag)):
@@ -267,8 +264,9 @@ def _block_shape(n_rows: int, n_columns: int, lag: int) -> tuple[int, int]:
 def _as_features(values: ArrayLike, name: str) -> Floats:
     array = np.ascontiguousarray(values, np.float64)
     if array.ndim != 2 or 0 in array.shape:
-        raise ParameterError(f"{name} must be frames x dims with at least one of each, "
-                             f"not of shape {array.shape}")
+        raise ParameterError(
+            f"{name} must be frames x dims with at least one of each, not of shape {array.shape}"
+        )
     if not np.isfinite(array).all():
         frame = int(np.argmin(np.isfinite(array).all(axis=1)))
         raise ParameterError(f"{name} hold a value that is not finite, first in frame {frame}")

@@ -172,8 +172,11 @@ def row_of_column(rows, columns, column):
     return rows[at]
 
 
-@njit("Tuple((int64[::1], float64[::1]))(int64[::1], int32[::1], int32[::1], int64[::1], int64,"
-      " float64, boolean)", **OPTIONS)
+@njit(
+    "Tuple((int64[::1], float64[::1]))(int64[::1], int32[::1], int32[::1], int64[::1], int64,"
+    " float64, boolean)",
+    **OPTIONS,
+)
 def linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
     """Segments h that paths through segment g link to it, and the smaller share covered.
 

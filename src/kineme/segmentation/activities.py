@@ -88,9 +88,7 @@ def scan_line_cuts(graph: NeighborGraph, *, min_gap: int, min_count: int) -> Act
     forward = _kernels.scan_lines_forward(graph.indptr, graph.indices, min_gap, min_count)
     mask = np.zeros(len(graph), np.bool_)
     mask[forward] = True
-    backward = _kernels.scan_lines_backward(
-        graph.indptr, graph.indices, mask, min_gap, min_count
-    )
+    backward = _kernels.scan_lines_backward(graph.indptr, graph.indices, mask, min_gap, min_count)
     return ActivityCuts(forward, backward)
 
 

@@ -93,6 +93,4 @@ def _choose(paths: WarpingPaths, low: float, high: float, min_length: float) -> 
             cuts.append(cut)
             sources.append(int(p))
     order = np.argsort(cuts)
-    return PrimitiveCuts(
-        np.array(cuts, np.int64)[order], np.array(sources, np.int64)[order], paths
-    )
+    return PrimitiveCuts(np.array(cuts, np.int64)[order], np.array(sources, np.int64)[order], paths)
