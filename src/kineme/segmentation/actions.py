@@ -202,7 +202,7 @@ def refine(
     min_length : bins; an action with less is given up
     rounds : times that actions are learnt anew from their moments
     """
-    per_bin = np.repeat(labels, np.diff(borders))
+    per_bin = _by_first_appearance(np.repeat(labels, np.diff(borders)))
     for _ in range(rounds):
         relative = _relative_affinity(recurrence, per_bin, min_length)
         costs = np.column_stack([1 - relative, np.full(len(per_bin), no_action_cost)])
