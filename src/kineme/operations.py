@@ -11,7 +11,6 @@ from math import cos, floor, isfinite, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial.transform import Rotation, Slerp
 
 from kineme import _rotations as rot
 from kineme.errors import ParameterError
@@ -125,6 +124,8 @@ def _between(values: Floats, at: Floats) -> Floats:
 
 def _slerp(rotations: Floats, at: Floats) -> Floats:
     """Rotations at fractional frames, each joint interpolated along the shorter arc."""
+    from scipy.spatial.transform import Rotation, Slerp  # heavy, and seldom needed
+
     if len(rotations) == 1:
         return np.repeat(rotations, len(at), axis=0)
     frames = np.arange(len(rotations))

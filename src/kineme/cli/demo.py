@@ -28,8 +28,8 @@ def demo(
     failures = Failures()
     with failures.caught(path):
         check_writable(table, picture)
-        result, graph = run(path, {}, KINEME, None, quiet=quiet)
-        write_results(result, graph, table, picture)
+        result, analysis = run(path, {}, KINEME, None, quiet=quiet)
+        write_results(result, analysis, table, picture)
         if not quiet:
             from kineme.cli.tables import show_segments
 

@@ -27,7 +27,8 @@ from kineme.segmentation.table import Level
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.graph import NeighborGraph
+    from kineme.segmentation.action_analysis import ActionAnalysis
+    from kineme.segmentation.analysis import Analysis
     from kineme.segmentation.result import Segmentation
 
 
@@ -69,8 +70,8 @@ def segment(
     for path, table, picture in zip(files, tables, pictures, strict=True):
         with failures.caught(path):
             check_writable(table, picture)
-            result, graph = run(path, reading, chosen, names, quiet=quiet)
-            write_results(result, graph, table, picture)
+            result, analysis = run(path, reading, chosen, names, quiet=quiet)
+            write_results(result, analysis, table, picture)
             if json:
                 from kineme.export.json_table import as_object
 
@@ -89,20 +90,22 @@ def run(
     effectors: Names | None,
     *,
     quiet: bool,
-) -> tuple[Segmentation, NeighborGraph]:
-    """The segments of a file, and the neighbour graph they were found in."""
+) -> tuple[Segmentation, Analysis | ActionAnalysis]:
+    """The segments of a file, and what each stage found on the way to them."""
     with progress(path.name, quiet=quiet) as stage:
         stage("reading")
         from kineme.formats import read
         from kineme.segmentation.segmenter import segment_and_analysis
 
         motion = read(path, **reading)
-        result, analysis = segment_and_analysis(motion, preset, effectors=effectors, progress=stage)
-        return result, analysis.graph
+        return segment_and_analysis(motion, preset, effectors=effectors, progress=stage)
 
 
 def write_results(
-    result: Segmentation, graph: NeighborGraph, table: Path | None, picture: Path | None
+    result: Segmentation,
+    analysis: Analysis | ActionAnalysis,
+    table: Path | None,
+    picture: Path | None,
 ) -> None:
     """The table and the picture, where wanted."""
     if table is not None:
@@ -112,4 +115,4 @@ def write_results(
     if picture is not None:
         from kineme.plot import plot_segmentation
 
-        plot_segmentation(result, graph, picture)
+        plot_segmentation(result, analysis.graph, picture)

@@ -7,12 +7,10 @@ compilation serves every call, and compiled code is kept on disk.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numba import njit
 
-OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
+from kineme._compiled import OPTIONS
 
 # Columns are screened in runs of this many, so that the far ones, which are
 # most, cost one vectorised comparison each.

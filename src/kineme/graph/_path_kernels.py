@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme.graph._kernels import OPTIONS
+from kineme._compiled import OPTIONS
 
 
 @njit(

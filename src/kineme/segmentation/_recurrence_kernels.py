@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from kineme.graph._kernels import OPTIONS
+from kineme._compiled import OPTIONS
 
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 FAR = np.float32(np.inf)

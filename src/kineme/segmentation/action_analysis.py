@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import map_threads
-from kineme.graph import NeighborGraph, neighbor_graph
 from kineme.segmentation import _recurrence_kernels as kernels
 from kineme.segmentation import actions as steps
 from kineme.segmentation.actions import Actions
@@ -20,6 +20,9 @@ from kineme.segmentation.presets import ActionPreset
 from kineme.segmentation.recurrence import Recurrence, recurrence
 from kineme.segmentation.repetitions import Repetitions, repetitions
 from kineme.segmentation.stages import Progress, stopwatch
+
+if TYPE_CHECKING:
+    from kineme.graph import NeighborGraph
 
 Frames = NDArray[np.int64]
 
@@ -59,6 +62,8 @@ class ActionAnalysis:
     @cached_property
     def graph(self) -> NeighborGraph:
         """Neighbours of every frame, for pictures; the method itself does not need them."""
+        from kineme.graph import neighbor_graph
+
         return neighbor_graph(
             self.features,
             radius=2 * self.preset.max_scale,

@@ -19,8 +19,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.cluster.hierarchy import fcluster, linkage
-from scipy.spatial.distance import squareform
 
 from kineme._threads import even_slices, map_threads
 from kineme.segmentation import _recurrence_kernels as kernels
@@ -113,14 +111,21 @@ def link(
     likeness : relative similarity from which stretches are one action, 0 to 1
     max_lag : bins; stretches farther apart are not compared, and differ
     """
+    from scipy.cluster.hierarchy import fcluster, linkage
+    from scipy.spatial.distance import squareform
+
     k = len(borders) - 1
     if k == 1:
         return np.zeros(1, np.int64)
+    reach = borders[-1] if max_lag is None else max_lag
+    within_reach = np.searchsorted(borders[:-1], borders[1:] + reach, side="right")
     mean = np.zeros((k, k))
-    pairs = [(g, h) for g in range(k) for h in range(g, k)]
-    similarity = map_threads(lambda pair: _similarity(borders, recurrence, max_lag, *pair), pairs)
-    for (g, h), value in zip(pairs, similarity, strict=True):
-        mean[g, h] = mean[h, g] = value
+
+    def compare(g: int) -> None:
+        for h in range(g, within_reach[g]):
+            mean[g, h] = mean[h, g] = _similarity(borders, recurrence, g, h)
+
+    map_threads(compare, range(k))
     within = np.sqrt(np.maximum(mean.diagonal(), 1e-9))
     distance = 1 - np.clip(mean / np.outer(within, within), 0, 1)
     np.fill_diagonal(distance, 0)
@@ -133,20 +138,15 @@ EXCERPT = 60
 STRIDE = 2
 
 
-def _similarity(
-    borders: Bins, recurrence: Recurrence, max_lag: int | None, g: int, h: int
-) -> float:
+def _similarity(borders: Bins, recurrence: Recurrence, g: int, h: int) -> float:
     """Mean similarity of two stretches, g not after h: from the band, else measured anew."""
     g_start, g_stop, h_start, h_stop = borders[[g, g + 1, h, h + 1]].tolist()
-    apart = h_start - g_stop
     width = recurrence.similarity.shape[1]
-    if apart < width - EXCERPT or g == h:
+    if g == h or h_start - g_stop < width - EXCERPT:
         in_band: float = kernels.mean_similarity(
             recurrence.similarity, g_start, g_stop, h_start, h_stop, recurrence.phase
         )
         return in_band
-    if max_lag is not None and apart > max_lag:
-        return 0.0
     distant: float = kernels.distant_similarity(
         recurrence.features, recurrence.scales, recurrence.step, recurrence.phase, STRIDE,
         recurrence.softness, *_excerpt(g_start, g_stop), *_excerpt(h_start, h_stop),
@@ -204,46 +204,75 @@ def refine(
     """
     per_bin = _by_first_appearance(np.repeat(labels, np.diff(borders)))
     for _ in range(rounds):
-        relative = _relative_affinity(recurrence, per_bin, min_length)
+        relative, actions = _relative_affinity(recurrence, per_bin, min_length)
         costs = np.column_stack([1 - relative, np.full(len(per_bin), no_action_cost)])
-        per_bin = kernels.cheapest_labels(costs, switch_cost)
-        per_bin[per_bin == relative.shape[1]] = -1
+        columns = kernels.cheapest_labels(costs, switch_cost)
+        actions = np.column_stack([actions, np.full(len(per_bin), -1)])
+        per_bin = actions[np.arange(len(per_bin)), columns]
         rare = np.bincount(per_bin + 1)[per_bin + 1] < min_length
         per_bin = _by_first_appearance(np.where(rare, -1, per_bin))
     found = np.concatenate([[0], np.flatnonzero(np.diff(per_bin)) + 1, [len(per_bin)]])
     return Actions(found, per_bin[found[:-1]], _confidence(recurrence, per_bin, found, min_length))
 
 
-def _relative_affinity(
-    recurrence: Recurrence, per_bin: Bins, min_count: int
-) -> NDArray[np.float64]:
-    """Mean similarity of each bin to each action, relative to the action's own median, to 1."""
-    # Bins of no action count as one action more, which is left out.
-    classes = int(per_bin.max()) + 1
-    labels = np.where(per_bin < 0, classes, per_bin)
-    affinity = np.empty((len(labels), classes + 1))
-
-    def fill(part: slice) -> None:
-        kernels.class_affinities(
-            recurrence.similarity, labels, recurrence.phase, min_count, part.start, part.stop,
-            affinity,
-        )  # fmt: skip
-
-    map_threads(fill, even_slices(len(labels)))
-    own = np.array([np.median(affinity[labels == c, c]) for c in range(classes)])
-    return np.minimum(affinity[:, :classes] / np.maximum(own, 0.05), 1)
-
-
 def _confidence(
     recurrence: Recurrence, per_bin: Bins, borders: Bins, min_count: int
 ) -> NDArray[np.float64]:
     """How much more alike the bins of each stretch are to their own action than to the next."""
-    relative = _relative_affinity(recurrence, per_bin, min_count)
-    every = np.arange(len(per_bin))
-    own = np.where(per_bin < 0, 0, relative[every, np.maximum(per_bin, 0)])
-    relative[every[per_bin >= 0], per_bin[per_bin >= 0]] = 0
-    margin = own - relative.max(axis=1, initial=0)
-    return np.clip(np.add.reduceat(margin, borders[:-1]) / np.diff(borders), 0, 1)
+    relative, actions = _relative_affinity(recurrence, per_bin, min_count)
+    is_own = (actions == per_bin[:, None]) & (per_bin[:, None] >= 0)
+    own = np.where(is_own, relative, 0).sum(axis=1)
+    other = np.where(is_own, 0, relative).max(axis=1, initial=0)
+    return np.clip(np.add.reduceat(own - other, borders[:-1]) / np.diff(borders), 0, 1)
+
+
+def _relative_affinity(
+    recurrence: Recurrence, per_bin: Bins, min_count: int
+) -> tuple[NDArray[np.float64], Bins]:
+    """Mean similarity of each bin to the actions in reach, relative to their own medians, to 1.
+
+    One column per action, or for several; which it is for at each bin comes with it.
+    """
+    actions, column_of = _columns(per_bin, recurrence.similarity.shape[1] - 1)
+    none = actions.shape[1]  # bins of no action count in a column of their own, left out below
+    columns = np.where(per_bin < 0, none, column_of[per_bin])
+    affinity = np.empty((len(per_bin), none + 1))
+
+    def fill(part: slice) -> None:
+        kernels.class_affinities(
+            recurrence.similarity, columns, recurrence.phase, min_count, part.start, part.stop,
+            affinity,
+        )  # fmt: skip
+
+    map_threads(fill, even_slices(len(per_bin)))
+    by_action = np.split(np.argsort(per_bin, kind="stable"), np.cumsum(np.bincount(per_bin + 1)))
+    own = [np.median(affinity[bins, columns[bins]]) for bins in by_action[1:-1]]
+    scale = np.append(np.maximum(own, 0.05), 1.0)[actions]
+    return np.minimum(affinity[:, :none] / scale, 1), actions
+
+
+def _columns(per_bin: Bins, reach: int) -> tuple[Bins, Bins]:
+    """Which action each column stands for at each bin (-1: none), and the column of each action.
+
+    Actions that no bin can reach both of share a column, so that there are
+    no more columns in a long recording than in a short one.
+    """
+    n = len(per_bin)
+    column_of = np.zeros(int(per_bin.max()) + 2, np.int64)  # one more, for none
+    spans: list[tuple[int, int, int]] = []
+    free_from: list[int] = []
+    for action in range(len(column_of) - 1):
+        bins = np.flatnonzero(per_bin == action)
+        start, stop = max(0, int(bins[0]) - reach), min(n, int(bins[-1]) + reach + 1)
+        free = (column for column, since in enumerate(free_from) if since <= start)
+        column = next(free, len(free_from))
+        free_from[column : column + 1] = [stop]
+        column_of[action] = column
+        spans.append((start, stop, column))
+    actions = np.full((n, len(free_from)), -1)
+    for action, (start, stop, column) in enumerate(spans):
+        actions[start:stop, column] = action
+    return actions, column_of
 
 
 def _by_first_appearance(labels: NDArray[np.integer]) -> Bins:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +22,6 @@ from kineme.errors import ParameterError
 from kineme.features.effectors import Names
 from kineme.motion import Motion
 from kineme.operations import resample
-from kineme.segmentation.action_analysis import ActionAnalysis, analyze_actions
-from kineme.segmentation.analysis import Analysis, analyze
 from kineme.segmentation.presets import (
     DEFAULT,
     ActionPreset,
@@ -33,6 +31,10 @@ from kineme.segmentation.presets import (
 )
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.stages import Progress
+
+if TYPE_CHECKING:
+    from kineme.segmentation.action_analysis import ActionAnalysis
+    from kineme.segmentation.analysis import Analysis
 
 
 def segment(
@@ -82,11 +84,16 @@ def segment_and_analysis(
     found = end_effectors(motion, names=effectors)
     features = motion_features(motion, preset, effectors=found)
     seconds = time.perf_counter() - start
+    # Each method brings compiled code of its own, loaded only where it is used.
     analysis: Analysis | ActionAnalysis
     if isinstance(preset, ActionPreset):
+        from kineme.segmentation.action_analysis import analyze_actions
+
         analysis = analyze_actions(features, preset, progress=progress)
         columns = _action_columns(analysis)
     elif isinstance(preset, RegionPreset):
+        from kineme.segmentation.analysis import analyze
+
         analysis = analyze(features, preset, progress=progress)
         columns = _region_columns(analysis)
     else:
