@@ -21,6 +21,8 @@ from kineme._colors import PALETTE, cluster_color
 from kineme.datasets import bundled_truth
 from kineme.graph import component_labels
 from kineme.plot import BORDER, INK, SHADES, draw_segmentation, similarity_image
+from kineme.segmentation.action_analysis import ActionAnalysis
+from kineme.segmentation.presets import KINEME
 from kineme.segmentation.presets import VOEGELE2014 as PRESET
 from kineme.segmentation.primitives import primitive_cuts
 
@@ -32,16 +34,25 @@ ZOOMED = 2  # the activity shown in the picture of the primitives: squats
 
 def main() -> None:
     motion = kineme.read(kineme.bundled_recording())
-    segments, analysis = kineme.segment_and_analysis(motion, PRESET)
-    truth = kineme.read_segments(bundled_truth())
+    segments, found = kineme.segment_and_analysis(motion, KINEME)
 
     figure = _figure(7.6, 6.6)
-    draw_segmentation(figure.add_subplot(), segments, analysis.graph)
+    draw_segmentation(figure.add_subplot(), segments, found.graph)
     _save(figure, "exercises")
 
     figure = _figure(8, 3)
     draw_features(figure.add_subplot(), motion)
     _save(figure, "features")
+
+    figure = _figure(9, 4.6)
+    draw_recurrence(figure.subplots(1, 2, sharey=True), found)
+    _save(figure, "recurrence")
+
+    figure = _figure(8, 3)
+    draw_visits(figure.add_subplot(), found)
+    _save(figure, "repetitions")
+
+    published, analysis = kineme.segment_and_analysis(motion, PRESET)
 
     figure = _figure(9, 4.6)
     draw_regions(figure.subplots(1, 2, sharey=True), analysis)
@@ -51,9 +62,9 @@ def main() -> None:
     draw_paths(figure.subplots(1, 2, sharey=True), analysis)
     _save(figure, "primitives")
 
-    rows = {"truth": truth, "voegele2014": segments}
-    rows["krueger2017"] = kineme.segment(motion, preset="krueger2017")
-    figure = _figure(9, 2.4)
+    rows = {"truth": kineme.read_segments(bundled_truth()), "kineme": segments}
+    rows |= {"voegele2014": published, "krueger2017": kineme.segment(motion, preset="krueger2017")}
+    figure = _figure(9, 3)
     draw_bars(figure.add_subplot(), rows)
     _save(figure, "clusters")
 
@@ -67,6 +78,43 @@ def draw_features(axes: Axes, motion: kineme.Motion) -> None:
     axes.set(xlabel="seconds", ylabel="metres above the pelvis", xlim=(0, seconds[-1]))
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(ncols=5, frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.15))
+
+
+def draw_recurrence(pair: np.ndarray, found: ActionAnalysis) -> None:
+    """Poses that are alike, and moments that are alike whatever their phase."""
+    band = found.recurrence.similarity
+    n = len(band)
+    i, lag = np.indices(band.shape)
+    inside = i + lag < n
+    image = np.zeros((n, n), np.float32)
+    image[i[inside], (i + lag)[inside]] = image[(i + lag)[inside], i[inside]] = band[inside]
+    frames = len(found.features)
+    _matrix(pair[0], similarity_image(found.graph), frames)
+    _matrix(pair[1], image, frames)
+    for start, stop, label in zip(found.blocks[:-1], found.blocks[1:], found.labels, strict=True):
+        if label >= 0:
+            size = (stop - start) / FPS
+            corner = (start / FPS, start / FPS)
+            pair[1].add_patch(Rectangle(corner, size, size, fill=False, color=BORDER))
+    pair[0].set_title("poses", loc="left", fontsize=10)
+    pair[1].set_title("moments, and activities", loc="left", fontsize=10)
+
+
+def draw_visits(axes: Axes, found: ActionAnalysis) -> None:
+    """How far the squats are from three of their own poses, and where the repetitions begin."""
+    start, stop = found.blocks[ZOOMED : ZOOMED + 2].tolist()
+    seconds = np.arange(start, stop) / FPS
+    for share, color in zip((0.03, 0.1, 0.17), PALETTE[2:], strict=False):
+        at = round(start + share * (stop - start))
+        distance = np.linalg.norm(found.features[start:stop] - found.features[at], axis=1)
+        axes.plot(seconds, distance, color=color, linewidth=1.2, label=f"{at / FPS:.1f} s")
+    for cut in found.segments[(found.segments > start) & (found.segments < stop)] / FPS:
+        axes.axvline(cut, color=BORDER, linewidth=1.5)
+    axes.set(xlabel="seconds", ylabel="body sizes", xlim=(seconds[0], seconds[-1]), ylim=(0, None))
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(
+        title="distance from", frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(1, 1)
+    )
 
 
 def draw_regions(pair: np.ndarray, analysis: kineme.Analysis) -> None:

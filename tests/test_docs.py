@@ -24,7 +24,7 @@ from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
 
 from kineme.datasets import bundled_recording
 from kineme.export import read_segments, write_segments
-from kineme.segmentation.presets import PRESETS
+from kineme.segmentation.presets import KINEME, KRUEGER2017, VOEGELE2014, Preset
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -66,15 +66,16 @@ def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
         jsonschema.validate(written, schema)
 
 
-def test_constants_in_the_docs_are_those_of_the_presets() -> None:
+@pytest.mark.parametrize(
+    ("title", "presets"), [("Values", [KINEME]), ("Constants", [VOEGELE2014, KRUEGER2017])]
+)
+def test_constants_in_the_docs_are_those_of_the_presets(title: str, presets: list[Preset]) -> None:
     method = (ROOT / "docs" / "method.md").read_text(encoding="utf-8")
-    chapter = method.partition("## Constants")[2].partition("\n## ")[0]
-    written = re.findall(r"^\| `(\w+)` \| (.+?) \| (.+?) \|", chapter, flags=re.MULTILINE)
-    one, other = PRESETS["voegele2014"], PRESETS["krueger2017"]
-    names = {field.name for field in fields(one)} - {"name"}
-    assert {name: values for name, *values in written} == {
-        name: [shown(getattr(one, name)), shown(getattr(other, name))] for name in names
-    }
+    chapter = method.partition(f"### {title}\n")[2].partition("\n## ")[0]
+    rows = re.findall(r"^\| `(\w+)` \| (.+) \|$", chapter, flags=re.MULTILINE)
+    written = {name: cells.split(" | ")[: len(presets)] for name, cells in rows}
+    names = {field.name for field in fields(presets[0])} - {"name"}
+    assert written == {name: [shown(getattr(p, name)) for p in presets] for name in names}
 
 
 def shown(value: Any) -> str:
