@@ -106,9 +106,12 @@ def segment_and_analysis(
         "input": {"path": source.path, "format": source.format, "sha256": source.sha256},
         "notes": [*source.notes, f"end effectors: {found.describe(motion.skeleton)}"],
     }
+    columns = _at_source_rate(columns, motion, preset.working_fps)
+    if isinstance(preset, ActionPreset):
+        provenance["notes"] += _doubts(columns, motion.fps)
     timings = {"features": seconds, **analysis.timings}
     result = Segmentation.from_columns(
-        _at_source_rate(columns, motion, preset.working_fps),
+        columns,
         n_frames=motion.n_frames,
         fps=motion.fps,
         provenance=provenance,
@@ -161,6 +164,33 @@ def _action_columns(analysis: ActionAnalysis) -> Columns:
         "cluster": np.concatenate([analysis.labels, analysis.labels[parents]]),
         "score": np.concatenate([analysis.confidence, analysis.agreement]),
     }
+
+
+# Scores below which a result is to be looked at: activities whose moments are nearly as
+# much like another action's, and counts that few poses agree on.
+UNSURE_ACTION, UNSURE_COUNT = 0.25, 0.4
+
+
+def _doubts(columns: Columns, fps: float) -> list[str]:
+    """A sentence for each activity that the method is not sure of."""
+    activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
+    sentences = []
+    for row in np.flatnonzero(activity):
+        start, stop = columns["start_frame"][row], columns["stop_frame"][row]
+        where = f"at {start / fps:.2f} to {stop / fps:.2f} s"
+        if columns["score"][row] < UNSURE_ACTION:
+            sentences.append(
+                f"look at the activity {where}: it is nearly as much like another "
+                f"(confidence {columns['score'][row]:.2f})"
+            )
+        inside = (columns["level"] == "primitive") & (columns["start_frame"] == start)
+        agreement = columns["score"][inside][0]
+        if agreement < UNSURE_COUNT:
+            sentences.append(
+                f"look at the repetitions {where}: only {agreement:.0%} of the poses agree "
+                "on their number"
+            )
+    return sentences
 
 
 def _kinds(is_activity: NDArray[np.bool_], parents: NDArray[np.intp]) -> NDArray[np.str_]:
