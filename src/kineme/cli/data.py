@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from kineme.datasets.cmu import Fetched
     from kineme.datasets.download import Progress
 
-MEGABYTE = 1e6
-
 
 class Database(StrEnum):
     """What can be fetched."""
@@ -131,15 +129,18 @@ def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], Non
 
 
 def _line(file: Fetched) -> str:
+    from rich.filesize import decimal
+
     length = "" if file.frames is None else f"{file.frames} frames, "
     how = "fetched" if file.new else "there already"
-    return f"{file.path.name}: {length}{file.size / MEGABYTE:.1f} MB, {how}"
+    return f"{file.path.name}: {length}{decimal(file.size)}, {how}"
 
 
 def _summary(files: list[Fetched], seconds: float) -> str:
+    from rich.filesize import decimal
+
     new = [file for file in files if file.new]
-    size = sum(file.size for file in new) / MEGABYTE
+    size = decimal(sum(file.size for file in new))
     return (
-        f"{len(files)} files in {files[0].path.parent}: {len(new)} fetched, {size:.1f} MB, "
-        f"{seconds:.1f} s"
+        f"{len(files)} files in {files[0].path.parent}: {len(new)} fetched, {size}, {seconds:.1f} s"
     )

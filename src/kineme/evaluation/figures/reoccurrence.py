@@ -22,9 +22,9 @@ def plot_reoccurrence(recordings: Sequence[Recording], path: Path) -> Path:
     for name, (share, style) in lines.items():
         axes.axhline(share, color=INK, linestyle=style, linewidth=1.2, label=f"{name}: {share:.1%}")
     axes.set_xticks(range(len(rows)), [r.path.stem for r in rows], rotation=40, ha="right")
-    axes.set_ylim(0, 1.02)
+    axes.set_ylim(0, 1.25)
     axes.set_yticks(np.linspace(0, 1, 6))
-    axes.legend(frameon=False, fontsize=8, loc="upper left")
+    axes.legend(frameon=False, fontsize=8, loc="upper left", ncols=2)
     tidy(axes)
     heading(axes, "share of poses that come back within 10 s, recordings longer than 8 s")
     return save(figure, path)

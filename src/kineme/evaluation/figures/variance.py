@@ -33,7 +33,7 @@ from kineme.evaluation.figures.style import (
 )
 from kineme.evaluation.variance import ClusterVariance, feature_variance, point_cloud_variance
 
-METHODS = ("voegele2014", "krueger2017", "aca", "haca")
+METHODS = ("kineme", "voegele2014", "krueger2017", "aca", "haca")
 
 
 class Measured(NamedTuple):
