@@ -2,15 +2,18 @@
 
 from kineme.datasets.actions import ACTIONS
 from kineme.datasets.bundled import bundled_recording, bundled_truth
+from kineme.datasets.sequences import Exercise, exercise_sequence
 from kineme.datasets.synthetic import SyntheticRecording, random_recording, synthesize
 from kineme.datasets.timeline import Action
 
 __all__ = [
     "ACTIONS",
     "Action",
+    "Exercise",
     "SyntheticRecording",
     "bundled_recording",
     "bundled_truth",
+    "exercise_sequence",
     "random_recording",
     "synthesize",
 ]

@@ -1,0 +1,220 @@
+"""Sequences of recorded exercises, of which every border and repetition is known.
+
+Many collections hold single exercises, each cut out by people. Joined end to
+end they make recordings as long and as varied as wanted, of real movement and
+with a known truth. At a join the second exercise is turned about the vertical
+and moved along the floor to where the first one ended. What differs then is
+made up on both sides: over the join, every rotation goes from the one to the
+other along the sphere while both movements go on, so that no frame is lost
+and nobody stops.
+
+The truth is a segmentation like any other (see ``synthetic``). Between two
+repetitions of one action the border is the join's middle; between two actions
+the join is a transition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from itertools import groupby, pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.datasets.synthetic import SyntheticRecording
+from kineme.errors import ParameterError
+from kineme.motion import Motion, Provenance, local_translations
+from kineme.operations import move, turn
+from kineme.segmentation.result import Segmentation
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Exercise:
+    """A recording of one exercise and nothing else.
+
+    Parameters
+    ----------
+    name : what it is; exercises of one name are one action
+    motion : with rotations
+    repetitions : how often it holds the exercise
+    """
+
+    name: str
+    motion: Motion
+    repetitions: int = 1
+
+    def __post_init__(self) -> None:
+        if self.repetitions < 1:
+            raise ParameterError(f"repetitions must be at least 1, not {self.repetitions}")
+
+
+def exercise_sequence(
+    exercises: Iterable[Exercise],
+    seed: int,
+    *,
+    actions: int = 5,
+    runs: int = 8,
+    repeats: tuple[int, int] = (3, 6),
+    join: float = 0.4,
+) -> SyntheticRecording:
+    """Exercises of one person joined in random order, and where each begins and ends.
+
+    Parameters
+    ----------
+    exercises : of one skeleton and one frame rate
+    seed : of everything random; the same seed gives the same recording
+    actions : how many different ones are drawn; all, if there are fewer
+    runs : how many times an action is taken up; each comes once before any comes
+        again, and never after itself
+    repeats : fewest and most exercises of a run, joined one after the other
+    join : seconds over which a join is blended; at most two thirds of the
+        shorter exercise
+
+    Raises
+    ------
+    ParameterError : fewer than two actions, exercises that do not fit together,
+        or one without rotations
+    """
+    of_name: dict[str, list[Exercise]] = {}
+    for exercise in exercises:
+        of_name.setdefault(exercise.name, []).append(exercise)
+    if min(len(of_name), actions) < 2:
+        raise ParameterError(f"at least two actions are needed, not {min(len(of_name), actions)}")
+    if runs < 1 or not 1 <= repeats[0] <= repeats[1] or not join >= 0:
+        raise ParameterError(
+            f"runs must be at least 1, repeats rise from at least 1 and join not be negative, "
+            f"not {runs}, {repeats} and {join}"
+        )
+    _check_fit([exercise.motion for takes in of_name.values() for exercise in takes])
+    rng = np.random.default_rng(seed)
+    names = rng.permutation(sorted(of_name))[:actions].tolist()
+    order = _run_order(names, runs, rng)
+    parts = [
+        exercise
+        for name in order
+        for exercise in _draw(of_name[name], int(rng.integers(repeats[0], repeats[1] + 1)), rng)
+    ]
+    motion, starts, halves = _joined([exercise.motion for exercise in parts], join)
+    provenance = Provenance(
+        format="sequence", notes=(f"{len(parts)} exercises joined, seed {seed}",)
+    )
+    truth = _truth(parts, starts, halves, motion.fps)
+    return SyntheticRecording(replace(motion, provenance=provenance), truth)
+
+
+def _check_fit(motions: list[Motion]) -> None:
+    first = motions[0]
+    for motion in motions:
+        same = motion.skeleton.names == first.skeleton.names and np.allclose(
+            motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3
+        )
+        if not same or motion.fps != first.fps or motion.rotations is None:
+            raise ParameterError(
+                "exercises are joined if they have one skeleton, one frame rate and rotations; "
+                f"{motion.provenance.path or 'one of them'} does not fit the first"
+            )
+
+
+def _run_order(names: list[str], runs: int, rng: np.random.Generator) -> list[str]:
+    """Every name once in random order, and again, without equal neighbours."""
+    order: list[str] = []
+    while len(order) < runs:
+        again = rng.permutation(names).tolist()
+        if order and again[0] == order[-1]:
+            again.append(again.pop(0))
+        order += again
+    return order[:runs]
+
+
+def _draw(takes: list[Exercise], count: int, rng: np.random.Generator) -> list[Exercise]:
+    """So many of the takes, none twice before each came once."""
+    order = rng.permutation(len(takes))
+    return [takes[order[i % len(takes)]] for i in range(count)]
+
+
+def _joined(motions: list[Motion], join: float) -> tuple[Motion, NDArray[np.int64], list[int]]:
+    """One motion of all, the first frame of each and the end, and half of each join in frames."""
+    fps = motions[0].fps
+    placed = [motions[0]]
+    for motion in motions[1:]:
+        placed.append(_placed_after(placed[-1], motion))
+    rotations = [np.array(motion.rotations) for motion in placed]
+    translations = [local_translations(motion) for motion in placed]
+    halves = []
+    for before, after in pairwise(range(len(placed))):
+        shorter = min(len(rotations[before]), len(rotations[after]))
+        half = min(round(join * fps / 2), shorter // 3)
+        _blend(rotations[before], rotations[after], translations[before], translations[after], half)
+        halves.append(half)
+    motion = Motion.from_rotations(
+        placed[0].skeleton,
+        np.concatenate(rotations),
+        fps,
+        translations=np.concatenate(translations),
+    )
+    return motion, np.cumsum([0, *map(len, rotations)]), halves
+
+
+def _placed_after(before: Motion, motion: Motion) -> Motion:
+    """The motion turned and moved so that its root goes on where the one before ends."""
+    ended, begins = np.array(before.rotations)[-1, 0], np.array(motion.rotations)[0, 0]
+    q = rot.multiply(ended, rot.conjugate(begins))
+    turned = turn(motion, 2 * float(np.arctan2(q[2], q[0])))
+    step = before.positions[-1, 0] - turned.positions[0, 0]
+    return move(turned, step * [1, 0, 1])
+
+
+def _blend(a: Floats, b: Floats, a_shift: Floats, b_shift: Floats, half: int) -> None:
+    """Bends the end of a and the start of b towards each other, in place."""
+    from scipy.spatial.transform import Rotation
+
+    if half == 0:
+        return
+    x = (np.arange(2 * half) + 0.5) / (2 * half)
+    share = (x * x * (3 - 2 * x))[:, None, None]
+    share[half:] -= 1
+    vectors = Rotation.from_quat(np.roll(rot.multiply(rot.conjugate(a[-1]), b[0]), -1, -1))
+    angles = share * vectors.as_rotvec()
+    bends = np.roll(Rotation.from_rotvec(angles.reshape(-1, 3)).as_quat(), 1, -1)
+    bends = bends.reshape(*angles.shape[:2], 4)
+    shift = share * (b_shift[0] - a_shift[-1])
+    a[-half:] = rot.multiply(a[-half:], bends[:half])
+    b[:half] = rot.multiply(b[:half], bends[half:])
+    a_shift[-half:] += shift[:half]
+    b_shift[:half] += shift[half:]
+
+
+def _truth(
+    parts: list[Exercise], starts: NDArray[np.int64], halves: list[int], fps: float
+) -> Segmentation:
+    numbers = {name: i for i, name in enumerate(dict.fromkeys(part.name for part in parts))}
+    halves = [0, *halves, 0]  # no join at the recording's own ends
+    rows: list[tuple[str, str, int, int, int, str]] = []
+
+    def add(level: str, kind: str, start: int, stop: int, name: str = "") -> None:
+        if stop > start:
+            rows.append((level, kind, start, stop, numbers.get(name, -1), name))
+
+    for name, members in groupby(range(len(parts)), lambda i: parts[i].name):
+        run = list(members)
+        edges = starts[run[0] : run[-1] + 2].tolist()
+        before, after = halves[run[0]], halves[run[-1] + 1]
+        for level in ("activity", "primitive"):
+            add(level, "transition", edges[0] - before, edges[0] + before)
+        edges[0], edges[-1] = edges[0] + before, edges[-1] - after
+        add("activity", "activity", edges[0], edges[-1], name)
+        for i, (start, stop) in zip(run, pairwise(edges), strict=True):
+            borders = np.linspace(start, stop, parts[i].repetitions + 1).astype(int).tolist()
+            for a, b in pairwise(borders):
+                add("primitive", "activity", a, b, name)
+    keys = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
+    return Segmentation.from_columns(
+        dict(zip(keys, map(list, zip(*rows, strict=True)), strict=True)),
+        n_frames=int(starts[-1]),
+        fps=fps,
+        provenance={"notes": ["known by construction"]},
+    )
