@@ -1,0 +1,113 @@
+"""Recordings with a truth for the benchmarks: subject 86, HDM05 sequences, synthetic ones.
+
+All are `Case`s: a motion, and what people or the maker say of it.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+import kineme
+from kineme.datasets import ACTIONS, Action, Exercise, exercise_sequence, synthesize
+from kineme.evaluation import Annotation, labelling_of
+from kineme.evaluation.trials import find_folder, load_trials
+from kineme.motion import Motion
+from kineme.segmentation.result import Segmentation
+
+DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
+TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
+
+ACTORS = ("bd", "bk", "dg")
+# HDM05 names the repetitions in the class, steps singly: four of them are two double steps.
+REPETITIONS = {"jogLeftCircle4StepsRstart": 2}
+
+EXERCISES = [name for name in ACTIONS if name not in ("walk", "stand")]
+SMALL = ("wave", "punch")
+CONDITIONS = ("as it is", "speed", "size", "noise", "one hand", "all")
+
+
+@dataclass(frozen=True)
+class Case:
+    """A recording and its truth."""
+
+    name: str
+    motion: Motion
+    truth: Annotation
+
+
+def subject_86() -> list[Case]:
+    """The five trials of the benchmark."""
+    trials = load_trials(find_folder(DATA), TRIALS)
+    return [Case(trial.name, trial.motion, trial.truth) for trial in trials]
+
+
+def hdm05(seeds: int) -> Iterator[Case]:
+    """Sequences of HDM05 exercises, actors in turn."""
+    for seed in range(seeds):
+        actor = ACTORS[seed % len(ACTORS)]
+        made = exercise_sequence(_exercises(actor), seed)
+        yield Case(f"{actor} {seed}", made.motion, annotation(made.truth))
+
+
+@cache
+def _exercises(actor: str) -> list[Exercise]:
+    """The cuts ``HDM_<actor>_<class>_<number>_120.amc`` of one actor."""
+    skeleton = DATA / "hdm05" / "asf" / f"HDM_{actor}.asf"
+    exercises = []
+    for path in sorted((DATA / "hdm05" / "amc").glob(f"HDM_{actor}_*_120.amc")):
+        kind = path.stem.split("_")[2]
+        motion = kineme.read(path, skeleton=skeleton)
+        exercises.append(Exercise(kind, motion, REPETITIONS.get(kind, 1)))
+    return exercises
+
+
+def synthetic(condition: str, seeds: int) -> Iterator[Case]:
+    """Walking between exercises, three to eight repetitions each, under a condition.
+
+    ``speed``: each action at half to twice its speed; ``size``: bodies half to
+    twice as large; ``noise``: every joint shakes by up to 2 cm; ``one hand``:
+    waves and punches at half to full size are among the exercises.
+    """
+    for seed in range(seeds):
+        rng = np.random.default_rng(seed)
+        varied = {c: condition in (c, "all") for c in CONDITIONS}
+        exercises = rng.permutation(EXERCISES)[:3].tolist()
+        if varied["one hand"]:
+            exercises = [*SMALL, next(name for name in exercises if name not in SMALL)]
+        sequence = []
+        for name in (name for exercise in exercises for name in ("walk", exercise)):
+            small = varied["one hand"] and name in SMALL
+            sequence.append(
+                Action(
+                    name,
+                    int(rng.integers(3, 9)),
+                    speed=_factor(rng) if varied["speed"] else 1.0,
+                    amplitude=float(rng.uniform(0.5, 1)) if small else 1,
+                    side=("left", "right")[rng.integers(2)],
+                )
+            )
+        size = _factor(rng) if varied["size"] else 1.0
+        noise = float(rng.uniform(0, 0.02)) if varied["noise"] else 0
+        made = synthesize(sequence, fps=60, size=1.75 * size, noise=noise, seed=seed)
+        yield Case(f"{condition} {seed}", made.motion, annotation(made.truth))
+
+
+def _factor(rng: np.random.Generator) -> float:
+    """From a half to two, either way as likely."""
+    return float(2 ** rng.uniform(-1, 1))
+
+
+def annotation(truth: Segmentation) -> Annotation:
+    """A known truth in the form in which people's are: transitions are uncertain borders."""
+    rows = truth.activities
+    units = Counter(truth.primitives.activity.tolist())
+    marks = Annotation.from_labelling(labelling_of(rows, fps=truth.fps))
+    counts = [units[row.activity] for row in rows if row.kind == "activity"]
+    return replace(marks, counts=tuple(counts))
