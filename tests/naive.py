@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import null_space
+from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
 from kineme.motion import Motion
@@ -564,3 +567,72 @@ def ppca_cut(features, ahead, growth):
         if peak and values[i] - min(values[:i]) >= (max(values) - min(values)) / 10:
             return counts[i]
     return None
+
+
+# --- bundling and mirroring: one frame, one value at a time -----------------------------------
+
+
+def bundle(features, *, neighbors, variance):
+    """Features bundled frame by frame; each median by a general minimiser."""
+    center = features.mean(axis=0)
+    _, stretch, axes = np.linalg.svd(features - center, full_matrices=False)
+    count = 1
+    while (stretch[:count] ** 2).sum() < variance * (stretch**2).sum():
+        count += 1
+    axes = axes[: max(count, 3)]
+    points = (features - center) @ axes.T
+    directions = smooth_directions(points)
+    moved = []
+    for i, (point, direction) in enumerate(zip(points, directions)):
+        others = [j for j in range(len(points)) if j != i]
+        others.sort(key=lambda j: np.linalg.norm(points[j] - point))
+        nearest = points[others[: max(neighbors, len(axes))]]
+        across = null_space(direction[None])  # columns: a basis of the hyperplane
+
+        def mean_distance(step, across=across, point=point, nearest=nearest):
+            return np.linalg.norm(point + across @ step - nearest, axis=1).mean()
+
+        start = across.T @ (nearest.mean(axis=0) - point)
+        best = minimize(mean_distance, start, method="BFGS", options={"gtol": 1e-7})
+        moved.append(point + across @ best.x)
+    return np.array(moved) @ axes + center
+
+
+def smooth_directions(points):
+    """Five-point derivatives, averaged with binomial weights over the frames there are."""
+    n = len(points)
+
+    def point(t):
+        if t < 0:
+            return points[0] + t * (points[1] - points[0])
+        if t >= n:
+            return points[-1] + (t - n + 1) * (points[-1] - points[-2])
+        return points[t]
+
+    slopes = [
+        (point(t - 2) - 8 * point(t - 1) + 8 * point(t + 1) - point(t + 2)) / 12 for t in range(n)
+    ]
+    directions = []
+    for t in range(n):
+        near = [(comb(10, k), t + k - 5) for k in range(11) if 0 <= t + k - 5 < n]
+        mean = sum(weight * slopes[at] for weight, at in near) / sum(weight for weight, _ in near)
+        directions.append(mean / np.linalg.norm(mean))
+    return np.array(directions)
+
+
+def mirrored_pose(pose):
+    """One frame's 15 numbers with left and right exchanged."""
+    left_ankle, right_ankle, head, left_wrist, right_wrist = np.reshape(pose, (5, 3)).tolist()
+    exchanged = [right_ankle, left_ankle, head, right_wrist, left_wrist]
+    return [number for x, y, z in exchanged for number in (-x, y, z)]
+
+
+def merged_cuts(main, mirrored, gap):
+    """The main cuts and the mirrored ones far enough from the main ones before and after."""
+    added = []
+    for cut in mirrored:
+        before = [m for m in main if m <= cut]
+        after = [m for m in main if m >= cut]
+        if (not before or cut - max(before) > gap) and (not after or min(after) - cut > gap):
+            added.append(cut)
+    return sorted({*main, *added})

@@ -9,7 +9,7 @@ import pytest
 
 import kineme
 from kineme.graph import neighbor_graph
-from kineme.segmentation.presets import PRESETS
+from kineme.segmentation.presets import KRUEGER2017, VOEGELE2014, RegionPreset
 from kineme.segmentation.segmenter import motion_features
 
 TOLERANCE_CM = 0.05  # to which the features of rebuilt recordings agree
@@ -17,12 +17,13 @@ TOLERANCE_CM = 0.05  # to which the features of rebuilt recordings agree
 
 @pytest.mark.parametrize("trial", ["86_01", "86_09", "86_10", "86_11", "86_14"])
 @pytest.mark.parametrize(
-    ("reference", "name"), [("2014_paper", "voegele2014"), ("2017_plain", "krueger2017")]
+    ("reference", "preset"),
+    [("2014_paper", VOEGELE2014), ("2017_plain", KRUEGER2017.replace(radius=0.302 * 5**0.5))],
+    ids=["2014", "2017"],
 )
 def test_equal_to_the_authors_program(
-    data_dir: Path, reference: str, name: str, trial: str
+    data_dir: Path, reference: str, preset: RegionPreset, trial: str
 ) -> None:
-    preset = PRESETS[name]
     motion = kineme.read(data_dir / "cmu86" / f"{trial}.amc")
     features = 100 * motion_features(motion, preset)
     radius = 100 * preset.radius

@@ -1,7 +1,9 @@
-"""Feature vectors of poses: end effectors in the body's own frame, stacked over time."""
+"""Feature vectors of poses: end effectors in the body's own frame; stacked, mirrored, bundled."""
 
 from kineme.features.body_frame import body_frame
+from kineme.features.bundling import bundle
 from kineme.features.effectors import PARTS, EndEffectors, Names, end_effectors
+from kineme.features.mirroring import mirror, mirror_features
 from kineme.features.pose import offsets_in_frames, pose_features, stack
 from kineme.features.size import body_size
 
@@ -11,7 +13,10 @@ __all__ = [
     "Names",
     "body_frame",
     "body_size",
+    "bundle",
     "end_effectors",
+    "mirror",
+    "mirror_features",
     "offsets_in_frames",
     "pose_features",
     "stack",

@@ -5,6 +5,7 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import ceil
 
@@ -12,15 +13,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._threads import map_threads
+from kineme.errors import ParameterError
+from kineme.features.bundling import bundle
 from kineme.graph import NeighborGraph, component_labels, neighbor_graph
 from kineme.segmentation import _kernels
 from kineme.segmentation.activities import ActivityCuts, scan_line_cuts, square_cuts
 from kineme.segmentation.clustering import Clustering, cluster_segments
+from kineme.segmentation.mirroring import merged_cuts, symmetry_type
 from kineme.segmentation.presets import RegionPreset
-from kineme.segmentation.primitives import primitive_cuts
+from kineme.segmentation.primitives import PrimitiveCuts, primitive_cuts
 from kineme.segmentation.stages import Progress, stopwatch
 
 Frames = NDArray[np.int64]
+Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +41,9 @@ class Analysis:
     repetition : (blocks,) share of its frames that look like others of the block
     segments : (segments + 1,) borders of the primitives, from 0 to n, blocks' included
     clustering : cluster and score of each segment
+    symmetry : (blocks,) how left and right go together in each activity, ``symmetric``,
+        ``alternating`` or ``one-sided`` (see `kineme.segmentation.mirroring`); empty in
+        transitions; None where the preset does not mirror
     timings : seconds per stage
     """
 
@@ -46,10 +54,17 @@ class Analysis:
     repetition: NDArray[np.float64]
     segments: Frames
     clustering: Clustering
+    symmetry: NDArray[np.str_] | None = None
     timings: dict[str, float] = field(default_factory=dict)
 
 
-def analyze(features: ArrayLike, preset: RegionPreset, *, progress: Progress | None = None) -> Analysis:
+def analyze(
+    features: ArrayLike,
+    preset: RegionPreset,
+    *,
+    mirror: Mirror | None = None,
+    progress: Progress | None = None,
+) -> Analysis:
     """Neighbour graph, activities, primitives and clusters of a sequence of features.
 
     Parameters
@@ -58,17 +73,23 @@ def analyze(features: ArrayLike, preset: RegionPreset, *, progress: Progress | N
         Stacked search vectors at the working rate, in metres where the
         preset's radius is to mean what its source means.
     preset : RegionPreset
+    mirror : exchanges left and right in such features; `kineme.features.mirror_features`
+        for those of motions
     progress : called with the name of each stage before it runs
+
+    Raises
+    ------
+    ParameterError : the preset mirrors, and nothing says how
     """
+    if preset.mirror and mirror is None:
+        raise ParameterError("these features have no left and right: they take mirror=False")
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
+    if preset.bundling is not None:
+        with stage("bundling"):
+            features = bundle(features, neighbors=preset.bundling)
     with stage("neighbors"):
-        graph = neighbor_graph(
-            features,
-            radius=preset.radius,
-            k=preset.max_neighbors,
-            max_lag=None if preset.max_lag is None else max(1, preset.frames(preset.max_lag)),
-        )
+        graph = _neighbors(features, None, preset)
     with stage("activities"):
         off_diagonal = _growth_graph(graph, preset)
         cuts = _activity_cuts(off_diagonal, preset)
@@ -77,11 +98,37 @@ def analyze(features: ArrayLike, preset: RegionPreset, *, progress: Progress | N
         repeats = _repeats(blocks, cuts, np.add.reduceat(inner, blocks[:-1]), preset)
         repetition = np.add.reduceat(inner > 0, blocks[:-1]) / np.diff(blocks)
     with stage("primitives"):
-        cuts_inside = _primitives(graph, blocks, preset)
-        segments = _borders(np.concatenate([blocks, *cuts_inside]), len(graph))
+        primitives = _primitives(graph, blocks, preset)
+    found = [block.cuts for block in primitives]
+    symmetry = None
+    if preset.mirror and mirror is not None:
+        with stage("mirroring"):
+            mirrored_graph = _neighbors(mirror(np.asarray(features, float)), features, preset)
+            mirrored = _primitives(mirrored_graph, blocks, preset)
+            gap = preset.min_primitive * preset.working_fps
+            found = [
+                merged_cuts(main.cuts, other.cuts, gap)
+                for main, other in zip(primitives, mirrored, strict=True)
+            ]
+            symmetry = _symmetry(blocks, repeats, primitives, mirrored, gap)
     with stage("clusters"):
+        segments = _borders(np.concatenate([blocks, *found]), len(graph))
         clustering = _clusters(graph, segments, preset)
-    return Analysis(graph, cuts, blocks, repeats, repetition, segments, clustering, timings)
+    return Analysis(
+        graph, cuts, blocks, repeats, repetition, segments, clustering, symmetry, timings
+    )
+
+
+def _neighbors(
+    features: ArrayLike, others: ArrayLike | None, preset: RegionPreset
+) -> NeighborGraph:
+    return neighbor_graph(
+        features,
+        others,
+        radius=preset.radius,
+        k=preset.max_neighbors,
+        max_lag=None if preset.max_lag is None else max(1, preset.frames(preset.max_lag)),
+    )
 
 
 def _growth_graph(graph: NeighborGraph, preset: RegionPreset) -> NeighborGraph:
@@ -123,10 +170,10 @@ def _repeats(
     return (pairs > preset.growth_count) & ~(ends_only & np.isin(blocks[1:], cuts.backward))
 
 
-def _primitives(graph: NeighborGraph, blocks: Frames, preset: RegionPreset) -> list[Frames]:
+def _primitives(graph: NeighborGraph, blocks: Frames, preset: RegionPreset) -> list[PrimitiveCuts]:
     frames = np.minimum(blocks, len(graph) - 1).tolist()
 
-    def cuts_of(block: int) -> Frames:
+    def cuts_of(block: int) -> PrimitiveCuts:
         return primitive_cuts(
             graph,
             (frames[block], frames[block + 1]),
@@ -138,9 +185,27 @@ def _primitives(graph: NeighborGraph, blocks: Frames, preset: RegionPreset) -> l
             max_slope=preset.max_slope,
             symmetry=preset.symmetry,
             min_length=preset.min_primitive * preset.working_fps,
-        ).cuts
+        )
 
     return map_threads(cuts_of, range(len(blocks) - 1))
+
+
+def _symmetry(
+    blocks: Frames,
+    repeats: NDArray[np.bool_],
+    main: list[PrimitiveCuts],
+    mirrored: list[PrimitiveCuts],
+    gap: float,
+) -> NDArray[np.str_]:
+    """How left and right go together in each block that repeats; empty in the others."""
+    return np.array(
+        [
+            symmetry_type((int(start), int(stop) - 1), ours, others, gap) if repeated else ""
+            for start, stop, repeated, ours, others in zip(
+                blocks[:-1], blocks[1:], repeats, main, mirrored, strict=True
+            )
+        ]
+    )
 
 
 def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionPreset) -> Clustering:

@@ -14,6 +14,7 @@ from kineme.features import (
     EndEffectors,
     body_size,
     end_effectors,
+    mirror_features,
     offsets_in_frames,
     pose_features,
     stack,
@@ -94,7 +95,7 @@ def segment_and_analysis(
     elif isinstance(preset, RegionPreset):
         from kineme.segmentation.analysis import analyze
 
-        analysis = analyze(features, preset, progress=progress)
+        analysis = analyze(features, preset, mirror=mirror_features, progress=progress)
         columns = _region_columns(analysis)
     else:
         raise ParameterError(f"no method goes with a preset of type {type(preset).__name__}")

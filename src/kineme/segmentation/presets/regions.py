@@ -30,6 +30,9 @@ class RegionPreset(Preset):
     ----------
     radius : largest distance of two neighbours, metres in the stacked space
     max_neighbors : neighbours kept per frame at most, the nearest
+    bundling : draw frames together first, each towards so many of those like it; None for
+        features as they are
+    mirror : also cut where a repetition with left and right exchanged starts
     steps : warping steps (a, b)
     skip_penalty : cost of each frame a step passes over, in radii
     zero_cost : cost of a node whose distance is zero, metres
@@ -58,6 +61,8 @@ class RegionPreset(Preset):
 
     radius: float
     max_neighbors: int
+    bundling: int | None = None
+    mirror: bool = False
     steps: tuple[Step, ...]
     skip_penalty: float
     zero_cost: float
@@ -95,8 +100,8 @@ class RegionPreset(Preset):
 
 
 _POSITIVE = (
-    "working_fps", "radius", "max_neighbors", "max_lag", "growth_radius", "growth_neighbors",
-    "growth_gap", "path_separation", "cluster_neighbors", "zero_cost",
+    "working_fps", "radius", "max_neighbors", "max_lag", "bundling", "growth_radius",
+    "growth_neighbors", "growth_gap", "path_separation", "cluster_neighbors", "zero_cost",
 )  # fmt: skip
 _NOT_NEGATIVE = (
     "skip_penalty", "diagonal_width", "growth_count", "growth_distance", "min_path",
@@ -129,19 +134,20 @@ VOEGELE2014 = RegionPreset(
     cluster_min_path=1 / 6,  # V14 3.2: 5 frames
     coverage=0.5,  # program
     interpolate=False,
-    connection="weak",  # V14 4; program: strong
+    connection="strong",  # program; V14 4: connected components
 )
 
 KRUEGER2017 = RegionPreset(
     name="krueger2017",
     offsets=(-1 / 3, -1 / 6, 0.0, 1 / 6, 1 / 3),  # K17 VI
-    radius=0.302 * math.sqrt(5),  # program, timing script: generalised radius 30.2 cm
-    max_neighbors=600,  # program, timing script
+    radius=0.19 * math.sqrt(5),  # program: generalised radius 19 cm; 30.2 cm without bundling
+    max_neighbors=600,  # program
+    bundling=32,  # program
     steps=BASIC_STEPS,  # K17 IV
     skip_penalty=0.0,
     zero_cost=1e-6,  # program: 0.0001 cm
     growth="scan_lines",  # K17 IV
-    growth_radius=0.27 * math.sqrt(5),  # program: a second radius for activities
+    growth_radius=0.27 * math.sqrt(5),  # program; takes effect where ``radius`` is larger
     diagonal_width=1.0,  # program
     growth_gap=1 / 6,  # program: a sixth of a second; K17: 8 frames
     growth_count=120,  # program: four times the frame rate

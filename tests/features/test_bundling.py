@@ -1,0 +1,101 @@
+"""Feature bundling: the authors' values, a naive twin, and laws."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.stats import ortho_group
+
+import kineme
+import naive
+from graphs import features
+from kineme.datasets import Action, synthesize
+from kineme.errors import ParameterError
+from kineme.features import bundle, pose_features, stack
+
+SQUATS = stack(pose_features(synthesize([Action("squat", 6)], fps=30, seed=2).motion), (-5, 0, 5))
+few = settings(deadline=None, max_examples=20)
+
+
+@pytest.mark.parametrize("trial", ["86_01", "86_09", "86_10", "86_11", "86_14"])
+def test_near_the_authors_program(data_dir: Path, trial: str) -> None:
+    """Which minimises the same, step by step, to a precision of its own."""
+    motion = kineme.resample(kineme.read(data_dir / "cmu86" / f"{trial}.amc"), 30)
+    plain_cm = 100 * stack(pose_features(motion), (-10, -5, 0, 5, 10))
+    with np.load(data_dir / "cmu86" / "reference" / f"2017_bundled_{trial}.npz") as stored:
+        expected_cm = stored["features"].T
+    apart = np.linalg.norm(bundle(plain_cm) - expected_cm, axis=1)
+    assert np.linalg.norm(expected_cm - plain_cm, axis=1).mean() > 15
+    assert np.median(apart) < 0.2
+    assert apart.max() < 5
+
+
+@pytest.mark.parametrize(("neighbors", "variance"), [(32, 0.98), (5, 0.8)])
+def test_equal_to_the_naive_version(neighbors: int, variance: float) -> None:
+    rows = SQUATS[:90] + np.random.default_rng(0).normal(0, 0.01, SQUATS[:90].shape)
+    expected = naive.bundle(rows, neighbors=neighbors, variance=variance)
+    found = bundle(rows, neighbors=neighbors, variance=variance)
+    np.testing.assert_allclose(found, expected, atol=1e-5)
+    assert np.abs(found - rows).max() > 0.01
+
+
+def test_repetitions_come_closer_and_keep_their_time() -> None:
+    rng = np.random.default_rng(1)
+    phase = np.linspace(0, 8 * 2 * np.pi, 480)
+    circle = np.zeros((480, 6))
+    circle[:, 0], circle[:, 1] = np.cos(phase), np.sin(phase)
+    noisy = circle + rng.normal(0, 0.05, circle.shape)
+    bundled = bundle(noisy)
+    before = np.linalg.norm(noisy - circle, axis=1).mean()
+    assert np.linalg.norm(bundled - circle, axis=1).mean() < 0.6 * before
+    late = np.angle(np.exp(1j * (np.arctan2(bundled[:, 1], bundled[:, 0]) - phase)))
+    assert np.abs(late).mean() < 0.06
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(-1e3, 1e3), st.floats(1e-2, 1e2))
+@few
+def test_turning_moving_and_scaling_do_the_same_to_the_result(seed, shift, factor) -> None:
+    turn = ortho_group.rvs(SQUATS.shape[1], random_state=seed)
+    changed = bundle(factor * SQUATS @ turn + shift)
+    np.testing.assert_allclose(changed, factor * bundle(SQUATS) @ turn + shift, atol=1e-6 * factor)
+
+
+@given(features(max_frames=60))
+@settings(deadline=None, max_examples=200)
+def test_any_features_stay_among_their_neighbours(points: np.ndarray) -> None:
+    bundled = bundle(points)
+    assert bundled.shape == points.shape
+    assert np.isfinite(bundled).all()
+    reach = np.linalg.norm(points - points.mean(axis=0), axis=1).max()
+    assert (np.linalg.norm(bundled - points.mean(axis=0), axis=1) <= 3 * reach + 1e-9).all()
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 40, 3000])
+def test_what_stands_still_stays(n: int) -> None:
+    np.testing.assert_allclose(bundle(np.full((n, 15), 0.3)), 0.3)
+
+
+def test_the_argument_is_left_as_it_is() -> None:
+    before = SQUATS.copy()
+    bundle(SQUATS)
+    np.testing.assert_array_equal(SQUATS, before)
+
+
+@pytest.mark.parametrize(
+    ("rows", "options"),
+    [
+        (np.zeros(5), {}),
+        (np.zeros((0, 3)), {}),
+        (np.full((5, 3), np.nan), {}),
+        (np.zeros((5, 3)), {"neighbors": 0}),
+        (np.zeros((5, 3)), {"variance": 0.0}),
+        (np.zeros((5, 3)), {"variance": 1.5}),
+    ],
+)
+def test_bad_arguments_are_named(rows: np.ndarray, options: dict[str, float]) -> None:
+    with pytest.raises(ParameterError, match="neighbors" if options else "finite, frames x dims"):
+        bundle(rows, **options)

@@ -1,0 +1,131 @@
+"""Mirroring: an involution, the same for motions as for their features."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import kineme
+import naive
+from kineme.datasets import Action, bundled_recording, random_recording, synthesize
+from kineme.errors import MotionError, ParameterError
+from kineme.features import end_effectors, mirror, mirror_features, pose_features, stack
+from kineme.motion import Motion, Skeleton, forward_kinematics
+
+KICKS = synthesize([Action("walk", 2), Action("kick", 3, side="left")], fps=30, seed=4).motion
+few = settings(deadline=None, max_examples=10)
+
+
+def without_rotations(motion: Motion) -> Motion:
+    return Motion(motion.skeleton, motion.positions, motion.fps)
+
+
+def assert_same_motion(found: Motion, expected: Motion) -> None:
+    np.testing.assert_array_equal(found.positions, expected.positions)
+    np.testing.assert_array_equal(found.skeleton.offsets, expected.skeleton.offsets)
+    assert found.skeleton.names == expected.skeleton.names
+    if expected.rotations is not None:
+        np.testing.assert_array_equal(found.rotations, expected.rotations)
+
+
+@given(st.integers(0, 50))
+@few
+def test_mirroring_twice_is_the_identity(seed: int) -> None:
+    motion = random_recording(seed, activities=2, fps=30).motion
+    assert_same_motion(mirror(mirror(motion)), motion)
+
+
+@given(st.integers(0, 50), st.booleans())
+@few
+def test_features_of_the_mirrored_motion_are_the_mirrored_features(seed, with_rotations) -> None:
+    motion = random_recording(seed, activities=2, fps=30).motion
+    motion = motion if with_rotations else without_rotations(motion)
+    features = stack(pose_features(motion), (-5, 0, 5))
+    found = stack(pose_features(mirror(motion)), (-5, 0, 5))
+    np.testing.assert_allclose(found, mirror_features(features), atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["cmu86/86_01.amc", "cmu_formats/02_01.bvh", "formats/aitviewer_sample.bvh",
+     "formats/PyMO_AV_8Walk.bvh", "formats/cmu_131_01_bvh11.bvh"],
+)  # fmt: skip
+def test_recorded_bodies_have_two_sides(data_dir: Path, name: str) -> None:
+    motion = kineme.read(data_dir / name)
+    mirrored = mirror(motion)
+    assert_same_motion(mirror(mirrored), motion)
+    names = motion.skeleton.names
+    for joint, name in enumerate(names):
+        if any(side in name.lower() for side in ("left", "right")):
+            assert not np.array_equal(mirrored.positions[:, joint], motion.positions[:, joint])
+    np.testing.assert_allclose(
+        pose_features(mirrored), mirror_features(pose_features(motion)), atol=1e-9
+    )
+
+
+def test_the_right_leg_kicks_in_the_mirror() -> None:
+    def height(motion: Motion, joint: int) -> float:
+        return float(np.ptp(motion.positions[60:, joint, 1]))
+
+    left, right, *_ = end_effectors(KICKS).indices
+    mirrored = mirror(KICKS)
+    assert height(KICKS, left) > 1.5 * height(KICKS, right)
+    assert height(mirrored, right) == height(KICKS, left)
+    np.testing.assert_array_equal(mirrored.positions[:, 0], KICKS.positions[:, 0] * [-1, 1, 1])
+    assert mirrored.provenance.notes[-1] == "mirrored"
+
+
+def test_rotations_of_the_mirrored_motion_give_its_positions() -> None:
+    mirrored = mirror(kineme.read(bundled_recording()))
+    positions = forward_kinematics(mirrored.skeleton, mirrored.rotations, mirrored.positions[:, 0])
+    np.testing.assert_allclose(positions, mirrored.positions, atol=1e-9)
+
+
+def test_features_equal_to_the_naive_version() -> None:
+    rows = np.random.default_rng(0).normal(size=(6, 45))
+    expected = [
+        [number for block in np.split(row, 3) for number in naive.mirrored_pose(block)]
+        for row in rows
+    ]
+    np.testing.assert_array_equal(mirror_features(rows), expected)
+    np.testing.assert_array_equal(mirror_features(mirror_features(rows)), rows)
+
+
+@pytest.mark.parametrize("shape", [(4, 16), (4, 0), (15,)])
+def test_only_pose_features_have_a_mirror_image(shape: tuple[int, ...]) -> None:
+    with pytest.raises(ParameterError, match="multiple of 15"):
+        mirror_features(np.zeros(shape))
+
+
+def body(*names: str) -> Motion:
+    """Joints that all hang on the first."""
+    skeleton = Skeleton(names, (-1,) + (0,) * (len(names) - 1), np.ones((len(names), 3)))
+    return Motion(skeleton, np.zeros((2, len(names), 3)), 30.0)
+
+
+@pytest.mark.parametrize(
+    ("left", "right"),
+    [("LeftHand", "RightHand"), ("hand.L", "hand.R"), ("Bip01 L Hand", "Bip01 R Hand"),
+     ("lfoot", "rfoot"), ("WristLeft", "WristRight"), ("mixamorig:LeftArm", "mixamorig:RightArm"),
+     ("lower_l", "lower_r"), ("LEFT_KNEE", "RIGHT_KNEE"), ("l_finger2", "r_finger2")],
+)  # fmt: skip
+def test_names_of_all_programs_tell_the_side(left: str, right: str) -> None:
+    motion = body("hips", left, "middle", right)
+    positions = np.arange(24.0).reshape(2, 4, 3)
+    found = mirror(Motion(motion.skeleton, positions, 30.0)).positions
+    np.testing.assert_array_equal(found, positions[:, [0, 3, 2, 1]] * [-1, 1, 1])
+
+
+def test_a_body_without_sides_is_refused() -> None:
+    with pytest.raises(MotionError, match="no two joints are named"):
+        mirror(body("hips", "a", "b"))
+
+
+def test_limbs_that_hang_elsewhere_are_refused() -> None:
+    skeleton = Skeleton(("hips", "lhand", "chest", "rhand"), (-1, 0, 0, 2), np.ones((4, 3)))
+    with pytest.raises(MotionError, match="'lhand' has no counterpart"):
+        mirror(Motion(skeleton, np.zeros((1, 4, 3)), 30.0))
