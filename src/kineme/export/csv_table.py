@@ -67,6 +67,12 @@ def provenance_path(path: Path) -> Path:
     return path.with_suffix(".provenance.json")
 
 
+def roundest_rate(n_frames: int, seconds: float) -> float:
+    """Of the frame rates at which so many frames last so long, the one with fewest digits."""
+    rounded = (round(n_frames / seconds, digits) for digits in range(16))
+    return next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
+
+
 def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
     columns: dict[str, list[Any]] = {name: [] for name in COLUMNS}
     try:
@@ -96,12 +102,11 @@ def _cell(text: str | None, name: str, path: Path, line: int) -> str | float:
 
 
 def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
-    """n_frames and fps from the last row: the roundest rate that gives its seconds."""
+    """n_frames and fps from the last row."""
     n_frames, seconds = max(zip(columns["stop_frame"], columns["stop_s"], strict=True))
     if not (0 < n_frames < 2**53 and 0 < seconds < math.inf):
         raise ReadError(path, f"ends at frame {n_frames}, {seconds} s: no frame rate follows")
-    rounded = (round(n_frames / seconds, digits) for digits in range(16))
-    fps = next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
+    fps = roundest_rate(n_frames, seconds)
     note = (
         f"frame rate {fps:g} Hz computed from frames and seconds: no {provenance_path(path).name}"
     )

@@ -1,53 +1,166 @@
-"""write_segments() and read_segments(): any format, picked by suffix."""
+"""write_segments() and read_segments(): any format, by its name or the file's suffix."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass
 from importlib import import_module
+from math import isclose, isfinite
 from os import PathLike
 from pathlib import Path
-from typing import cast
+from typing import Any, Literal
 
 from kineme.errors import FileError, ParameterError, ReadError, WriteError
 from kineme.segmentation.result import Segmentation
+from kineme.segmentation.table import Level, Segment
 
-MODULES = {".csv": "csv_table", ".json": "json_table", ".parquet": "parquet_table"}
+
+@dataclass(frozen=True)
+class LabelFormat:
+    """One format: the module that reads and writes it, and the suffixes that mean it.
+
+    ``holds``: the whole segmentation; the labels of both levels; or of one.
+    A module of the first kind has ``write(segmentation, path)`` and
+    ``read(path)`` to a `Segmentation`; the others have ``write(rows,
+    segmentation, path)`` and ``read(path)`` to `Labels`.
+    """
+
+    module: str
+    suffixes: tuple[str, ...]
+    holds: Literal["all", "levels", "level"]
 
 
-def write_segments(segmentation: Segmentation, path: str | PathLike[str]) -> None:
-    """Write a segmentation as CSV, JSON or Parquet; all of it, or nothing.
+FORMATS = {
+    "csv": LabelFormat("csv_table", (".csv",), "all"),
+    "json": LabelFormat("json_table", (".json",), "all"),
+    "parquet": LabelFormat("parquet_table", (".parquet",), "all"),
+    "audacity": LabelFormat("audacity", (".txt",), "level"),
+    "elan": LabelFormat("elan", (".eaf",), "levels"),
+    "textgrid": LabelFormat("textgrid", (".textgrid",), "levels"),
+    "bids": LabelFormat("bids", (".tsv",), "levels"),
+    "boris": LabelFormat("boris", (), "levels"),
+    "babel": LabelFormat("babel", (), "level"),
+    "ms-tcn": LabelFormat("ms_tcn", (), "level"),
+    "clips": LabelFormat("clip_list", (), "level"),
+}
+SUFFIXES = tuple(suffix for known in FORMATS.values() for suffix in known.suffixes)
+
+
+def write_segments(
+    segmentation: Segmentation,
+    path: str | PathLike[str],
+    *,
+    format: str | None = None,  # noqa: A002 (what everybody calls it)
+    level: Level | None = None,
+) -> None:
+    """Write a segmentation in a format; all of it, or nothing.
+
+    Parameters
+    ----------
+    path : the file; its suffix tells the format where ``format`` does not
+    format : a name in :data:`kineme.export.FORMATS`
+    level : of the segments to write; by default both in formats that hold
+        both, else ``activity``. The package's own formats always hold both.
 
     Raises
     ------
-    WriteError : unknown suffix, or the file cannot be written
+    ParameterError : no such format or level
+    WriteError : unknown suffix, something the format cannot hold, or the file
+        cannot be written
     MissingDependencyError : Parquet without pyarrow
     """
-    module = import_module(f"kineme.export.{_module_of(path, WriteError)}")
-    cast(Callable[[Segmentation, Path], None], module.write)(segmentation, Path(path))
+    name = _format_of(path, format, WriteError)
+    known, module = FORMATS[name], _module(name)
+    if known.holds == "all":
+        if level is not None:
+            raise ParameterError(f"{name} always holds both levels: leave out level={level!r}")
+        module.write(segmentation, Path(path))
+        return
+    if level is None and known.holds == "level":
+        level = "activity"
+    rows: list[Segment] = list(segmentation if level is None else segmentation.level(level))
+    if not rows:
+        raise WriteError(path, f"there are no segments of level {level!r}")
+    module.write(rows, segmentation, Path(path))
 
 
-def read_segments(path: str | PathLike[str]) -> Segmentation:
-    """The segmentation that :func:`write_segments` wrote.
+def read_segments(
+    path: str | PathLike[str],
+    *,
+    format: str | None = None,  # noqa: A002
+    fps: float | None = None,
+    n_frames: int | None = None,
+) -> Segmentation:
+    """The segmentation in a file of any of the formats that :func:`write_segments` writes.
+
+    Parameters
+    ----------
+    path : the file; its suffix tells the format where ``format`` does not
+    format : a name in :data:`kineme.export.FORMATS`
+    fps : frame rate of the recording, for formats that hold seconds only
+    n_frames : length of the recording, where the last label may end before it
 
     Raises
     ------
-    ReadError : missing, damaged, not a segment table, or of a newer version
+    ParameterError : no such format, or a frame rate or length that is not positive
+    ReadError : missing, damaged, of another format, of a newer version; or at
+        odds with ``fps`` or ``n_frames``
     MissingDependencyError : Parquet without pyarrow
     """
-    module = import_module(f"kineme.export.{_module_of(path, ReadError)}")
-    read = cast(Callable[[Path], Segmentation], module.read)
+    name = _format_of(path, format, ReadError)
+    if fps is not None and not (isfinite(fps) and fps > 0):
+        raise ParameterError(f"fps is {fps}: give frames per second, above 0")
+    if n_frames is not None and n_frames < 1:
+        raise ParameterError(f"n_frames is {n_frames}: a recording has at least 1 frame")
+    module = _module(name)
     try:
-        return read(Path(path))
+        content = module.read(Path(path))
+        if isinstance(content, Segmentation):
+            result = content
+        else:
+            from kineme.export.labels import as_segmentation
+
+            result = as_segmentation(content, Path(path), name, fps=fps, n_frames=n_frames)
+        _check_agreement(result, content.fps, path, fps=fps, n_frames=n_frames)
     except OSError as error:
         raise ReadError(path, f"cannot be read: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
-        raise ReadError(path, f"is not UTF-8 text (byte {error.start})") from error
+        encoding = error.encoding.upper()
+        raise ReadError(path, f"is not {encoding} text (byte {error.start})") from error
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
+    return result
 
 
-def _module_of(path: str | PathLike[str], error: type[FileError]) -> str:
+def _check_agreement(
+    result: Segmentation,
+    told: float | None,
+    path: str | PathLike[str],
+    *,
+    fps: float | None,
+    n_frames: int | None,
+) -> None:
+    if fps is not None and told is not None and not isclose(told, fps, rel_tol=1e-6):
+        raise ReadError(path, f"says {told:g} frames per second, but fps is {fps:g}")
+    if n_frames is not None and result.n_frames != n_frames:
+        raise ReadError(path, f"is of {result.n_frames} frames, but n_frames is {n_frames}")
+
+
+def _module(name: str) -> Any:
+    return import_module(f"kineme.export.{FORMATS[name].module}")
+
+
+def _format_of(path: str | PathLike[str], name: str | None, error: type[FileError]) -> str:
+    if name is not None:
+        if name not in FORMATS:
+            raise ParameterError(f"format must be one of {', '.join(FORMATS)}, not {name!r}")
+        return name
     suffix = Path(path).suffix.lower()
-    if suffix not in MODULES:
-        raise error(path, f"segments are stored as {', '.join(MODULES)}, not {suffix or 'that'!r}")
-    return MODULES[suffix]
+    for known, candidate in FORMATS.items():
+        if suffix in candidate.suffixes:
+            return known
+    nameless = ", ".join(known for known, candidate in FORMATS.items() if not candidate.suffixes)
+    raise error(
+        path,
+        f"segments are stored as {', '.join(SUFFIXES)}, not {suffix or 'that'!r}; "
+        f"or name the format: {nameless}",
+    )
