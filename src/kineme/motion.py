@@ -120,17 +120,23 @@ class Provenance:
     """Where a motion came from, and everything that had to be inferred.
 
     ``notes`` are sentences such as "frame rate 120 Hz assumed: AMC files do
-    not store one".
+    not store one". ``events`` are those marked in the file: the second, from
+    its first frame, and the label.
     """
 
     path: str | None = None
     format: str | None = None
     sha256: str | None = None
     notes: tuple[str, ...] = ()
+    events: tuple[tuple[float, str], ...] = ()
 
     def noted(self, *sentences: str) -> Provenance:
         """The same with sentences added."""
         return replace(self, notes=self.notes + sentences)
+
+    def marked(self, events: Iterable[tuple[float, str]]) -> Provenance:
+        """The same with these events in place of its own."""
+        return replace(self, events=tuple(events))
 
 
 @dataclass(frozen=True, eq=False)

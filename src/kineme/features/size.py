@@ -6,30 +6,35 @@ import numpy as np
 
 from kineme.errors import MotionError
 from kineme.features.effectors import EndEffectors
-from kineme.motion import Motion, Skeleton
+from kineme.motion import Motion
 
 
 def body_size(motion: Motion, effectors: EndEffectors) -> float:
     """Length of the chain of bones from the ankles to the head, in metres.
 
     The legs' mean plus the trunk's, at rest: close to the height of the person.
+    In a motion without rotations a bone is as long as the distance of its ends
+    in the median frame.
 
     Raises
     ------
     MotionError : the bones have no length
     """
-    skeleton = motion.skeleton
-    legs = [_chain(skeleton, joint) for joint in (effectors.left_ankle, effectors.right_ankle)]
-    size = float(np.mean(legs)) + _chain(skeleton, effectors.head)
+    legs = [_chain(motion, joint) for joint in (effectors.left_ankle, effectors.right_ankle)]
+    size = float(np.mean(legs)) + _chain(motion, effectors.head)
     if not size > 0:
         raise MotionError("the bones between ankles and head have no length")
     return size
 
 
-def _chain(skeleton: Skeleton, joint: int) -> float:
+def _chain(motion: Motion, joint: int) -> float:
     """Length of the bones from a joint up to its root."""
     length = 0.0
-    while skeleton.parents[joint] >= 0:
-        length += float(np.linalg.norm(skeleton.offsets[joint]))
-        joint = skeleton.parents[joint]
+    parent = motion.skeleton.parents[joint]
+    while parent >= 0:
+        bone = motion.skeleton.offsets[joint]
+        if motion.rotations is None:
+            bone = motion.positions[:, joint] - motion.positions[:, parent]
+        length += float(np.median(np.linalg.norm(bone, axis=-1)))
+        joint, parent = parent, motion.skeleton.parents[parent]
     return length

@@ -6,7 +6,7 @@ its provenance what the file did not tell and had to be inferred. One module
 per format; `register` adds more.
 """
 
-from kineme.formats import amc, bvh
+from kineme.formats import amc, arrays, bvh, c3d, mot, tables, trc
 from kineme.formats.registry import (
     Format,
     ReadOptions,
@@ -18,5 +18,12 @@ from kineme.formats.registry import (
 
 register(amc.FORMAT)
 register(bvh.FORMAT)
+register(c3d.FORMAT)
+register(trc.FORMAT)
+register(mot.FORMAT)
+register(tables.FORMAT)
+register(tables.PARQUET)
+register(arrays.NPZ)
+register(arrays.NPY)
 
 __all__ = ["Format", "ReadOptions", "read", "register", "supported_formats", "write"]

@@ -51,6 +51,17 @@ def metres(unit: str | float) -> float:
     return UNITS[unit] if isinstance(unit, str) else float(unit)
 
 
+def unit_named(word: str) -> str | None:
+    """The unit that a file calls ``word`` ("mm", "Millimeters", "in"), or None."""
+    word = word.strip().lower()
+    prefixes = {"": "m", "centi": "cm", "milli": "mm"}
+    longer = {
+        f"{p}met{e}{s}": u for p, u in prefixes.items() for e in ("er", "re") for s in ("", "s")
+    }
+    known = {"m": "m", "cm": "cm", "mm": "mm", "in": "inch", "inch": "inch", "inches": "inch"}
+    return (longer | known).get(word)
+
+
 def place(
     skeleton: Skeleton,
     rotations: Floats,
@@ -82,11 +93,21 @@ def place(
                 f"turned: head and feet lie along {up}, so that axis was taken to be up"
             )
     if up != "y":
-        turn = np.array(_TO_Y[up])
+        turn = up_rotation(up)
         skeleton = replace(skeleton, offsets=rot.rotate(turn, skeleton.offsets))
         rotations = rot.multiply(rot.multiply(turn, rotations), rot.conjugate(turn))
         positions = rot.rotate(turn, positions)
     return Motion(skeleton, positions, fps, rotations, provenance)
+
+
+def upright(points: Floats, up: str) -> Floats:
+    """The points (..., 3) turned so that their axis ``up`` becomes y."""
+    return points if up == "y" else rot.rotate(up_rotation(up), points)
+
+
+def up_rotation(up: str) -> Floats:
+    """The rotation that turns the axis ``up`` to y."""
+    return np.array(_TO_Y[up])
 
 
 def infer_unit(

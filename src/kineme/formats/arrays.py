@@ -1,0 +1,175 @@
+"""npz and npy: arrays of joint positions, and all of a motion in an npz.
+
+An npz holds
+
+- what `write_npz` leaves: ``positions`` (frames, joints, 3), ``fps``, ``names``,
+  and ``parents``, ``offsets``, ``end_sites``, ``rotations`` (w, x, y, z), in metres
+  with y up. ``positions``, ``names`` and ``fps`` are enough;
+- or one array per column of a table, see `kineme.formats.columns`;
+- or ``poses`` and ``trans``, see `kineme.formats.amass`.
+
+An npy holds positions (frames, joints, 3) without names, or records with named
+fields as a table. Pickled objects are refused, and so is an archive that claims
+to unpack to much more than it holds.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.lib import format as npy_format
+
+from kineme._files import atomic_write
+from kineme.formats.amass import poses_to_motion
+from kineme.formats.columns import columns_to_motion
+from kineme.formats.files import Source, unique
+from kineme.formats.points import Points, to_motion
+from kineme.formats.registry import Format, ReadOptions
+from kineme.motion import Motion, Skeleton
+
+Array = np.ndarray[Any, np.dtype[Any]]
+
+_MOST_EXPANSION = 100
+"""Times that an archive may grow; recordings compress to a half or a tenth."""
+
+
+def read_npz(source: Source, options: ReadOptions) -> Motion:
+    """The motion in an npz archive."""
+    arrays = _members(source)
+    if "poses" in arrays:
+        return poses_to_motion(source, arrays, options)
+    if "positions" in arrays:
+        return _from_positions(source, arrays, options)
+    columns = {name: array for name, array in arrays.items() if array.ndim == 1}
+    columns |= {name: array[None] for name, array in arrays.items() if array.ndim == 0}
+    return columns_to_motion(source, "npz", columns, options)
+
+
+def read_npy(source: Source, options: ReadOptions) -> Motion:
+    """The motion in an npy array."""
+    array = _array(source, source.data, "the array")
+    if array.dtype.names:
+        columns = {name: array[name] for name in array.dtype.names}
+        return columns_to_motion(source, "npy", columns, options)
+    return _from_positions(source, {"positions": array}, options)
+
+
+def write_npz(motion: Motion, path: Path) -> None:
+    """Leave all of a motion but its provenance in an npz archive."""
+    skeleton = motion.skeleton
+    arrays: dict[str, Any] = {
+        "positions": motion.positions,
+        "fps": motion.fps,
+        "names": np.array(skeleton.names),
+        "parents": np.array(skeleton.parents),
+        "offsets": skeleton.offsets,
+        "end_sites": np.array(sorted(skeleton.end_sites), np.int64),
+    }
+    if motion.rotations is not None:
+        arrays["rotations"] = motion.rotations
+    with atomic_write(path) as draft, draft.open("wb") as file:
+        np.savez(file, **arrays)
+
+
+def _from_positions(source: Source, arrays: Mapping[str, Array], options: ReadOptions) -> Motion:
+    positions = _numbers(source, arrays, "positions")
+    if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
+        raise source.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
+    fps = options.fps or _rate(source, arrays)
+    if "parents" in arrays and "names" in arrays and not (options.unit or options.up):
+        return _whole(source, arrays, positions, fps)
+    usual = [f"joint{i}" for i in range(positions.shape[1])]
+    names = list(map(str, arrays["names"].ravel())) if "names" in arrays else usual
+    if len(names) != len(usual):
+        raise source.error(f"{len(names)} names for {len(usual)} joints")
+    positions = np.where(np.isfinite(positions), positions, np.nan)
+    points = Points(names, positions, fps, options.unit, options.up)
+    return to_motion(points, source.provenance("npz", []))
+
+
+def _whole(source: Source, arrays: Mapping[str, Array], positions: Array, fps: float) -> Motion:
+    """What `write_npz` wrote, as it was."""
+    n = positions.shape[1]
+    offsets = _numbers(source, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
+    ends = _numbers(source, arrays, "end_sites").ravel() if "end_sites" in arrays else np.empty(0)
+    parents = _numbers(source, arrays, "parents").ravel()
+    if not (np.isfinite(parents).all() and np.isfinite(ends).all()):
+        raise source.error("parents or end_sites are not whole numbers")
+    skeleton = Skeleton(
+        tuple(unique(map(str, arrays["names"].ravel()))),
+        tuple(parents.astype(int).tolist()),
+        offsets,
+        frozenset(ends.astype(int).tolist()),
+    )
+    rotations = _numbers(source, arrays, "rotations") if "rotations" in arrays else None
+    return Motion(skeleton, positions, fps, rotations, source.provenance("npz", []))
+
+
+def _rate(source: Source, arrays: Mapping[str, Array]) -> float:
+    for name in ("fps", "framerate", "frame_rate", "rate"):
+        if name in arrays and arrays[name].size == 1:
+            rate = float(_numbers(source, arrays, name).item())
+            if np.isfinite(rate) and rate > 0:
+                return rate
+    raise source.error("no 'fps' in it: give fps=")
+
+
+def _numbers(source: Source, arrays: Mapping[str, Array], name: str) -> Array:
+    if arrays[name].dtype.kind not in "iufb":
+        raise source.error(f"{name} hold {arrays[name].dtype}, not numbers")
+    return np.asarray(arrays[name], np.float64)
+
+
+def _members(source: Source) -> dict[str, Array]:
+    """The arrays of an npz by name; those of another kind than numbers or text are passed over."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
+            infos = archive.infolist()
+            size = sum(info.file_size for info in infos)
+            if size > _MOST_EXPANSION * len(source.data):
+                raise source.error(f"claims to unpack to {size / 1e6:.0f} MB: it is damaged")
+            found = {}
+            for info in infos:
+                data = archive.read(info)
+                if not _is_pickled(data):
+                    name = info.filename.removesuffix(".npy")
+                    found[name] = _array(source, data, name)
+    except (zipfile.BadZipFile, zlib.error, OSError, EOFError, ValueError) as error:
+        raise source.error(f"is no whole npz archive: {error}") from None
+    except (NotImplementedError, RuntimeError) as error:  # other compressions, passwords
+        raise source.error(f"its archive cannot be read: {error}") from None
+    return found
+
+
+def _is_pickled(data: bytes) -> bool:
+    return b"'descr': '|O'" in data[:256]
+
+
+def _array(source: Source, data: bytes, name: str) -> Array:
+    """The array that npy bytes hold, a view of them."""
+    file = io.BytesIO(data)
+    try:
+        version = npy_format.read_magic(file)
+        header = npy_format.read_array_header_1_0 if version == (1, 0) else None
+        shape, fortran, kind = (header or npy_format.read_array_header_2_0)(file)
+        if kind.hasobject:
+            raise source.error(f"{name} holds pickled objects, which are not read")
+        count = int(np.prod(shape, dtype=object))
+        if count < 0 or count * kind.itemsize > len(data) - file.tell():
+            raise source.error(f"{name} claims shape {shape}, more than the file holds")
+        if count == 0 or kind.itemsize == 0:
+            return np.empty(0)
+        flat = np.frombuffer(data, kind, count, file.tell())
+    except (ValueError, TypeError, SyntaxError, OverflowError, MemoryError) as error:
+        raise source.error(f"{name} is no npy array: {' '.join(str(error).split())}") from None
+    return flat.reshape(shape, order="F" if fortran else "C")
+
+
+NPZ = Format("npz", (".npz",), lambda head: head.startswith(b"PK\x03\x04"), read_npz, write_npz)
+NPY = Format("npy", (".npy",), lambda head: head.startswith(b"\x93NUMPY"), read_npy)

@@ -1,0 +1,144 @@
+"""Tables whose columns are coordinates of joints: from named columns to a motion.
+
+A joint is two or three columns that differ in their last letter: ``hip_x hip_y
+hip_z``, ``hip.x``, ``hip x`` or ``hipX``, in any order. Besides these there may be
+
+- the time: ``time``, ``t``, ``timestamp`` or ``seconds``, also ``time_s`` and ``time_ms``;
+- a rate in every row: ``fps`` or ``rate``;
+- how sure a pose estimator is: ``hip_confidence``, ``_likelihood``, ``_score``,
+  ``_visibility``, ``_presence`` or ``_c``. Below 0.5 the joint counts as not seen.
+
+Two-dimensional joints get z = 0. They are positions in an image, whose rows
+count downwards; the body's larger side is taken as a person's height.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme.formats.files import Source
+from kineme.formats.points import Points, to_motion
+from kineme.formats.registry import ReadOptions
+from kineme.formats.timing import even_frames
+from kineme.motion import Motion
+
+Floats = NDArray[np.float64]
+
+SURE = 0.5
+"""Confidence from which a keypoint counts as seen."""
+
+_COORDINATE = re.compile(r"(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ])")
+_CONFIDENCE = re.compile(
+    r"(.*[^\s_.:/-])[\s_.:/-]+(confidence|likelihood|score|visibility|presence|c)", re.IGNORECASE
+)
+_TIME = re.compile(r"(time|t|timestamp|seconds?)[\s_]*[\[(]?(s|ms)?[\])]?", re.IGNORECASE)
+_RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
+
+
+def columns_to_motion(
+    source: Source, name: str, columns: Mapping[str, ArrayLike], options: ReadOptions
+) -> Motion:
+    """The motion of the joints in a table's columns.
+
+    Parameters
+    ----------
+    name : of the format
+    columns : (rows,) each, numbers, by their names
+
+    Raises
+    ------
+    ReadError : no joints are found, columns differ in length, or nothing tells the rate
+    """
+    names, positions, sure = _joints(source, columns)
+    positions[sure < SURE] = np.nan
+    flat = all(len(axes) == 2 for axes in _axes(columns).values())
+    fps, positions, notes = _timed(source, columns, positions, options.fps)
+    if (sure < SURE).any():
+        notes.append(f"{int((sure < SURE).sum())} positions less sure than {SURE:g} not used")
+    unit, up = options.unit, options.up
+    if flat:
+        notes.append("two-dimensional: z is 0, and image rows count downwards")
+        unit, up = unit or "pixel", up or "-y"
+    return to_motion(Points(names, positions, fps, unit, up), source.provenance(name, notes))
+
+
+def is_used(column: str) -> bool:
+    """Whether a column of this name tells a position, a time, a rate or a confidence."""
+    patterns = (_COORDINATE, _CONFIDENCE, _TIME, _RATE)
+    return any(pattern.fullmatch(column.strip()) for pattern in patterns)
+
+
+def _axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
+    """For each joint the columns of its axes."""
+    found: dict[str, dict[str, str]] = {}
+    for column in columns:
+        match = _COORDINATE.fullmatch(column.strip())
+        if match:
+            joint, axis = (match[1], match[2]) if match[1] else (match[3], match[4])
+            found.setdefault(joint, {})[axis.lower()] = column
+    return {joint: axes for joint, axes in found.items() if {"x", "y"} <= axes.keys()}
+
+
+def _joints(source: Source, columns: Mapping[str, ArrayLike]) -> tuple[list[str], Floats, Floats]:
+    """Names, positions (rows, joints, 3) and confidences (rows, joints)."""
+    joints = _axes(columns)
+    if not joints:
+        shown = ", ".join(list(columns)[:8])
+        raise source.error(
+            "no columns JOINT_x, JOINT_y and JOINT_z found, so there are no positions "
+            f"(columns: {shown or 'none'})"
+        )
+    sureness = {
+        match[1]: column for column in columns if (match := _CONFIDENCE.fullmatch(column.strip()))
+    }
+    rows = len(_column(source, columns, next(iter(next(iter(joints.values())).values()))))
+    positions = np.zeros((rows, len(joints), 3))
+    sure = np.ones((rows, len(joints)))
+    for j, (joint, axes) in enumerate(joints.items()):
+        for axis, column in axes.items():
+            positions[:, j, "xyz".index(axis)] = _column(source, columns, column, rows)
+        if joint in sureness:
+            sure[:, j] = _column(source, columns, sureness[joint], rows)
+    positions[np.isinf(positions)] = np.nan
+    return list(joints), positions, sure
+
+
+def _column(
+    source: Source, columns: Mapping[str, ArrayLike], name: str, rows: int | None = None
+) -> Floats:
+    try:
+        values = np.asarray(columns[name], np.float64)
+    except (ValueError, TypeError):
+        raise source.error(f"column {name!r} does not hold numbers") from None
+    if values.ndim != 1 or len(values) == 0 or len(values) != (rows or len(values)):
+        raise source.error(f"column {name!r} has shape {values.shape}, not one value per row")
+    return values
+
+
+def _timed(
+    source: Source, columns: Mapping[str, ArrayLike], positions: Floats, fps: float | None
+) -> tuple[float, Floats, list[str]]:
+    """Frames per second, positions at even times, and what was done."""
+    if fps:
+        return fps, positions, []
+    for column in columns:
+        if _RATE.fullmatch(column.strip()):
+            return _one_rate(source, _column(source, columns, column)), positions, []
+    for column in columns:
+        match = _TIME.fullmatch(column.strip())
+        if match:
+            times = _column(source, columns, column, len(positions))
+            times = times / 1000 if (match[2] or "").lower() == "ms" else times
+            return even_frames(source, times, positions)
+    raise source.error("no column 'time' or 'fps' found: give fps=")
+
+
+def _one_rate(source: Source, rates: Sequence[float] | Floats) -> float:
+    rate = float(rates[0])
+    if not (np.isfinite(rate) and rate > 0) or np.ptp(rates) > 0:
+        raise source.error(f"the frame rate is not one positive number ({rate:g} first): give fps=")
+    return rate

@@ -1,0 +1,77 @@
+"""Rows of numbers between tabs, commas or semicolons; an empty cell is not a number."""
+
+from __future__ import annotations
+
+import csv
+from array import array
+from collections.abc import Sequence
+from math import nan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.formats.files import Source, numbers, warn
+
+_EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "-"})
+
+
+def rows_of(
+    source: Source,
+    lines: Sequence[str],
+    first: int,
+    separator: str,
+    width: int,
+    columns: Sequence[int] | None = None,
+) -> NDArray[np.float64]:
+    """(rows, columns): the lines' cells as numbers, NaN where empty.
+
+    A last line that breaks off is left out with a warning.
+
+    Parameters
+    ----------
+    first : the number of the first line in the file
+    separator : between cells
+    width : cells in a line; empty ones may follow
+    columns : those wanted, all by default; the others may hold anything
+
+    Raises
+    ------
+    ReadError : a cell is not a number, or a line is too short or too long
+    """
+    wanted = range(width) if columns is None else columns
+    values = array("d")
+    reader = csv.reader(lines, delimiter=separator)
+    try:
+        for cells in reader:
+            if not any(map(str.strip, cells)):
+                continue
+            line = first + reader.line_num - 1
+            if len(cells) < width or any(map(str.strip, cells[width:])):
+                reason = f"{len(cells)} cells, but {width} columns"
+                if reader.line_num < len(lines) or len(cells) > width:
+                    raise source.error(reason, line)
+                warn(f"{source.path}, line {line}: {reason}: the last row breaks off, left out")
+                break
+            values.extend(_numbers(source, [cells[i] for i in wanted], line))
+    except csv.Error as error:
+        raise source.error(str(error), first + reader.line_num - 1) from None
+    if not values:
+        raise source.error("no row of numbers found: there is no motion")
+    return np.array(values).reshape(-1, len(wanted))
+
+
+def separator_of(line: str) -> str:
+    """Tab, semicolon or comma, whichever cuts the line into most cells."""
+    return max("\t;,", key=line.count)
+
+
+def _numbers(source: Source, cells: list[str], line: int) -> list[float]:
+    try:
+        return numbers(cells)
+    except ValueError:
+        empty = [cell.strip().lower() in _EMPTY for cell in cells]
+    try:
+        found = iter(numbers([cell for cell, hole in zip(cells, empty, strict=True) if not hole]))
+    except ValueError as error:
+        raise source.error(str(error), line) from None
+    return [nan if hole else next(found) for hole in empty]

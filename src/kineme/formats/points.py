@@ -1,0 +1,193 @@
+"""From named points over time (markers, keypoints, joint positions) to a motion.
+
+The motion has no rotations. Its skeleton is the small tree of
+`kineme.formats.marker_sets` (pelvis, hips, ankles, head, wrists), as far as the
+points tell where these are, with all points as children of the pelvis; points
+that make up no pelvis with hips each stand alone. Offsets are those of the
+frame in which the body stands highest.
+
+Gaps are treated by `kineme.formats.gaps`. A point with a longer gap is left
+out with a warning; if a joint of the body cannot be made without it, the
+recording is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ReadError
+from kineme.formats.files import unique, warn
+from kineme.formats.gaps import LONGEST_S, Gaps, fill_gaps
+from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
+from kineme.formats.units import UNITS, metres, upright
+from kineme.motion import Motion, Provenance, Skeleton
+
+Floats = NDArray[np.float64]
+Body = dict[str, tuple[int, ...]]
+
+SPREADS = (0.3, 3.0)
+"""Metres over which markers on a person spread, in the middle of the recording:
+a factor of ten, as between two of m, cm and mm."""
+
+_HEIGHT = 1.7  # metres, given to a body measured in pixels
+
+
+@dataclass(frozen=True)
+class Points:
+    """Named points in a file's own units and axes.
+
+    Parameters
+    ----------
+    names : one per point
+    positions : (frames, points, 3), NaN where not seen
+    fps : frames per second
+    unit : a name in `UNITS`, metres in one unit, "pixel", or None if not known
+    up : the axis that points up, or None if not known
+    usual_up : the axis taken where neither the file nor the body tells
+    """
+
+    names: Sequence[str]
+    positions: Floats
+    fps: float
+    unit: str | float | None = None
+    up: str | None = None
+    usual_up: str = "y"
+
+
+def to_motion(points: Points, provenance: Provenance) -> Motion:
+    """The motion in metres with y up.
+
+    Raises
+    ------
+    ReadError : no point was seen throughout, or a joint of the body has a gap
+        too long to fill
+    """
+    path = provenance.path or "recording"
+    names, subjects = of_one_subject([name.strip() or "point" for name in points.names])
+    names = unique(names)
+    if len(subjects) > 1:
+        warn(f"{path}: {len(subjects)} subjects: the body is that of {subjects[0]!r}")
+    positions = np.array(points.positions, np.float64)
+    gaps = fill_gaps(positions, points.fps)
+    kept = [i for i in range(len(names)) if i not in gaps.open]
+    body = find_body(names, kept)
+    _refuse_broken(path, names, gaps, body, points.fps)
+    notes = _said_of_gaps(path, names, gaps, len(positions))
+    if not kept:
+        raise ReadError(path, f"no marker is seen throughout: each has a gap above {LONGEST_S} s")
+    scale, note = _scale(path, points.unit, positions[:, kept])
+    notes += note
+    up, note = _up(points, positions, body)
+    notes += note
+    skeleton, positions = _tree(names, upright(scale * positions, up), body, kept)
+    if "pelvis" in body:
+        notes.append(f"joints of the body: {described(body, names)}")
+    return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes))
+
+
+def _refuse_broken(path: str, names: list[str], gaps: Gaps, body: Body, fps: float) -> None:
+    """ReadError if a joint of the body would be there but for a long gap."""
+    whole = find_body(names, range(len(names)))
+    for joint in PARENTS:
+        if joint in body or joint not in whole or "pelvis" not in whole:
+            continue
+        point = next(i for i in whole[joint] if i in gaps.open)
+        start, stop = max(gaps.open[point].tolist(), key=lambda span: span[1] - span[0])
+        raise ReadError(
+            path,
+            f"marker {names[point]!r}, which makes the {joint.replace('_', ' ')}, is not seen in "
+            f"frames {start} to {stop - 1} ({(stop - start) / fps:.2f} s): fill gaps above "
+            f"{LONGEST_S} s in the capture program, or export the time without them",
+        )
+
+
+def _said_of_gaps(path: str, names: list[str], gaps: Gaps, n_frames: int) -> list[str]:
+    notes = []
+    if gaps.filled:
+        most = max(gaps.filled, key=lambda point: gaps.filled[point])
+        notes.append(
+            f"gaps up to {LONGEST_S} s filled in {len(gaps.filled)} points, "
+            f"{sum(gaps.filled.values())} positions in all, most in {names[most]} "
+            f"({gaps.filled[most]} of {n_frames} frames)"
+        )
+    never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
+    if never:
+        notes.append(f"never seen, left out: {_listed([names[p] for p in never])}")
+    broken = [p for p in gaps.open if p not in never]
+    if broken:
+        said = [
+            f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken
+        ]
+        notes.append(f"left out for gaps above {LONGEST_S} s: {_listed(said)}")
+        warn(f"{path}: {notes[-1]}")
+    return notes
+
+
+def _scale(path: str, unit: str | float | None, positions: Floats) -> tuple[float, list[str]]:
+    """Metres in one unit of the positions, and what was inferred."""
+    if unit is not None and unit != "pixel":
+        return metres(unit), []
+    spread = float(np.median(np.ptp(positions, axis=1).max(axis=1)))
+    if unit == "pixel":
+        return _HEIGHT / (spread or 1.0), [
+            f"no unit: {spread:.3g}, the larger side of the body, taken as {_HEIGHT} m"
+        ]
+    sizes = {name: UNITS[name] for name in ("m", "cm", "mm")}
+    fits = [name for name, size in sizes.items() if SPREADS[0] <= spread * size < SPREADS[1]]
+    if fits:
+        found = fits[0]
+    else:
+        found = "m" if spread < 1 else "mm"
+        warn(
+            f"{path}: markers {spread:.3g} units apart are in no unit those of a person: "
+            f"{found} assumed; give unit="
+        )
+    return sizes[found], [
+        f"unit {found} inferred: the points then spread over {spread * sizes[found]:.2f} m"
+    ]
+
+
+def _up(points: Points, positions: Floats, body: Body) -> tuple[str, list[str]]:
+    """The axis that points up, and what was inferred."""
+    if points.up is not None:
+        return points.up, []
+    head = list(body.get("head", ()))
+    feet = [i for joint in ("left_ankle", "right_ankle") for i in body.get(joint, ())]
+    if head and feet:
+        trunk = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
+        length = np.linalg.norm(trunk, axis=1, keepdims=True)
+        along = np.median(trunk / np.where(length > 0, length, 1), axis=0)
+        axis = int(np.abs(along).argmax())
+        if abs(along[axis]) > 0.7:
+            up = ("-" if along[axis] < 0 else "") + "xyz"[axis]
+            return up, [f"up axis {up} inferred: head and feet lie along it"]
+    return points.usual_up, [f"up axis {points.usual_up} assumed; give up= if it is another"]
+
+
+def _tree(
+    names: list[str], positions: Floats, body: Body, kept: list[int]
+) -> tuple[Skeleton, Floats]:
+    """The skeleton and its joints' positions: the body's joints first, then the points."""
+    if not {"pelvis", "left_hip", "right_hip"} <= body.keys():
+        alone = Skeleton(tuple(names[i] for i in kept), (-1,) * len(kept), np.zeros((len(kept), 3)))
+        return alone, positions[:, kept]
+    joints = [joint for joint, parent in PARENTS.items() if joint in body]
+    joints = [joint for joint in joints if PARENTS[joint] in (None, *joints)]
+    rest = [i for i in kept if names[i] not in joints]
+    middles = [positions[:, list(body[joint])].mean(axis=1) for joint in joints]
+    placed = np.concatenate([np.stack(middles, axis=1), positions[:, rest]], axis=1)
+    parents = [joints.index(PARENTS[joint] or "") if PARENTS[joint] else -1 for joint in joints]
+    parents += [0] * len(rest)
+    upright_pose = placed[np.ptp(placed[:, :, 1], axis=1).argmax()]
+    offsets = upright_pose - upright_pose[parents]
+    offsets[0] = 0
+    return Skeleton((*joints, *(names[i] for i in rest)), tuple(parents), offsets), placed
+
+
+def _listed(items: list[str], most: int = 8) -> str:
+    more = len(items) - most
+    return ", ".join(items[:most]) + (f" and {more} more" if more > 0 else "")
