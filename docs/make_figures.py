@@ -22,9 +22,10 @@ from kineme.datasets import bundled_truth
 from kineme.graph import component_labels
 from kineme.plot import BORDER, INK, SHADES, draw_segmentation, similarity_image
 from kineme.segmentation.action_analysis import ActionAnalysis
-from kineme.segmentation.presets import KINEME
+from kineme.segmentation.presets import KINEME, KRUEGER2017
 from kineme.segmentation.presets import VOEGELE2014 as PRESET
 from kineme.segmentation.primitives import primitive_cuts
+from kineme.segmentation.segmenter import motion_features
 
 IMAGES = Path(__file__).parent / "images"
 EFFECTORS = ("left ankle", "right ankle", "head", "left wrist", "right wrist")
@@ -51,6 +52,10 @@ def main() -> None:
     figure = _figure(8, 3)
     draw_visits(figure.add_subplot(), found)
     _save(figure, "repetitions")
+
+    figure = _figure(8, 3.6)
+    draw_bundling(figure.subplots(1, 2, sharex=True, sharey=True), motion, segments)
+    _save(figure, "bundling")
 
     published, analysis = kineme.segment_and_analysis(motion, PRESET)
 
@@ -115,6 +120,24 @@ def draw_visits(axes: Axes, found: ActionAnalysis) -> None:
     axes.legend(
         title="distance from", frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(1, 1)
     )
+
+
+def draw_bundling(pair: np.ndarray, motion: kineme.Motion, segments: kineme.Segmentation) -> None:
+    """The features' path, an action in a colour, on their two widest axes."""
+    plain = motion_features(motion, KRUEGER2017)
+    center = plain.mean(axis=0)
+    axes = np.linalg.svd(plain - center, full_matrices=False)[2][:2].T
+    for panel, features, title in zip(
+        pair, (plain, kineme.bundle(plain)), ("as they are", "bundled"), strict=True
+    ):
+        x, y = ((features - center) @ axes).T
+        for row in segments.activities:
+            if row.kind == "activity":
+                span = slice(round(row.start_s * FPS), round(row.stop_s * FPS))
+                panel.plot(x[span], y[span], color=cluster_color(row.cluster), linewidth=0.7)
+        panel.set_title(title, loc="left", fontsize=10)
+        panel.set(xlabel="metres", aspect="equal")
+        panel.spines[["top", "right"]].set_visible(False)
 
 
 def draw_regions(pair: np.ndarray, analysis: kineme.Analysis) -> None:

@@ -31,9 +31,12 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
     from kineme.export import read_segments as read_segments, write_segments as write_segments
     from kineme.features import (
         end_effectors as end_effectors,
+        mirror as mirror,
+        mirror_features as mirror_features,
         pose_features as pose_features,
         stack as stack,
     )
+    from kineme.features.bundling import bundle as bundle
     from kineme.formats import read as read, supported_formats as supported_formats, write as write
     from kineme.graph import (
         NeighborGraph as NeighborGraph,
@@ -67,7 +70,8 @@ _HOMES = {
         "WriteError",
     ),
     "kineme.export": ("read_segments", "write_segments"),
-    "kineme.features": ("end_effectors", "pose_features", "stack"),
+    "kineme.features": ("end_effectors", "mirror", "mirror_features", "pose_features", "stack"),
+    "kineme.features.bundling": ("bundle",),
     "kineme.formats": ("read", "supported_formats", "write"),
     "kineme.graph": ("NeighborGraph", "WarpingPaths", "neighbor_graph", "warping_paths"),
     "kineme.motion": ("Motion", "Provenance", "Skeleton"),

@@ -15,7 +15,8 @@ import naive
 from graphs import features
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
-from kineme.features import bundle, pose_features, stack
+from kineme.features import pose_features, stack
+from kineme.features.bundling import bundle
 
 SQUATS = stack(pose_features(synthesize([Action("squat", 6)], fps=30, seed=2).motion), (-5, 0, 5))
 few = settings(deadline=None, max_examples=20)

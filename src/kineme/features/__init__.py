@@ -1,7 +1,9 @@
-"""Feature vectors of poses: end effectors in the body's own frame; stacked, mirrored, bundled."""
+"""Feature vectors of poses: end effectors in the body's own frame, stacked over time.
+
+``bundling`` is not loaded here: it comes with compiled code.
+"""
 
 from kineme.features.body_frame import body_frame
-from kineme.features.bundling import bundle
 from kineme.features.effectors import PARTS, EndEffectors, Names, end_effectors
 from kineme.features.mirroring import mirror, mirror_features
 from kineme.features.pose import offsets_in_frames, pose_features, stack
@@ -13,7 +15,6 @@ __all__ = [
     "Names",
     "body_frame",
     "body_size",
-    "bundle",
     "end_effectors",
     "mirror",
     "mirror_features",

@@ -20,8 +20,8 @@ from kineme.segmentation.analysis import analyze
 from kineme.segmentation.presets import PUBLISHED, RegionPreset
 from kineme.segmentation.segmenter import motion_features, segment
 
-STEPS = ("features", "neighbors", "activities", "primitives", "clusters")
-STEP_COLORS = dict(zip(STEPS, (PALETTE[i] for i in (1, 2, 4, 3, 0)), strict=True))
+STEPS = ("features", "bundling", "neighbors", "activities", "primitives", "clusters")
+STEP_COLORS = dict(zip(STEPS, (PALETTE[i] for i in (1, 5, 2, 4, 3, 0)), strict=True))
 RUNS = 3
 POINTS = 7
 
@@ -73,7 +73,7 @@ def plot_growth(trials: Sequence[Trial], path: Path) -> Path:
     for axes, preset in zip(panels, PUBLISHED.values(), strict=True):
         growth = time_growth(trials, preset)
         frames = np.array([n for n, _ in growth])
-        for step in STEPS[1:]:
+        for step in growth[0][1]:
             seconds = [timings[step] for _, timings in growth]
             axes.plot(frames, seconds, "o-", ms=3, lw=1.2, color=STEP_COLORS[step], label=step)
         total = np.array([sum(timings.values()) for _, timings in growth])
