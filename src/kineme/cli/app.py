@@ -7,12 +7,14 @@ from typing import Annotated
 import typer
 
 from kineme._version import __version__
+from kineme.cli.convert import convert
 from kineme.cli.data import data
 from kineme.cli.demo import demo
 from kineme.cli.evaluate import evaluate
 from kineme.cli.info import info
 from kineme.cli.preset_options import with_preset_options
 from kineme.cli.segment import segment
+from kineme.cli.split import split
 
 app = typer.Typer(
     name="kineme",
@@ -22,6 +24,8 @@ app = typer.Typer(
     rich_markup_mode="rich",
 )
 app.command()(with_preset_options(segment))
+app.command()(with_preset_options(split))
+app.command()(convert)
 app.command()(info)
 app.command()(demo)
 app.command()(evaluate)

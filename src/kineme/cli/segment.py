@@ -40,7 +40,8 @@ def segment(
         typer.Option(
             "--output",
             "-o",
-            help="Segment table: .csv, .json or .parquet; a folder; or a name with {name} in it.",
+            help="Segment table (.csv, .json, .parquet) or labels (.eaf, .TextGrid, .tsv, .txt); "
+            "a folder; or a name with {name} in it.",
         ),
     ] = None,
     plot: Annotated[

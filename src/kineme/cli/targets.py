@@ -8,9 +8,9 @@ from pathlib import Path
 import typer
 
 from kineme.errors import WriteError
+from kineme.export import SUFFIXES as TABLES
 
 NAME = "{name}"
-TABLES = (".csv", ".json", ".parquet")
 PICTURES = (".png", ".pdf", ".svg")
 
 

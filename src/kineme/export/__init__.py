@@ -27,6 +27,6 @@ Those of other programs hold labels, see :mod:`kineme.export.labels`:
 ============ ============= ===================================================
 """
 
-from kineme.export.segments import FORMATS, LabelFormat, read_segments, write_segments
+from kineme.export.segments import FORMATS, SUFFIXES, LabelFormat, read_segments, write_segments
 
-__all__ = ["FORMATS", "LabelFormat", "read_segments", "write_segments"]
+__all__ = ["FORMATS", "SUFFIXES", "LabelFormat", "read_segments", "write_segments"]

@@ -1,0 +1,100 @@
+"""``kineme split``: a recording in, a folder of clips out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kineme.cli.messages import Failures, progress
+from kineme.cli.reading import (
+    Effectors,
+    Fps,
+    Quiet,
+    Skeleton,
+    Unit,
+    Up,
+    effector_names,
+    read_options,
+)
+from kineme.errors import ParameterError
+from kineme.segmentation.presets import DEFAULT, PRESETS, resolve_preset
+from kineme.segmentation.table import Level
+
+if TYPE_CHECKING:
+    from kineme.features import Names
+    from kineme.motion import Motion
+    from kineme.segmentation.presets import Preset
+    from kineme.segmentation.result import Segmentation
+
+
+def split(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A recording.")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder to make; it must be new or empty.")
+    ],
+    level: Annotated[Level, typer.Option(help="Segments to take.")] = "activity",
+    cluster: Annotated[
+        int | None, typer.Option(help="Take those of this cluster only.", show_default=False)
+    ] = None,
+    loop: Annotated[
+        bool, typer.Option("--loop", help="Blend the ends, so that each clip plays as a cycle.")
+    ] = False,
+    segments: Annotated[
+        Path | None,
+        typer.Option(help="Table or labels to cut by, instead of segmenting anew."),
+    ] = None,
+    preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
+    quiet: Quiet = False,
+    skeleton: Skeleton = None,
+    fps: Fps = None,
+    unit: Unit = None,
+    up: Up = None,
+    effectors: Effectors = None,
+    overrides: dict[str, Any] | None = None,
+) -> None:
+    """Write each segment of a recording as a motion file, and a manifest of them.
+
+    BVH, or CSV of joint positions where there are no rotations.
+    """
+    try:
+        chosen = resolve_preset(preset, **(overrides or {}))
+    except ParameterError as error:
+        raise typer.BadParameter(str(error)) from error
+    reading = read_options(skeleton, fps, unit, up)
+    failures = Failures()
+    with failures.caught(file):
+        motion, cuts = _cuts(
+            file, reading, chosen, effector_names(effectors), segments, quiet=quiet
+        )
+        from kineme.export.split import split as write_clips
+
+        clips = write_clips(motion, cuts, output, level=level, cluster=cluster, loops=loop)
+        if not quiet:
+            typer.echo(f"{len(clips)} clips in {output}")
+    failures.exit()
+
+
+def _cuts(
+    file: Path,
+    reading: dict[str, Any],
+    preset: Preset,
+    names: Names | None,
+    table: Path | None,
+    *,
+    quiet: bool,
+) -> tuple[Motion, Segmentation]:
+    """The recording and its segments, from the table if there is one."""
+    with progress(file.name, quiet=quiet) as stage:
+        stage("reading")
+        from kineme.formats import read
+
+        motion = read(file, **reading)
+        if table is not None:
+            from kineme.export import read_segments
+
+            return motion, read_segments(table, fps=motion.fps, n_frames=motion.n_frames)
+        from kineme.segmentation.segmenter import segment_and_analysis
+
+        return motion, segment_and_analysis(motion, preset, effectors=names, progress=stage)[0]

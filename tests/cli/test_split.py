@@ -1,0 +1,101 @@
+"""``kineme split`` and ``kineme convert`` from file to file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import kineme as package
+from kineme.datasets import bundled_recording, bundled_truth
+
+
+def test_split_takes_the_segments_it_would_find(kineme, tmp_path: Path) -> None:
+    done = kineme(
+        "split",
+        bundled_recording(),
+        "--level",
+        "primitive",
+        "--cluster",
+        1,
+        "-o",
+        "clips",
+        "--loop",
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    manifest = pd.read_csv(tmp_path / "clips" / "manifest.csv")
+    rows = package.segment(package.read(bundled_recording())).primitives
+    mine = [row for row in rows if row.cluster == 1]
+    assert manifest.start_frame.tolist() == [row.start_frame for row in mine]
+    assert f"{len(mine)} clips in clips" in done.stdout
+    files = sorted(path.name for path in (tmp_path / "clips").glob("*.bvh"))
+    assert files == manifest.file.tolist()
+    assert {"turn_deg", "x_m", "z_m"} <= set(manifest.columns)
+
+
+def test_split_by_labels_that_a_person_corrected(kineme, tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("1.0\t2.0\twalk\n2.0\t5.5\tÄpfel pflücken\n")
+    done = kineme("split", bundled_recording(), "--segments", "mine.txt", "-o", "clips", "-q")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert sorted(path.name for path in (tmp_path / "clips").iterdir()) == [
+        "exercises_0000_transition.bvh",
+        "exercises_0001_walk.bvh",
+        "exercises_0002_Äpfel_pflücken.bvh",
+        "exercises_0003_transition.bvh",
+        "manifest.csv",
+    ]
+    assert package.read(tmp_path / "clips" / "exercises_0001_walk.bvh").n_frames == 60
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (("--cluster", 99), "no activity is in cluster 99"),
+        (("--segments", "none.csv"), "none.csv: cannot be read: No such file"),
+        (("--segments", "short.txt"), "short.txt: has labels up to frame 6000"),
+    ],
+)
+def test_split_says_what_is_wrong_and_leaves_nothing(kineme, tmp_path, arguments, reason) -> None:
+    (tmp_path / "short.txt").write_text("0\t100\twalk\n")
+    done = kineme("split", bundled_recording(), *arguments, "-o", "clips")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert reason in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["short.txt"]
+
+
+def test_segment_writes_labels_by_suffix(kineme, tmp_path: Path) -> None:
+    done = kineme("segment", bundled_recording(), "-q", "-o", "take.eaf")
+    assert (done.returncode, done.stderr) == (0, "")
+    result = package.segment(package.read(bundled_recording()))
+    back = package.read_segments(tmp_path / "take.eaf")
+    assert back.table.start_frame.tolist() == result.table.start_frame.tolist()
+
+
+def test_convert_goes_through_every_format_and_back(kineme, tmp_path: Path) -> None:
+    truth = package.read_segments(bundled_truth())
+    steps = [
+        (bundled_truth(), "a.TextGrid", ()),
+        ("a.TextGrid", "a.eaf", ("--fps", truth.fps)),
+        ("a.eaf", "b.csv", ("--to", "boris")),
+        ("b.csv", "a.tsv", ("--from", "boris")),
+        ("a.tsv", "a.parquet", ()),
+    ]
+    for source, target, options in steps:
+        done = kineme("convert", source, target, *options)
+        assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    back = package.read_segments(tmp_path / "a.parquet")
+    assert back.table.start_frame.tolist() == truth.table.start_frame.tolist()
+    assert back.table.label.tolist() == truth.table.label.tolist()
+
+
+def test_convert_overwrites_nothing_and_knows_its_formats(kineme, tmp_path: Path) -> None:
+    (tmp_path / "mine.eaf").write_text("corrected by hand")
+    done = kineme("convert", bundled_truth(), "mine.eaf")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "mine.eaf: is there already" in done.stderr
+    assert (tmp_path / "mine.eaf").read_text() == "corrected by hand"
+    done = kineme("convert", bundled_truth(), "mine.srt", "--to", "srt")
+    assert done.returncode == 2
+    assert "'srt' is not one of csv, json, parquet, audacity" in done.stderr
