@@ -46,12 +46,15 @@ def test_level_primitive_prints_every_one(kineme, recording: Path) -> None:
 
 
 def test_json_is_pure_and_is_what_the_library_gives(kineme, recording: Path) -> None:
-    done = kineme("segment", recording, "--json", "--radius", 0.5, "--growth-neighbors", "none")
+    options = ("--preset", "voegele2014", "--radius", 0.5, "--growth-neighbors", "none")
+    done = kineme("segment", recording, "--json", *options)
     data = json.loads(done.stdout)
     assert data["schema"] == "kineme.segments/1"
     assert data["provenance"]["parameters"]["radius"] == 0.5
     assert data["provenance"]["parameters"]["growth_neighbors"] is None
-    result = package.segment(package.read(recording), radius=0.5, growth_neighbors=None)
+    result = package.segment(
+        package.read(recording), preset="voegele2014", radius=0.5, growth_neighbors=None
+    )
     assert [row["start_frame"] for row in data["segments"]] == result.table.start_frame.tolist()
     assert [row["cluster"] for row in data["segments"]] == result.table.cluster.tolist()
 
@@ -113,6 +116,6 @@ def test_the_demo_writes_table_and_picture(kineme, tmp_path: Path) -> None:
 def test_a_real_recording(kineme, tmp_path: Path, data_dir: Path) -> None:
     done = kineme("segment", data_dir / "cmu86" / "86_10.amc", "-o", tmp_path / "cuts.csv")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "63.2 s, 7583 frames at 120 Hz, voegele2014" in done.stdout
+    assert "63.2 s, 7583 frames at 120 Hz, kineme" in done.stdout
     assert "frame rate 120 Hz assumed" in done.stdout
     assert package.read_segments(tmp_path / "cuts.csv").n_frames == 7583

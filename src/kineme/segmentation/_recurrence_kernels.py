@@ -65,8 +65,9 @@ def blur_rows(near, blur, start, stop, blurred):
             blurred[i, lag] = min(to_end[lag], from_start[lag + size - 1])
 
 
-@njit("void(float32[:, ::1], int64, int64, int64, int64, float32, float32, float32[::1])",
-      **OPTIONS)
+@njit(
+    "void(float32[:, ::1], int64, int64, int64, int64, float32, float32, float32[::1])", **OPTIONS
+)
 def local_scales(blurred, gap, rank, start, stop, low, high, scales):
     """For each row the ``rank``-th smallest symmetric distance beyond the gap, clipped."""
     bins, lags = blurred.shape
@@ -133,8 +134,7 @@ def change_points(similarity, penalty, min_length):
     return np.array(borders[::-1], dtype=np.int64)
 
 
-@njit("float64(float32[:, ::1], float32[::1], int64, int64, int64, int64, int64, float64)",
-      **SUMS)
+@njit("float64(float32[:, ::1], float32[::1], int64, int64, int64, int64, int64, float64)", **SUMS)
 def coverage(near, scales, g_start, g_stop, h_start, h_stop, gap, softness):
     """How well the frames of g recur in h, ``gap`` or more away: mean similarity, 0 to 1."""
     width = near.shape[1] // 2
@@ -193,10 +193,14 @@ def nearest_within(features, step, phase, stride, g_start, g_stop, h_start, h_st
     return nearest
 
 
-@njit("float64(float32[:, ::1], float32[::1], int64, int64, int64, float32, int64, int64, int64,"
-      " int64)", **SUMS)
-def distant_similarity(features, scales, step, phase, stride, softness, g_start, g_stop, h_start,
-                       h_stop):
+@njit(
+    "float64(float32[:, ::1], float32[::1], int64, int64, int64, float32, int64, int64, int64,"
+    " int64)",
+    **SUMS,
+)
+def distant_similarity(
+    features, scales, step, phase, stride, softness, g_start, g_stop, h_start, h_stop
+):
     """Mean similarity of two stretches that the band does not reach across."""
     there = nearest_within(features, step, phase, stride, g_start, g_stop, h_start, h_stop)
     back = nearest_within(features, step, phase, stride, h_start, h_stop, g_start, g_stop)

@@ -182,9 +182,7 @@ def _count(
         start, stop = int(blocks[block]), int(blocks[block + 1])
         if labels[block] < 0:
             return Repetitions(np.empty(0, np.int64), np.nan)
-        return repetitions(
-            likeness.features, start, stop, _core(likeness, start, stop, preset)
-        )
+        return repetitions(likeness.features, start, stop, _core(likeness, start, stop, preset))
 
     return map_threads(count, range(len(labels)))
 

@@ -16,6 +16,7 @@ the rest is ours. See ``docs/method.md`` for what each step contributes.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,9 +97,7 @@ def merge_parts(
     return np.array(cuts, np.int64)
 
 
-def link(
-    borders: Bins, recurrence: Recurrence, *, likeness: float, max_lag: int | None
-) -> Bins:
+def link(borders: Bins, recurrence: Recurrence, *, likeness: float, max_lag: int | None) -> Bins:
     """One label per stretch: equal where the moments of two stretches are alike.
 
     Average linkage on the mean similarity of two stretches, relative to that
@@ -176,7 +175,7 @@ def repeating(
         kernels.coverage(
             recurrence.near, recurrence.scales, start, stop, start, stop, recurrence.phase, softness
         )
-        for start, stop in zip(borders[:-1], borders[1:], strict=True)
+        for start, stop in pairwise(borders.tolist())
     ]
     return shared | (np.array(within) >= least)
 

@@ -53,7 +53,9 @@ def repetitions(
     large = np.partition(distances, rank, axis=1)[:, rank]
     weights = _speeds(features, references)
     visits = [kernels.visit_centers(distances, share * large) for share in THRESHOLDS]
-    votes = sum(np.bincount(counts, weights=weights, minlength=len(distances[0])) for counts, _ in visits)
+    votes = np.zeros(last - first)
+    for counts, _ in visits:
+        votes += np.bincount(counts, weights=weights, minlength=len(votes))
     # One visit is no evidence: every pose visits itself.
     if votes[2:].sum() > 0.1 * votes.sum():
         votes[:2] = 0
@@ -72,4 +74,5 @@ def repetitions(
 def _speeds(features: NDArray[np.float32], frames: NDArray[np.int64]) -> NDArray[np.float64]:
     before, after = np.maximum(frames - 1, 0), np.minimum(frames + 1, len(features) - 1)
     step = (features[after] - features[before]).astype(np.float64)
-    return np.sqrt(np.einsum("ij,ij->i", step, step)) + 1e-12
+    speeds: NDArray[np.float64] = np.linalg.norm(step, axis=1) + 1e-12
+    return speeds

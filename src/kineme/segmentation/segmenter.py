@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._version import __version__
+from kineme.errors import ParameterError
 from kineme.features import (
     EndEffectors,
     body_size,
@@ -19,7 +20,6 @@ from kineme.features import (
     pose_features,
     stack,
 )
-from kineme.errors import ParameterError
 from kineme.features.effectors import Names
 from kineme.motion import Motion
 from kineme.operations import resample
@@ -100,16 +100,17 @@ def segment_and_analysis(
     else:
         raise ParameterError(f"no method goes with a preset of type {type(preset).__name__}")
     source = motion.provenance
+    columns = _at_source_rate(columns, motion, preset.working_fps)
+    notes = [*source.notes, f"end effectors: {found.describe(motion.skeleton)}"]
+    if isinstance(preset, ActionPreset):
+        notes += _doubts(columns, motion.fps)
     provenance = {
         "kineme": __version__,
         "preset": preset.name,
         "parameters": {k: v for k, v in asdict(preset).items() if k != "name"},
         "input": {"path": source.path, "format": source.format, "sha256": source.sha256},
-        "notes": [*source.notes, f"end effectors: {found.describe(motion.skeleton)}"],
+        "notes": notes,
     }
-    columns = _at_source_rate(columns, motion, preset.working_fps)
-    if isinstance(preset, ActionPreset):
-        provenance["notes"] += _doubts(columns, motion.fps)
     timings = {"features": seconds, **analysis.timings}
     result = Segmentation.from_columns(
         columns,
