@@ -20,7 +20,9 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
+from tokenize import TokenError
 from typing import Any
+from warnings import catch_warnings
 
 import numpy as np
 from numpy.lib import format as npy_format
@@ -28,15 +30,12 @@ from numpy.lib import format as npy_format
 from kineme._files import atomic_write
 from kineme.formats.amass import poses_to_motion
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import Source, unique
+from kineme.formats.files import MOST_EXPANSION, Source, unique
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
 from kineme.motion import Motion, Skeleton
 
 Array = np.ndarray[Any, np.dtype[Any]]
-
-_MOST_EXPANSION = 100
-"""Times that an archive may grow; recordings compress to a half or a tenth."""
 
 
 def read_npz(source: Source, options: ReadOptions) -> Motion:
@@ -132,7 +131,7 @@ def _members(source: Source) -> dict[str, Array]:
         with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
             infos = archive.infolist()
             size = sum(info.file_size for info in infos)
-            if size > _MOST_EXPANSION * len(source.data):
+            if size > MOST_EXPANSION * len(source.data):
                 raise source.error(f"claims to unpack to {size / 1e6:.0f} MB: it is damaged")
             found = {}
             for info in infos:
@@ -155,9 +154,10 @@ def _array(source: Source, data: bytes, name: str) -> Array:
     """The array that npy bytes hold, a view of them."""
     file = io.BytesIO(data)
     try:
-        version = npy_format.read_magic(file)
-        header = npy_format.read_array_header_1_0 if version == (1, 0) else None
-        shape, fortran, kind = (header or npy_format.read_array_header_2_0)(file)
+        first = npy_format.read_magic(file) == (1, 0)
+        header = npy_format.read_array_header_1_0 if first else npy_format.read_array_header_2_0
+        with catch_warnings(action="ignore"):  # of headers from Python 2
+            shape, fortran, kind = header(file)
         if kind.hasobject:
             raise source.error(f"{name} holds pickled objects, which are not read")
         count = int(np.prod(shape, dtype=object))
@@ -166,7 +166,7 @@ def _array(source: Source, data: bytes, name: str) -> Array:
         if count == 0 or kind.itemsize == 0:
             return np.empty(0)
         flat = np.frombuffer(data, kind, count, file.tell())
-    except (ValueError, TypeError, SyntaxError, OverflowError, MemoryError) as error:
+    except (ValueError, TypeError, SyntaxError, OverflowError, TokenError) as error:
         raise source.error(f"{name} is no npy array: {' '.join(str(error).split())}") from None
     return flat.reshape(shape, order="F" if fortran else "C")
 

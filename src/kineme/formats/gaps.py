@@ -36,7 +36,7 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
 
     A point that is not a number in any coordinate counts as not seen.
     """
-    missing = np.isnan(points).any(axis=2)
+    missing = np.asarray(np.isnan(points).any(axis=2))
     longest = int(LONGEST_S * fps + 1e-9)
     gaps = Gaps({}, {})
     for point in np.flatnonzero(missing.any(axis=0)).tolist():

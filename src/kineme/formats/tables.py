@@ -17,7 +17,7 @@ from kineme.errors import MissingDependencyError, ReadError
 from kineme.formats.columns import columns_to_motion, is_used
 from kineme.formats.deeplabcut import is_deeplabcut, read_deeplabcut
 from kineme.formats.delimited import rows_of, separator_of
-from kineme.formats.files import Source, save, unique
+from kineme.formats.files import MOST_EXPANSION, Source, save, unique
 from kineme.formats.registry import Format, ReadOptions
 from kineme.motion import Motion
 
@@ -44,7 +44,11 @@ def read_parquet(source: Source, options: ReadOptions) -> Motion:
     except ImportError as error:
         raise MissingDependencyError("pyarrow", "tables") from error
     try:
-        table = parquet.read_table(pa.BufferReader(source.data))
+        file = parquet.ParquetFile(pa.BufferReader(source.data))
+        rows, width = file.metadata.num_rows, file.metadata.num_columns
+        if 8 * rows * width > MOST_EXPANSION * len(source.data):
+            raise source.error(f"claims {rows} rows of {width} columns: it is damaged")
+        table = file.read()
         columns = {name: _plain(table.column(name)) for name in unique(table.column_names)}
     except (pa.ArrowException, OSError, KeyError) as error:
         raise ReadError(source.path, "is not a Parquet file, or is damaged") from error

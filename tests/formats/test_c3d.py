@@ -1,0 +1,237 @@
+"""C3D files: every encoding, the corner cases of the field, and real recordings."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import tracemalloc
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from marker_samples import (
+    DEC,
+    INTEL,
+    MIPS,
+    PLUG_IN_GAIT,
+    c3d_bytes,
+    walking,
+    z_up_millimetres,
+)
+
+import kineme
+from kineme.errors import KinemeError, KinemeWarning, ReadError
+from kineme.features import pose_features
+from kineme.formats.c3d_file import parse_c3d
+from kineme.formats.files import Source, load
+
+REAL = ["Dec_real", "Eb015pi", "Eb015pr", "Eb015si", "sample_propulsion", "walkingOptiTrack"]
+POINTS = z_up_millimetres(walking())
+
+
+def parse(data: bytes):
+    return parse_c3d(Source(Path("a.c3d"), data))
+
+
+def read(folder: Path, data: bytes, **options):
+    path = folder / "take.c3d"
+    path.write_bytes(data)
+    return kineme.read(path, **options)
+
+
+@pytest.mark.parametrize("processor", [INTEL, DEC, MIPS])
+@pytest.mark.parametrize("real", [True, False])
+def test_every_encoding_holds_the_same(tmp_path: Path, processor: int, real: bool) -> None:
+    analog = np.arange(60 * 4 * 2, dtype=float).reshape(60, 4, 2)
+    scales = {("ANALOG", "SCALE"): np.float32([2, 3]), ("ANALOG", "GEN_SCALE"): np.float32([0.5])}
+    scales |= {("ANALOG", "OFFSET"): np.int16([-1, 100])}
+    data = c3d_bytes(
+        POINTS, PLUG_IN_GAIT, processor=processor, real=real, analog=analog, more=scales
+    )
+    file = parse(data)
+    assert file.labels == PLUG_IN_GAIT
+    assert np.abs(file.points - POINTS).max() <= (1e-3 if real else 0.05 + 1e-9)
+    assert (file.analog_rate, file.analog_labels) == (400.0, ["emg0", "emg1"])
+    assert np.allclose(file.analog, (analog.reshape(-1, 2) - [-1, 100]) * [1, 1.5])
+    motion = read(tmp_path, data)
+    assert motion.fps == 100.0
+    assert np.allclose(
+        motion.positions[:, motion.joint("C7")], walking()[:, PLUG_IN_GAIT.index("C7")], atol=1e-4
+    )
+
+
+def test_the_body_of_plug_in_gait(tmp_path: Path) -> None:
+    motion = read(tmp_path, c3d_bytes(POINTS, [f"Ann:{name}" for name in PLUG_IN_GAIT]))
+    at = dict(zip(motion.skeleton.names, motion.positions[0], strict=True))
+    assert np.allclose(at["pelvis"], (0, 1, 0), atol=1e-4)
+    assert np.allclose(at["left_wrist"], (0.3, 0.9, 0), atol=1e-4)
+    assert np.allclose(at["head"], (0, 1.65, 0), atol=1e-4)
+    ankle = motion.joint("left_ankle")
+    assert motion.skeleton.names[motion.skeleton.parents[ankle]] == "left_hip"
+    features = pose_features(motion).reshape(-1, 5, 3)
+    assert (features[:, 0, 0] > 0.05).all()  # the left ankle is on the left
+    assert np.allclose(features[:, 2, 1], 0.65, atol=1e-4)  # the head above the pelvis
+
+
+def test_wrong_and_saturated_counts(tmp_path: Path) -> None:
+    still = np.tile(z_up_millimetres(walking(1)[:, :4]), (66_000, 1, 1))
+    labels = PLUG_IN_GAIT[:4]
+    saturated = c3d_bytes(still, labels)
+    ends = {("TRIAL", "ACTUAL_START_FIELD"): np.int16([1, 0])}
+    ends |= {("TRIAL", "ACTUAL_END_FIELD"): np.array([66_000 - 65_536, 1], np.int16)}
+    assert len(parse(saturated).points) == 65_535
+    assert len(parse(c3d_bytes(still, labels, more=ends)).points) == 66_000
+    as_float = {("POINT", "FRAMES"): np.float32([66_000])}
+    assert len(parse(c3d_bytes(still, labels, more=as_float)).points) == 66_000
+
+
+def test_more_than_255_labels() -> None:
+    labels = [f"m{i}" for i in range(300)]
+    file = parse(c3d_bytes(np.ones((3, 300, 3)), labels))
+    assert file.labels == labels
+
+
+def test_events_count_from_the_first_frame(tmp_path: Path) -> None:
+    events = {
+        ("EVENT", "USED"): np.int16([2]),
+        ("EVENT", "CONTEXTS"): ["Left", "Right"],
+        ("EVENT", "LABELS"): ["Foot Strike", "Foot Off"],
+        ("EVENT", "TIMES"): np.float32([[1, 0.75], [0, 2.5]]),
+    }
+    motion = read(tmp_path, c3d_bytes(POINTS, PLUG_IN_GAIT, first=201, more=events))
+    assert motion.provenance.events == ((0.5, "Right Foot Off"), (58.75, "Left Foot Strike"))
+    assert "the first frame is number 201 of the capture" in motion.provenance.notes
+
+
+def test_modelled_and_nameless_points_are_left_out(tmp_path: Path) -> None:
+    labels = [*PLUG_IN_GAIT, "LKneeAngles", "*12", "C_101", "Unlabeled 7", "C7b"]
+    points = np.concatenate([POINTS, np.full((60, 5, 3), 90.0)], axis=1)
+    more = {("POINT", "ANGLES"): ["LKneeAngles"]}
+    names = read(tmp_path, c3d_bytes(points, labels, more=more)).skeleton.names
+    assert {"C7", "C7b"} <= set(names)
+    assert not {"LKneeAngles", "*12", "C_101", "Unlabeled 7"} & set(names)
+
+
+def test_two_subjects(tmp_path: Path) -> None:
+    labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT]
+    points = np.concatenate([POINTS, POINTS + 1000], axis=1)
+    with pytest.warns(KinemeWarning, match="2 subjects: the body is that of 'Ann'"):
+        motion = read(tmp_path, c3d_bytes(points, labels))
+    assert np.allclose(motion.positions[0, motion.joint("pelvis")], (0, 1, 0), atol=1e-4)
+    assert "Bob:LANK" in motion.skeleton.names
+
+
+def test_what_the_file_does_not_say_is_inferred_and_said(tmp_path: Path) -> None:
+    bare = c3d_bytes(POINTS, PLUG_IN_GAIT, unit=None, y_screen=None)
+    motion = read(tmp_path, bare)
+    assert np.allclose(motion.positions[0, motion.joint("pelvis")], (0, 1, 0), atol=1e-4)
+    notes = " ".join(motion.provenance.notes)
+    assert "unit mm inferred" in notes
+    assert "up axis z inferred" in notes
+    with pytest.raises(ReadError, match="no frame rate: give fps="):
+        read(tmp_path, c3d_bytes(POINTS, PLUG_IN_GAIT, rate=0.0))
+    assert read(tmp_path, c3d_bytes(POINTS, PLUG_IN_GAIT, rate=0.0), fps=50).fps == 50
+
+
+def test_gaps(tmp_path: Path) -> None:
+    points = POINTS.copy()
+    c7, t10, ankle = (PLUG_IN_GAIT.index(name) for name in ("C7", "T10", "RANK"))
+    points[10:30, c7] = np.nan  # 0.2 s: filled
+    filled = read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
+    wanted = walking()[:, c7]
+    assert np.abs(filled.positions[:, filled.joint("C7")] - wanted).max() < 1e-4
+    assert any("1 points, 20 positions in all" in note for note in filled.provenance.notes)
+    points[10:31, t10] = np.nan  # longer: left out
+    with pytest.warns(KinemeWarning, match=r"T10 \(frames 10 to 30\)"):
+        assert "T10" not in read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT)).skeleton.names
+    points[20:50, ankle] = np.nan
+    with pytest.raises(
+        ReadError, match=r"'RANK', which makes the right ankle, .* frames 20 to 49 \(0.30 s\)"
+    ):
+        read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
+
+
+def test_a_point_at_the_origin_was_not_seen() -> None:
+    points = POINTS.copy()
+    points[5, 3] = 0.0
+    file = parse(c3d_bytes(points, PLUG_IN_GAIT))
+    assert np.argwhere(np.isnan(file.points[:, :, 0])).tolist() == [[5, 3]]
+
+
+def test_truncated_and_wrong_files(tmp_path: Path) -> None:
+    data = c3d_bytes(POINTS, PLUG_IN_GAIT)
+    with pytest.warns(KinemeWarning, match="60 frames declared, 59 found and kept"):
+        assert read(tmp_path, data[:-10]).n_frames == 59
+    for cut, reason in [
+        (100, "truncated"),
+        (600, "truncated|no points"),
+        (1300, "less than one frame"),
+    ]:
+        with pytest.raises(ReadError, match=reason):
+            read(tmp_path, data[:cut])
+    with pytest.raises(ReadError, match="processor type 7 is none of"):
+        read(tmp_path, data[:515] + b"\x07" + data[516:])
+
+
+def test_memory_follows_the_file_and_not_what_it_declares() -> None:
+    data = c3d_bytes(POINTS, PLUG_IN_GAIT, more={("POINT", "FRAMES"): np.float32([1e9])})
+    tracemalloc.start()
+    assert len(parse(data).points) == 60
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 20 * len(data)
+
+
+@settings(max_examples=400, deadline=None)
+@given(st.data())
+def test_no_c3d_raises_anything_else(data: st.DataObject) -> None:
+    spoilt = bytearray(c3d_bytes(POINTS[:5, :8], PLUG_IN_GAIT[:8]))
+    for _ in range(data.draw(st.integers(1, 4))):
+        at = data.draw(st.one_of(st.integers(0, 31), st.integers(512, len(spoilt) - 1)))
+        spoilt[at : at + 4] = data.draw(st.binary(max_size=4))
+    del spoilt[data.draw(st.one_of(st.just(len(spoilt)), st.integers(1, len(spoilt)))) :]
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.simplefilter("ignore", KinemeWarning)
+        try:
+            motion = read(Path(folder), bytes(spoilt))
+        except KinemeError as error:
+            assert "\n" not in str(error)
+        else:
+            assert motion.n_frames > 0
+
+
+@pytest.mark.parametrize("name", [name for name in REAL if name != "Eb015si"])
+def test_real_files_hold_what_ezc3d_finds(data_dir: Path, name: str) -> None:
+    ezc3d = pytest.importorskip("ezc3d")
+    path = data_dir / "formats" / f"{name}.c3d"
+    theirs, ours = ezc3d.c3d(os.fspath(path)), parse_c3d(load(path))
+    points = theirs["data"]["points"][:3].transpose(2, 1, 0)
+    assert ours.labels == theirs["parameters"]["POINT"]["LABELS"]["value"][: len(ours.labels)]
+    assert np.array_equal(np.isnan(ours.points), np.isnan(points))
+    assert np.nanmax(np.abs(ours.points - points)) <= 1e-6 * np.nanmax(np.abs(points))
+    analog = theirs["data"]["analogs"][0].T
+    if analog.size:
+        assert np.allclose(ours.analog, analog, rtol=1e-5, atol=1e-6)
+    assert ours.rate == pytest.approx(theirs["header"]["points"]["frame_rate"])
+
+
+def test_the_same_take_in_three_encodings(data_dir: Path) -> None:
+    intel, real, sgi = (
+        parse_c3d(load(data_dir / "formats" / f"Eb015{kind}.c3d")) for kind in ("pi", "pr", "si")
+    )
+    assert np.array_equal(intel.points, sgi.points, equal_nan=True)
+    assert np.allclose(intel.points, real.points, atol=0.05, equal_nan=True)
+    assert intel.events == sgi.events == ((2.72, "RIC"), (5.4, "RHS"), (7.32, "RTO"))
+
+
+@pytest.mark.parametrize("name", REAL)
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+def test_real_files_load(data_dir: Path, name: str) -> None:
+    motion = kineme.read(data_dir / "formats" / f"{name}.c3d")
+    assert motion.n_frames > 80
+    # Metres: a whole body, or the foot and knee of walkingOptiTrack.
+    assert 0.2 < np.median(np.ptp(motion.positions, axis=1).max(axis=1)) < 2.5

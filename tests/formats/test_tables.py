@@ -1,0 +1,419 @@
+"""TRC, tables, arrays, poses and keypoints: what they hold, what is inferred, and round trips."""
+
+from __future__ import annotations
+
+import io
+import tempfile
+import warnings
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from format_samples import motions
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from marker_samples import PLUG_IN_GAIT, walking
+
+import kineme
+from kineme.errors import KinemeError, KinemeWarning, ReadError
+from kineme.formats.amass import smpl_skeleton
+from kineme.formats.marker_sets import TABLE, find_body, plain
+
+JOINTS = ["pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head", "left_wrist"]
+JOINTS += ["right_wrist", "nose"]
+
+
+def body(frames: int = 20) -> np.ndarray:
+    rest = [(0, 1, 0), (0.1, 0.9, 0), (-0.1, 0.9, 0), (0.1, 0.1, 0), (-0.1, 0.1, 0)]
+    rest += [(0, 1.6, 0), (0.3, 0.9, 0), (-0.3, 0.9, 0), (0, 1.55, 0.1)]
+    points = np.repeat(np.array(rest)[None], frames, axis=0)
+    points[:, :, 2] += np.linspace(0, 0.3, frames)[:, None]
+    return points
+
+
+def table(points: np.ndarray, pattern: str = "{joint}_{axis}", sep: str = ",", **columns) -> str:
+    """A table with these columns besides the positions."""
+    names = [pattern.format(joint=joint, axis=axis) for joint in JOINTS for axis in "xyz"]
+    rows = points.reshape(len(points), -1)
+    cells = [[*map(str, [c[i] for c in columns.values()]), *map(repr, row.tolist())]
+             for i, row in enumerate(rows)]  # fmt: skip
+    return "\n".join([sep.join([*columns, *names]), *map(sep.join, cells)]) + "\n"
+
+
+def read(folder: Path, name: str, content: str | bytes, **options):
+    path = folder / name
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+    return kineme.read(path, **options)
+
+
+TIMES = [f"{i / 25:.3f}" for i in range(20)]
+
+
+@pytest.mark.parametrize("pattern", ["{joint}_{axis}", "{joint}.{axis}", "{joint} {axis}"])
+@pytest.mark.parametrize(("suffix", "sep"), [("csv", ","), ("csv", ";"), ("tsv", "\t")])
+def test_tables(tmp_path: Path, pattern: str, suffix: str, sep: str) -> None:
+    text = table(body(), pattern, sep, label=["walk"] * 20, time=TIMES)
+    motion = read(tmp_path, f"a.{suffix}", text)
+    assert motion.fps == 25
+    assert motion.skeleton.names[:8] == tuple(JOINTS[:8])
+    assert np.allclose(motion.positions, body())
+    assert kineme.pose_features(motion).shape == (20, 15)
+
+
+def test_rates_of_tables(tmp_path: Path) -> None:
+    assert read(tmp_path, "a.csv", table(body(), fps=[29.97] * 20)).fps == 29.97
+    milliseconds = table(body(), time_ms=[i * 40 for i in range(20)])
+    assert read(tmp_path, "a.csv", milliseconds).fps == 25
+    assert read(tmp_path, "a.csv", table(body()), fps=60).fps == 60
+    for columns, reason in [
+        ({}, "no column 'time' or 'fps' found: give fps="),
+        ({"time": [0] * 20}, "times do not increase: row 2"),
+        ({"fps": [*range(1, 21)]}, "not one positive number"),
+        ({"time": [*range(19), 1e9]}, "the times span"),
+    ]:
+        with pytest.raises(ReadError, match=reason):
+            read(tmp_path, "a.csv", table(body(), **columns))
+
+
+def test_uneven_times_are_made_even(tmp_path: Path) -> None:
+    at = np.r_[0:8, 10:30] / 25  # two rows are missing
+    points = body(30)[np.r_[0:8, 10:30]]
+    motion = read(tmp_path, "a.csv", table(points, time=at.tolist()))
+    assert (motion.n_frames, motion.fps) == (30, 25)
+    assert np.allclose(motion.positions, body(30), atol=1e-3)
+    assert any("times are uneven" in note for note in motion.provenance.notes)
+
+
+def test_units_and_axes_of_tables(tmp_path: Path) -> None:
+    centimetres_z_up = 100 * body()[:, :, [0, 2, 1]] * [1, -1, 1]
+    motion = read(tmp_path, "a.csv", table(centimetres_z_up, time=TIMES))
+    assert np.allclose(motion.positions, body())
+    notes = " ".join(motion.provenance.notes)
+    assert "unit cm inferred" in notes
+    assert "up axis z inferred" in notes
+
+
+def test_keypoints_that_are_not_sure_count_as_gaps(tmp_path: Path) -> None:
+    sure = ["0.9"] * 20
+    sure[7] = "0.1"
+    points = body()
+    points[7, 0] = 99.0
+    motion = read(tmp_path, "a.csv", table(points, time=TIMES, pelvis_visibility=sure))
+    assert np.allclose(motion.positions[:, 0], body()[:, 0])
+    assert any("1 positions less sure than 0.5" in note for note in motion.provenance.notes)
+
+
+def test_deeplabcut(tmp_path: Path) -> None:
+    names = ["left_hip", "right_hip", "left_ankle", "right_ankle", "nose", "left_wrist"]
+    names += ["right_wrist"]
+    pixels = 200 * body()[:, [JOINTS.index(name) for name in names]]
+    pixels[:, :, 1] = 400 - pixels[:, :, 1]
+    head = ["scorer" + ",net" * 21, "bodyparts"]
+    head[1] += "".join(f",{name}" * 3 for name in names)
+    head.append("coords" + ",x,y,likelihood" * 7)
+    rows = [
+        ",".join([str(i), *(f"{x},{y},{0.99 if (i, k) != (4, 2) else 0.5}"
+                            for k, (x, y, _) in enumerate(frame))])
+        for i, frame in enumerate(pixels)
+    ]  # fmt: skip
+    motion = read(tmp_path, "a.csv", "\n".join([*head, *rows]), fps=30)
+    assert motion.provenance.format == "DeepLabCut"
+    assert (motion.n_frames, motion.fps) == (20, 30)
+    above = motion.positions[:, motion.joint("nose")] - motion.positions[:, motion.joint("pelvis")]
+    assert (above[:, 1] > 0.5).all()
+    assert (motion.positions[:, :, 2] == 0).all()
+    with pytest.raises(ReadError, match="no column 'time' or 'fps' found: give fps="):
+        read(tmp_path, "a.csv", "\n".join([*head, *rows]))
+
+
+def test_parquet(tmp_path: Path) -> None:
+    pa = pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    columns = {
+        f"{j}_{a}": body()[:, i, k] for i, j in enumerate(JOINTS) for k, a in enumerate("xyz")
+    }
+    columns["time"] = np.arange(20) / 50
+    parquet.write_table(pa.table(columns), tmp_path / "a.parquet")
+    motion = kineme.read(tmp_path / "a.parquet")
+    assert motion.fps == 50
+    assert np.allclose(motion.positions, body())
+    parquet.write_table(pa.table({"a_x": np.zeros(10**7)}), tmp_path / "big.parquet")
+    with pytest.raises(ReadError, match="claims 10000000 rows of 1 columns"):
+        kineme.read(tmp_path / "big.parquet")
+    data = (tmp_path / "a.parquet").read_bytes()
+    with pytest.raises(ReadError, match="is not a Parquet file, or is damaged"):
+        read(tmp_path, "b.parquet", data[: len(data) // 2])
+
+
+TRC = """PathFileType\t4\t(X/Y/Z)\ta.trc
+DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames
+100\t100\t3\t2\tmm\t100\t1\t3
+Frame#\tTime\tR.ASIS\t\t\tTop.Head\t\t
+\t\tX1\tY1\tZ1\tX2\tY2\tZ2
+
+1\t0.00\t1\t2\t3\t4\t5\t6
+2\t0.01\t\t\t\t4\t5\t6
+3\t0.02\t3\t2\t3\t4\t5\t6
+"""
+
+
+def test_trc(tmp_path: Path) -> None:
+    motion = read(tmp_path, "a.trc", TRC)
+    assert motion.fps == 100
+    assert motion.skeleton.names == ("R.ASIS", "Top.Head")
+    assert np.allclose(motion.positions[:, 0] * 1000, [(1, 2, 3), (2, 2, 3), (3, 2, 3)])
+    assert any("filled" in note for note in motion.provenance.notes)
+    commas = TRC.replace("\t", ",").replace("\n\n", "\n")
+    assert np.array_equal(read(tmp_path, "b.trc", commas).positions, motion.positions)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("100\t100\t3", "100\t100\t9", "9 frames declared, 3 found"),
+        ("100\t100\t3", "50\t100\t3", "DataRate is 50, but the times are 100 Hz apart"),
+        ("3\t0.02\t3\t2\t3\t4\t5\t6", "3\t0.02\t3", "line 9: 3 cells, but 8 columns"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+def test_trc_that_contradicts_itself(tmp_path: Path, old: str, new: str, said: str) -> None:
+    with pytest.warns(KinemeWarning, match=said):
+        assert read(tmp_path, "a.trc", TRC.replace(old, new)).fps == 100
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "reason"),
+    [
+        ("2\t0.01\t\t\t\t", "2\t0.01\t\t\t", 8, "7 cells, but 8 columns"),
+        ("2\t0.01\t\t\t\t", "2\t0.01\t\t\tx\t", 8, "'x' is not a number"),
+        ("R.ASIS\t\t\tTop.Head", "", 4, "no marker is named"),
+    ],
+)
+def test_bad_trc(tmp_path: Path, old: str, new: str, line: int, reason: str) -> None:
+    with pytest.raises(ReadError, match=reason) as caught:
+        read(tmp_path, "a.trc", TRC.replace(old, new))
+    assert caught.value.line == line
+
+
+def test_npz_of_poses(tmp_path: Path) -> None:
+    frames, skeleton = 10, smpl_skeleton()
+    poses = np.zeros((frames, 156))
+    poses[:, :3] = (np.pi / 2, 0, 0)  # upright where z is up
+    knee = skeleton.joint("left_knee")
+    poses[:, 3 * knee] = np.linspace(0, np.pi / 2, frames)
+    trans = np.tile([0.0, 0.0, 0.9], (frames, 1))
+    file = io.BytesIO()
+    np.savez(file, poses=poses, trans=trans, mocap_framerate=120.0, gender=np.array("x"))
+    motion = read(tmp_path, "a.npz", file.getvalue())
+    assert (motion.provenance.format, motion.fps) == ("AMASS", 120.0)
+    at = dict(zip(skeleton.names, motion.positions[-1], strict=True))
+    assert np.allclose(at["pelvis"], (0, 0.9, 0))
+    assert at["head_end"][1] == pytest.approx(0.9 + 0.78)
+    assert np.allclose(at["left_ankle"] - at["left_knee"], (0, 0, -0.418))  # bent backwards
+    height = np.ptp(motion.positions[0, :, 1])
+    assert 1.6 < height < 1.8
+    assert kineme.pose_features(motion)[0, 0] > 0.05  # the left ankle is on the left
+
+
+@pytest.mark.parametrize(
+    ("arrays", "reason"),
+    [
+        ({"poses": np.zeros((4, 100)), "fps": 30}, "100 values per frame, not 72"),
+        ({"poses": np.zeros((4, 72))}, "no 'mocap_frame_rate' in it: give fps="),
+        ({"poses": np.full((4, 72), np.nan), "fps": 30}, "not finite"),
+        ({"poses": np.zeros((4, 72)), "trans": np.zeros((3, 3)), "fps": 30}, "trans has shape"),
+        ({"positions": np.zeros((4, 72)), "fps": 30}, r"not \(frames, joints, 3\)"),
+        ({"positions": np.ones((4, 2, 3))}, "no 'fps' in it: give fps="),
+        ({"positions": np.ones((4, 2, 3)), "fps": 1, "names": np.array(["a"])}, "1 names for 2"),
+        ({"other": np.zeros(3)}, "no columns JOINT_x"),
+        ({"positions": np.array([None])}, "no columns JOINT_x"),
+    ],
+)
+def test_bad_npz(tmp_path: Path, arrays: dict, reason: str) -> None:
+    file = io.BytesIO()
+    np.savez(file, **arrays)
+    with pytest.raises(ReadError, match=reason):
+        read(tmp_path, "a.npz", file.getvalue())
+
+
+def test_archives_that_claim_too_much(tmp_path: Path) -> None:
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("positions.npy", bytes(50_000_000))
+    with pytest.raises(ReadError, match="claims to unpack to 50 MB"):
+        read(tmp_path, "a.npz", file.getvalue())
+    huge = io.BytesIO()
+    np.lib.format.write_array_header_1_0(
+        huge, {"descr": "<f8", "fortran_order": False, "shape": (10**12, 3, 3)}
+    )
+    with pytest.raises(ReadError, match="more than the file holds"):
+        read(tmp_path, "a.npy", huge.getvalue())
+
+
+def test_npy_without_names(tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", body())
+    motion = kineme.read(tmp_path / "a.npy", fps=30)
+    assert motion.skeleton.names[:2] == ("joint0", "joint1")
+    assert np.allclose(motion.positions, body())
+
+
+def test_mot_is_refused_with_what_to_do(tmp_path: Path) -> None:
+    text = "Coordinates\nversion=1\nendheader\ntime\thip_flexion_r\tknee_angle_r\n0\t1\t2\n"
+    with pytest.raises(ReadError, match=r"\(hip_flexion_r, knee_angle_r\).*give the TRC"):
+        read(tmp_path, "a.mot", text)
+
+
+@settings(max_examples=50, deadline=None)
+@given(motions())
+def test_npz_round_trip(motion: kineme.Motion) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        kineme.write(motion, Path(folder) / "a.npz")
+        again = kineme.read(Path(folder) / "a.npz")
+    assert again.skeleton.names == motion.skeleton.names
+    assert again.skeleton.parents == motion.skeleton.parents
+    assert again.skeleton.end_sites == motion.skeleton.end_sites
+    assert again.fps == motion.fps
+    assert np.array_equal(again.positions, motion.positions)
+    assert np.array_equal(again.rotations, motion.rotations)
+
+
+@settings(max_examples=50, deadline=None)
+@given(
+    st.sampled_from([".csv", ".trc"]),
+    st.sampled_from([25.0, 29.97, 120.0, 59.94, 29.476]),
+    st.integers(2, 40),
+)
+def test_positions_round_trip(suffix: str, fps: float, frames: int) -> None:
+    skeleton = kineme.Skeleton(tuple(JOINTS), (-1,) + (0,) * 8, np.zeros((9, 3)))
+    motion = kineme.Motion(skeleton, body(frames), fps)
+    with tempfile.TemporaryDirectory() as folder:
+        kineme.write(motion, Path(folder) / f"a{suffix}")
+        again = kineme.read(Path(folder) / f"a{suffix}")
+    assert again.fps == fps
+    assert again.skeleton.names == motion.skeleton.names
+    assert np.abs(again.positions - motion.positions).max() < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("names", "found"),
+    [
+        (["LANK", "L_Ankle", "ankle.L", "AnkleLeft"], ["LANK", "LANKLE", "LANKLE", "LANKLE"]),
+        (["R.Wrist.Med", "r_wrist_med", "ASISr"], ["RWRISTMED", "RWRISTMED", "RASIS"]),
+        (
+            ["V.Sacral", "Top.Head", "T10", "WaistLFront"],
+            ["VSACRAL", "TOPHEAD", "T10"] + ["LWAISTFRONT"],
+        ),
+    ],
+)
+def test_plain_names(names: list[str], found: list[str]) -> None:
+    assert [plain(name) for name in names] == found
+
+
+def test_left_and_right_are_made_of_the_same_markers() -> None:
+    usable = [i for i, name in enumerate(PLUG_IN_GAIT) if name != "LWRB"]
+    made = find_body(PLUG_IN_GAIT, usable)
+    assert [PLUG_IN_GAIT[i] for i in made["left_wrist"]] == ["LWRA"]
+    assert [PLUG_IN_GAIT[i] for i in made["right_wrist"]] == ["RWRA"]
+
+
+def test_each_line_of_the_marker_table_can_be_reached() -> None:
+    for lines in TABLE.values():
+        for i, line in enumerate(lines):
+            wanted = set(line.split())
+            assert not any(set(before.split()) <= wanted for before in lines[:i]), line
+
+
+def spoilt(draw, sound: bytes) -> bytes:
+    data = bytearray(sound)
+    for _ in range(draw(st.integers(1, 4))):
+        start = draw(st.integers(0, len(data)))
+        stop = min(len(data), start + draw(st.integers(0, 30)))
+        text = st.sampled_from([b"nan", b"1e999", b"1e308", b",", b"\t", b"\n", b'"', b"-", b"\0"])
+        data[start:stop] = draw(st.one_of(st.binary(max_size=6), text, st.just(b"")))
+    return bytes(data[: draw(st.one_of(st.just(len(data)), st.integers(0, len(data))))])
+
+
+def _npz(compressed: bool, **arrays) -> bytes:
+    file = io.BytesIO()
+    (np.savez_compressed if compressed else np.savez)(file, **arrays)
+    return file.getvalue()
+
+
+def _npy() -> bytes:
+    file = io.BytesIO()
+    np.save(file, body(4))
+    return file.getvalue()
+
+
+SOUND = {
+    "a.csv": table(body(4), time=TIMES).encode(),
+    "a.trc": TRC.encode(),
+    "a.npy": _npy(),
+    "a.npz": _npz(False, positions=body(4), fps=30.0, names=np.array(JOINTS)),
+    "b.npz": _npz(True, poses=np.zeros((3, 72)), trans=np.zeros((3, 3)), fps=30.0),
+    "a.mot": b"Coordinates\nendheader\ntime a b\n0 1 2\n",
+}
+
+
+@settings(max_examples=500, deadline=None)
+@given(st.data())
+def test_nothing_raises_anything_else(data: st.DataObject) -> None:
+    name = data.draw(st.sampled_from(sorted(SOUND)))
+    content = spoilt(data.draw, SOUND[name])
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.simplefilter("ignore", KinemeWarning)
+        try:
+            assert read(Path(folder), name, content, fps=30).n_frames > 0
+        except KinemeError as error:
+            assert "\n" not in str(error)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.data())
+def test_damaged_parquet(data: st.DataObject) -> None:
+    pa = pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    file = io.BytesIO()
+    parquet.write_table(pa.table({"a_x": [1.0], "a_y": [1.0], "a_z": [1.0]}), file)
+    content = spoilt(data.draw, file.getvalue())
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("ignore", KinemeWarning)
+        try:
+            read(Path(folder), "a.parquet", content, fps=30)
+        except KinemeError as error:
+            assert "\n" not in str(error)
+
+
+@pytest.mark.parametrize("name", ["subject01_walk.trc", "markers.trc"])
+@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
+def test_real_trc(data_dir: Path, name: str) -> None:
+    motion = kineme.read(data_dir / "formats" / name)
+    assert motion.n_frames > 90
+    if name == "subject01_walk.trc":
+        assert kineme.pose_features(motion)[:, 7].mean() == pytest.approx(0.65, abs=0.1)
+
+
+def test_real_mot(data_dir: Path) -> None:
+    with pytest.raises(ReadError, match="pelvis_tilt, .*give the TRC of its markers"):
+        kineme.read(data_dir / "formats" / "subject01_walk_IK.mot")
+
+
+def test_one_take_in_three_formats(data_dir: Path) -> None:
+    cuts = []
+    for suffix in ("amc", "bvh", "c3d"):
+        segments = kineme.segment(kineme.read(data_dir / "cmu_formats" / f"02_01.{suffix}"))
+        cuts.append([row.start_s for row in segments.primitives])
+    assert len(cuts[0]) == len(cuts[1]) == len(cuts[2]) > 1
+    assert np.abs(np.subtract(cuts[1:], cuts[0])).max() < 0.2
+
+
+def test_a_walk_of_markers_has_the_size_of_a_person() -> None:
+    from kineme.features import body_size, end_effectors
+    from kineme.formats.points import Points, to_motion
+
+    motion = to_motion(Points(PLUG_IN_GAIT, walking(), 100, "m", "y"), kineme.Provenance())
+    assert 1.4 < body_size(motion, end_effectors(motion)) < 1.8
