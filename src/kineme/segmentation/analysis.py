@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import repeat
 from math import ceil
 
 import numpy as np
@@ -99,20 +100,16 @@ def analyze(
         repetition = np.add.reduceat(inner > 0, blocks[:-1]) / np.diff(blocks)
     with stage("primitives"):
         primitives = _primitives(graph, blocks, preset)
-    found = [block.cuts for block in primitives]
+    cuts_inside = [block.cuts for block in primitives]
     symmetry = None
     if preset.mirror and mirror is not None:
         with stage("mirroring"):
-            mirrored_graph = _neighbors(mirror(np.asarray(features, float)), features, preset)
-            mirrored = _primitives(mirrored_graph, blocks, preset)
-            gap = preset.min_primitive * preset.working_fps
-            found = [
-                merged_cuts(main.cuts, other.cuts, gap)
-                for main, other in zip(primitives, mirrored, strict=True)
-            ]
-            symmetry = _symmetry(blocks, repeats, primitives, mirrored, gap)
+            graph_across = _neighbors(mirror(np.asarray(features, float)), features, preset)
+            mirrored = _primitives(graph_across, blocks, preset)
+            cuts_inside = _merged(primitives, mirrored, preset)
+            symmetry = _symmetry(blocks, repeats, primitives, mirrored, preset)
     with stage("clusters"):
-        segments = _borders(np.concatenate([blocks, *found]), len(graph))
+        segments = _borders(np.concatenate([blocks, *cuts_inside]), len(graph))
         clustering = _clusters(graph, segments, preset)
     return Analysis(
         graph, cuts, blocks, repeats, repetition, segments, clustering, symmetry, timings
@@ -139,9 +136,7 @@ def _growth_graph(graph: NeighborGraph, preset: RegionPreset) -> NeighborGraph:
         labels = component_labels(graph)
         graph = graph.select(labels != labels[0])
         return graph.restrict(radius=preset.growth_radius)
-    return graph.restrict(
-        radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width)
-    )
+    return graph.restrict(radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width))
 
 
 def _activity_cuts(graph: NeighborGraph, preset: RegionPreset) -> ActivityCuts:
@@ -190,22 +185,27 @@ def _primitives(graph: NeighborGraph, blocks: Frames, preset: RegionPreset) -> l
     return map_threads(cuts_of, range(len(blocks) - 1))
 
 
+def _merged(
+    main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionPreset
+) -> list[Frames]:
+    gap = preset.min_primitive * preset.working_fps
+    return [merged_cuts(a.cuts, b.cuts, gap) for a, b in zip(main, mirrored, strict=True)]
+
+
 def _symmetry(
     blocks: Frames,
     repeats: NDArray[np.bool_],
     main: list[PrimitiveCuts],
     mirrored: list[PrimitiveCuts],
-    gap: float,
+    preset: RegionPreset,
 ) -> NDArray[np.str_]:
     """How left and right go together in each block that repeats; empty in the others."""
-    return np.array(
-        [
-            symmetry_type((int(start), int(stop) - 1), ours, others, gap) if repeated else ""
-            for start, stop, repeated, ours, others in zip(
-                blocks[:-1], blocks[1:], repeats, main, mirrored, strict=True
-            )
-        ]
+    gap = preset.min_primitive * preset.working_fps
+    last = (blocks[1:] - 1).tolist()
+    types = map(
+        symmetry_type, zip(blocks.tolist(), last, strict=False), main, mirrored, repeat(gap)
     )
+    return np.where(repeats, list(types), "")
 
 
 def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionPreset) -> Clustering:
