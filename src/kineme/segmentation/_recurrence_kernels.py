@@ -1,4 +1,4 @@
-"""Compiled loops of the ``kineme`` method, on bands along the diagonal.
+"""Compiled loops over a band along the diagonal: distances, scales and similarities.
 
 Bands are stored by row and lag. A two-sided band holds the pair (i, j) at
 ``[i, j - i + width]``, a one-sided band at ``[i, j - i]`` for j from i on.
@@ -101,37 +101,16 @@ def similarities(blurred, scales, softness, start, stop, similarity):
                 similarity[i, lag] = np.exp(-distance * distance / unit)
 
 
-@njit("int64[::1](float32[:, ::1], float64, int64)", **OPTIONS)
-def change_points(similarity, penalty, min_length):
-    """Borders of the segments whose frames are most alike, ends included.
-
-    Minimises, by dynamic programming, the sum over segments of
-    ``length - (sum of similarities of all pairs) / length + penalty``. No
-    segment is longer than the band is wide.
-    """
-    bins, width = similarity.shape
-    best = np.full(bins + 1, np.inf)
-    best[0] = 0
-    before = np.zeros(bins + 1, np.int64)
-    # row_sums[s]: similarities of s with the later bins of the segment so far.
-    row_sums = np.zeros(bins)
-    for end in range(1, bins + 1):
-        last = end - 1
-        inside = 0.0
-        for start in range(last, max(-1, last - width), -1):
-            if start < last:
-                row_sums[start] += similarity[start, last - start]
-            inside += similarity[start, 0] + 2 * row_sums[start]
-            length = end - start
-            if length >= min_length or start == 0:
-                cost = best[start] + length - inside / length + penalty
-                if cost < best[end]:
-                    best[end] = cost
-                    before[end] = start
-    borders = [bins]
-    while borders[-1] > 0:
-        borders.append(before[borders[-1]])
-    return np.array(borders[::-1], dtype=np.int64)
+@njit("float32[::1](float32[:, ::1], int64, int64, int64)", **OPTIONS)
+def recurrence_distances(near, start, stop, gap):
+    """For each bin of a segment the distance to its nearest other bin beyond the gap."""
+    width = near.shape[1] // 2
+    nearest = np.full(stop - start, FAR)
+    for i in range(start, stop):
+        for j in range(max(start, i - width), min(stop, i + width + 1)):
+            if abs(j - i) > gap:
+                nearest[i - start] = min(nearest[i - start], near[i, j - i + width])
+    return nearest
 
 
 @njit("float64(float32[:, ::1], float32[::1], int64, int64, int64, int64, int64, float64)", **SUMS)
@@ -162,146 +141,3 @@ def mean_similarity(similarity, g_start, g_stop, h_start, h_stop, gap):
                 total += similarity[min(i, j), lag]
                 count += 1
     return total / count if count else 0.0
-
-
-@njit("float32[:, ::1](float32[:, ::1], int64, int64, int64, int64, int64, int64, int64)", **SUMS)
-def nearest_within(features, step, phase, stride, g_start, g_stop, h_start, h_stop):
-    """Distances from moments of g to the nearest frame in the phase window around those of h.
-
-    Moments are every ``stride``-th bin, frames every ``stride``-th frame.
-    """
-    frames, dims = features.shape
-    low, high = max(0, (h_start - phase) * step), min(frames, (h_stop + phase) * step)
-    line = np.empty((high - low + stride - 1) // stride, np.float32)
-    nearest = np.full(
-        ((g_stop - g_start + stride - 1) // stride, (h_stop - h_start + stride - 1) // stride), FAR
-    )
-    for r in range(nearest.shape[0]):
-        row = features[(g_start + r * stride) * step]
-        for f in range(len(line)):
-            square = np.float32(0)
-            for d in range(dims):
-                difference = row[d] - features[low + f * stride, d]
-                square += difference * difference
-            line[f] = square
-        for c in range(nearest.shape[1]):
-            center = (h_start + c * stride) * step - low
-            first = max(0, (center - phase * step) // stride)
-            for f in range(first, min(len(line), (center + phase * step) // stride + 1)):
-                nearest[r, c] = min(nearest[r, c], line[f])
-            nearest[r, c] = np.sqrt(nearest[r, c])
-    return nearest
-
-
-@njit(
-    "float64(float32[:, ::1], float32[::1], int64, int64, int64, float32, int64, int64, int64,"
-    " int64)",
-    **SUMS,
-)
-def distant_similarity(
-    features, scales, step, phase, stride, softness, g_start, g_stop, h_start, h_stop
-):
-    """Mean similarity of two stretches that the band does not reach across."""
-    there = nearest_within(features, step, phase, stride, g_start, g_stop, h_start, h_stop)
-    back = nearest_within(features, step, phase, stride, h_start, h_stop, g_start, g_stop)
-    total = 0.0
-    for r in range(there.shape[0]):
-        for c in range(there.shape[1]):
-            distance = max(there[r, c], back[c, r])
-            unit = scales[g_start + r * stride] * scales[h_start + c * stride]
-            total += np.exp(-distance * distance / (softness * softness * unit))
-    return total / there.size
-
-
-@njit("void(float32[:, ::1], int64[::1], int64, int64, int64, int64, float64[:, ::1])", **SUMS)
-def class_affinities(similarity, labels, gap, min_count, start, stop, affinity):
-    """Mean similarity of each bin to the bins of each class, within the band and off the gap.
-
-    Zero where fewer than ``min_count`` bins of the class are within reach.
-    """
-    bins, width = similarity.shape
-    counts = np.empty(affinity.shape[1], np.int64)
-    for i in range(start, stop):
-        affinity[i] = 0
-        counts[:] = 0
-        for j in range(max(0, i - width + 1), min(bins, i + width)):
-            lag = abs(j - i)
-            if lag > gap:
-                affinity[i, labels[j]] += similarity[min(i, j), lag]
-                counts[labels[j]] += 1
-        for c in range(len(counts)):
-            affinity[i, c] = affinity[i, c] / counts[c] if counts[c] >= min_count else 0.0
-
-
-@njit("int64[::1](float64[:, ::1], float64)", **OPTIONS)
-def cheapest_labels(costs, switch_cost):
-    """One label per row: least sum of costs plus ``switch_cost`` for every change (Viterbi)."""
-    n, k = costs.shape
-    arrival = costs[0].copy()
-    before = np.empty((n, k), np.int32)
-    for t in range(1, n):
-        best = np.argmin(arrival)
-        switched = arrival[best] + switch_cost
-        for c in range(k):
-            before[t, c] = c
-            if switched < arrival[c]:
-                before[t, c] = best
-                arrival[c] = switched
-            arrival[c] += costs[t, c]
-    labels = np.empty(n, np.int64)
-    labels[n - 1] = np.argmin(arrival)
-    for t in range(n - 1, 0, -1):
-        labels[t - 1] = before[t, labels[t]]
-    return labels
-
-
-@njit("float32[::1](float32[:, ::1], int64, int64, int64)", **OPTIONS)
-def recurrence_distances(near, start, stop, gap):
-    """For each bin of a segment the distance to its nearest other bin beyond the gap."""
-    width = near.shape[1] // 2
-    nearest = np.full(stop - start, FAR)
-    for i in range(start, stop):
-        for j in range(max(start, i - width), min(stop, i + width + 1)):
-            if abs(j - i) > gap:
-                nearest[i - start] = min(nearest[i - start], near[i, j - i + width])
-    return nearest
-
-
-@njit("float32[:, ::1](float32[:, ::1], int64[::1], int64, int64)", **SUMS)
-def distances_to(features, references, start, stop):
-    """Distance of each reference frame to each frame of ``[start, stop)``."""
-    distances = np.empty((len(references), stop - start), np.float32)
-    for r in range(len(references)):
-        row = features[references[r]]
-        for f in range(start, stop):
-            square = np.float32(0)
-            for d in range(features.shape[1]):
-                difference = row[d] - features[f, d]
-                square += difference * difference
-            distances[r, f - start] = np.sqrt(square)
-    return distances
-
-
-@njit("Tuple((int64[::1], int64[:, ::1]))(float32[:, ::1], float32[::1])", **OPTIONS)
-def visit_centers(distances, limits):
-    """How often each row comes within its limit, and the nearest column of each visit.
-
-    A visit cut off by either end before it is nearest does not count.
-    """
-    rows, columns = distances.shape
-    counts = np.zeros(rows, np.int64)
-    centers = np.zeros((rows, columns // 2 + 1), np.int64)
-    for r in range(rows):
-        inside = False
-        nearest = 0
-        for c in range(columns + 1):
-            if c < columns and distances[r, c] < limits[r]:
-                if not inside or distances[r, c] < distances[r, nearest]:
-                    nearest = c
-                inside = True
-            elif inside:
-                inside = False
-                if 0 < nearest < columns - 1:
-                    centers[r, counts[r]] = nearest
-                    counts[r] += 1
-    return counts, centers

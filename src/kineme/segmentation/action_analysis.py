@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import map_threads
-from kineme.segmentation import _recurrence_kernels as kernels
-from kineme.segmentation import actions as steps
-from kineme.segmentation.actions import Actions
+from kineme.segmentation import stretches
+from kineme.segmentation._recurrence_kernels import recurrence_distances
+from kineme.segmentation.actions import Actions, leading, refine, transition_ends
 from kineme.segmentation.presets import ActionPreset
 from kineme.segmentation.recurrence import Recurrence, recurrence
 from kineme.segmentation.repetitions import Repetitions, repetitions
@@ -115,28 +115,28 @@ def analyze_actions(
 
 def find_actions(likeness: Recurrence, preset: ActionPreset) -> Actions:
     """Stretches of one action each, in moments."""
-    borders = steps.change_points(
+    borders = stretches.change_points(
         likeness,
         penalty=preset.border_cost * preset.working_fps / preset.step,
         min_length=max(1, preset.moments(preset.min_stretch)),
     )
-    borders = steps.merge_parts(
+    borders = stretches.merge_parts(
         borders,
         likeness,
         gap=preset.moments(preset.part_gap),
         softness=preset.part_softness,
         least=preset.part_share,
     )
-    labels = steps.link(
+    labels = stretches.link(
         borders,
         likeness,
         likeness=preset.likeness,
         max_lag=None if preset.max_lag is None else preset.moments(preset.max_lag),
     )
-    repeats = steps.repeating(
+    repeats = stretches.repeating(
         borders, labels, likeness, softness=preset.part_softness, least=preset.min_repetition
     )
-    return steps.refine(
+    return refine(
         borders,
         np.where(repeats, labels, -1),
         likeness,
@@ -150,7 +150,7 @@ def _blocks(
     found: Actions, likeness: Recurrence, preset: ActionPreset, n: int
 ) -> tuple[Frames, Frames, NDArray[np.float64]]:
     """Borders, labels and confidence of activities and the transitions between them, in frames."""
-    heads, tails = steps.transition_ends(
+    heads, tails = transition_ends(
         found,
         likeness,
         factor=preset.transition_factor,
@@ -190,13 +190,11 @@ def _count(
 def _core(likeness: Recurrence, start: int, stop: int, preset: ActionPreset) -> tuple[int, int]:
     """The frames of an activity without the ends that hardly recur in it."""
     step = likeness.step
-    nearest = kernels.recurrence_distances(
-        likeness.near, start // step, -(-stop // step), likeness.phase
-    )
+    nearest = recurrence_distances(likeness.near, start // step, -(-stop // step), likeness.phase)
     known = np.isfinite(nearest)
     if not known.any():
         return start, stop
     strange = nearest > CORE_FACTOR * np.quantile(nearest[known], CORE_QUANTILE)
     limit = min(preset.moments(CORE_SECONDS), len(strange) // 4)
-    head, tail = steps.leading(strange[:limit]), steps.leading(strange[::-1][:limit])
+    head, tail = leading(strange[:limit]), leading(strange[::-1][:limit])
     return start + head * step, stop - tail * step

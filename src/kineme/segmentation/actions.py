@@ -1,31 +1,25 @@
-"""Actions: activities between their borders, each known again when it returns.
+"""Actions: what each moment of a recording belongs to, known again when it returns.
 
-1. Borders are the change points of the phase-blurred similarity: the cheapest
-   division into stretches whose moments are alike.
-2. A stretch that repeats less within itself than in its neighbour is part of
-   that neighbour (one slow repetition of several).
-3. Stretches whose moments are alike belong to one action, wherever they are.
-4. Each moment then goes to the action it is most like; changing costs, so
-   that borders fall where the evidence turns.
-5. What at either end of an activity recurs nowhere in it is transition.
+Stretches (see ``stretches``) say roughly which actions there are. Each moment
+then goes to the action it is most like, or to none; changing costs, so that
+borders fall where the evidence turns. What at either end of an activity
+recurs nowhere in it is transition.
 
-Sources: kernel change-point detection after Arlot, Celisse and Harchaoui 2019;
-the rest is ours. See ``docs/method.md`` for what each step contributes.
+The method is ours. See ``docs/method.md`` for what each step contributes.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import even_slices, map_threads
-from kineme.segmentation import _recurrence_kernels as kernels
+from kineme.segmentation import _action_kernels as kernels
+from kineme.segmentation._recurrence_kernels import recurrence_distances
 from kineme.segmentation.recurrence import Recurrence
-
-Bins = NDArray[np.int64]
+from kineme.segmentation.stretches import Bins, by_first_appearance
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,141 +37,6 @@ class Actions:
     borders: Bins
     labels: Bins
     confidence: NDArray[np.float64]
-
-
-def change_points(recurrence: Recurrence, *, penalty: float, min_length: int) -> Bins:
-    """Borders of the stretches whose moments are most alike, ends included.
-
-    Parameters
-    ----------
-    recurrence : Recurrence
-    penalty : bins of likeness that a border must gain
-    min_length : shortest stretch, bins
-    """
-    borders: Bins = kernels.change_points(recurrence.similarity, penalty, min_length)
-    return borders
-
-
-def merge_parts(
-    borders: Bins, recurrence: Recurrence, *, gap: int, softness: float, least: float
-) -> Bins:
-    """Borders without those between a stretch and the neighbour in which it recurs.
-
-    A border falls if one side recurs in the other more than in itself, and by
-    at least ``least``; the clearest first.
-
-    Parameters
-    ----------
-    borders : bins, ends included
-    recurrence : Recurrence
-    gap : bins; what is no farther away does not count as recurrence
-    softness : scales at which recurrence has fallen to 1/e
-    least : share of the stretch that must recur
-    """
-    cuts = borders.tolist()
-
-    def covered(g: int, h: int) -> float:
-        share: float = kernels.coverage(
-            recurrence.near, recurrence.scales, cuts[g], cuts[g + 1], cuts[h], cuts[h + 1],
-            gap, softness,
-        )  # fmt: skip
-        return share
-
-    def gain(left: int) -> float:
-        pairs = ((left, left + 1), (left + 1, left))
-        return max(covered(g, h) / max(covered(g, g), least) for g, h in pairs)
-
-    gains = [gain(left) for left in range(len(cuts) - 2)]
-    while gains and max(gains) >= 1:
-        best = int(np.argmax(gains))
-        del cuts[best + 1], gains[best]
-        for left in (best - 1, best):
-            if 0 <= left < len(gains):
-                gains[left] = gain(left)
-    return np.array(cuts, np.int64)
-
-
-def link(borders: Bins, recurrence: Recurrence, *, likeness: float, max_lag: int | None) -> Bins:
-    """One label per stretch: equal where the moments of two stretches are alike.
-
-    Average linkage on the mean similarity of two stretches, relative to that
-    within each.
-
-    Parameters
-    ----------
-    borders : bins, ends included
-    recurrence : Recurrence
-    likeness : relative similarity from which stretches are one action, 0 to 1
-    max_lag : bins; stretches farther apart are not compared, and differ
-    """
-    from scipy.cluster.hierarchy import fcluster, linkage
-    from scipy.spatial.distance import squareform
-
-    k = len(borders) - 1
-    if k == 1:
-        return np.zeros(1, np.int64)
-    reach = borders[-1] if max_lag is None else max_lag
-    within_reach = np.searchsorted(borders[:-1], borders[1:] + reach, side="right")
-    mean = np.zeros((k, k))
-
-    def compare(g: int) -> None:
-        for h in range(g, within_reach[g]):
-            mean[g, h] = mean[h, g] = _similarity(borders, recurrence, g, h)
-
-    map_threads(compare, range(k))
-    within = np.sqrt(np.maximum(mean.diagonal(), 1e-9))
-    distance = 1 - np.clip(mean / np.outer(within, within), 0, 1)
-    np.fill_diagonal(distance, 0)
-    tree = linkage(squareform(distance, checks=False), "average")
-    return _by_first_appearance(fcluster(tree, 1 - likeness, "distance"))
-
-
-# Of stretches that the band does not reach across, so many bins are compared.
-EXCERPT = 60
-STRIDE = 2
-
-
-def _similarity(borders: Bins, recurrence: Recurrence, g: int, h: int) -> float:
-    """Mean similarity of two stretches, g not after h: from the band, else measured anew."""
-    g_start, g_stop, h_start, h_stop = borders[[g, g + 1, h, h + 1]].tolist()
-    width = recurrence.similarity.shape[1]
-    if g == h or h_start - g_stop < width - EXCERPT:
-        in_band: float = kernels.mean_similarity(
-            recurrence.similarity, g_start, g_stop, h_start, h_stop, recurrence.phase
-        )
-        return in_band
-    distant: float = kernels.distant_similarity(
-        recurrence.features, recurrence.scales, recurrence.step, recurrence.phase, STRIDE,
-        recurrence.softness, *_excerpt(g_start, g_stop), *_excerpt(h_start, h_stop),
-    )  # fmt: skip
-    return distant
-
-
-def _excerpt(start: int, stop: int) -> tuple[int, int]:
-    middle = (start + stop) // 2
-    return max(start, middle - EXCERPT // 2), min(stop, middle + EXCERPT // 2)
-
-
-def repeating(
-    borders: Bins, labels: Bins, recurrence: Recurrence, *, softness: float, least: float
-) -> NDArray[np.bool_]:
-    """Which stretches repeat: within themselves, or in another stretch of their action.
-
-    Parameters
-    ----------
-    borders, labels : stretches and their actions
-    recurrence : Recurrence
-    softness : scales at which recurrence has fallen to 1/e
-    least : share of a stretch that must recur within it
-    """
-    shared = np.bincount(labels)[labels] > 1
-    within = [
-        kernels.coverage(
-            recurrence.near, recurrence.scales, start, stop, start, stop, recurrence.phase, softness
-        )
-        for start, stop in pairwise(borders.tolist())
-    ]
-    return shared | (np.array(within) >= least)
 
 
 def refine(
@@ -201,7 +60,7 @@ def refine(
     min_length : bins; an action with less is given up
     rounds : times that actions are learnt anew from their moments
     """
-    per_bin = _by_first_appearance(np.repeat(labels, np.diff(borders)))
+    per_bin = by_first_appearance(np.repeat(labels, np.diff(borders)))
     for _ in range(rounds):
         relative, actions = _relative_affinity(recurrence, per_bin, min_length)
         costs = np.column_stack([1 - relative, np.full(len(per_bin), no_action_cost)])
@@ -209,7 +68,7 @@ def refine(
         actions = np.column_stack([actions, np.full(len(per_bin), -1)])
         per_bin = actions[np.arange(len(per_bin)), columns]
         rare = np.bincount(per_bin + 1)[per_bin + 1] < min_length
-        per_bin = _by_first_appearance(np.where(rare, -1, per_bin))
+        per_bin = by_first_appearance(np.where(rare, -1, per_bin))
     found = np.concatenate([[0], np.flatnonzero(np.diff(per_bin)) + 1, [len(per_bin)]])
     return Actions(found, per_bin[found[:-1]], _confidence(recurrence, per_bin, found, min_length))
 
@@ -274,15 +133,6 @@ def _columns(per_bin: Bins, reach: int) -> tuple[Bins, Bins]:
     return actions, column_of
 
 
-def _by_first_appearance(labels: NDArray[np.integer]) -> Bins:
-    """The same labels counted from 0 in order of appearance; -1 stays."""
-    known = labels >= 0
-    _, first, inverse = np.unique(labels[known], return_index=True, return_inverse=True)
-    numbered = np.full(len(labels), -1, np.int64)
-    numbered[known] = np.argsort(np.argsort(first))[inverse]
-    return numbered
-
-
 def transition_ends(
     actions: Actions, recurrence: Recurrence, *, factor: float, longest: int
 ) -> tuple[Bins, Bins]:
@@ -303,7 +153,7 @@ def transition_ends(
     heads, tails = np.zeros(k, np.int64), np.zeros(k, np.int64)
     for g in range(k):
         start, stop = actions.borders[g : g + 2]
-        nearest = kernels.recurrence_distances(recurrence.near, start, stop, recurrence.phase)
+        nearest = recurrence_distances(recurrence.near, start, stop, recurrence.phase)
         known = np.isfinite(nearest)
         if not known.any():
             continue

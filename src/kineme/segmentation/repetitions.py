@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.segmentation import _recurrence_kernels as kernels
+from kineme.segmentation import _distance_kernels as kernels
 
 # A pose is visited when the distance falls below these shares of its large distances.
 THRESHOLDS = (0.3, 0.4, 0.5, 0.6, 0.7)

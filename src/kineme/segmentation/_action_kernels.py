@@ -1,0 +1,88 @@
+"""Compiled loops that divide a recording into actions.
+
+Bands are those of ``_recurrence_kernels``. Naive twins are in ``tests/naive.py``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from kineme._compiled import OPTIONS
+
+SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
+
+
+@njit("int64[::1](float32[:, ::1], float64, int64)", **OPTIONS)
+def change_points(similarity, penalty, min_length):
+    """Borders of the segments whose frames are most alike, ends included.
+
+    Minimises, by dynamic programming, the sum over segments of
+    ``length - (sum of similarities of all pairs) / length + penalty``. No
+    segment is longer than the band is wide.
+    """
+    bins, width = similarity.shape
+    best = np.full(bins + 1, np.inf)
+    best[0] = 0
+    before = np.zeros(bins + 1, np.int64)
+    # row_sums[s]: similarities of s with the later bins of the segment so far.
+    row_sums = np.zeros(bins)
+    for end in range(1, bins + 1):
+        last = end - 1
+        inside = 0.0
+        for start in range(last, max(-1, last - width), -1):
+            if start < last:
+                row_sums[start] += similarity[start, last - start]
+            inside += similarity[start, 0] + 2 * row_sums[start]
+            length = end - start
+            if length >= min_length or start == 0:
+                cost = best[start] + length - inside / length + penalty
+                if cost < best[end]:
+                    best[end] = cost
+                    before[end] = start
+    borders = [bins]
+    while borders[-1] > 0:
+        borders.append(before[borders[-1]])
+    return np.array(borders[::-1], dtype=np.int64)
+
+
+@njit("void(float32[:, ::1], int64[::1], int64, int64, int64, int64, float64[:, ::1])", **SUMS)
+def class_affinities(similarity, labels, gap, min_count, start, stop, affinity):
+    """Mean similarity of each bin to the bins of each class, within the band and off the gap.
+
+    Zero where fewer than ``min_count`` bins of the class are within reach.
+    """
+    bins, width = similarity.shape
+    counts = np.empty(affinity.shape[1], np.int64)
+    for i in range(start, stop):
+        affinity[i] = 0
+        counts[:] = 0
+        for j in range(max(0, i - width + 1), min(bins, i + width)):
+            lag = abs(j - i)
+            if lag > gap:
+                affinity[i, labels[j]] += similarity[min(i, j), lag]
+                counts[labels[j]] += 1
+        for c in range(len(counts)):
+            affinity[i, c] = affinity[i, c] / counts[c] if counts[c] >= min_count else 0.0
+
+
+@njit("int64[::1](float64[:, ::1], float64)", **OPTIONS)
+def cheapest_labels(costs, switch_cost):
+    """One label per row: least sum of costs plus ``switch_cost`` for every change (Viterbi)."""
+    n, k = costs.shape
+    arrival = costs[0].copy()
+    before = np.empty((n, k), np.int32)
+    for t in range(1, n):
+        best = np.argmin(arrival)
+        switched = arrival[best] + switch_cost
+        for c in range(k):
+            before[t, c] = c
+            if switched < arrival[c]:
+                before[t, c] = best
+                arrival[c] = switched
+            arrival[c] += costs[t, c]
+    labels = np.empty(n, np.int64)
+    labels[n - 1] = np.argmin(arrival)
+    for t in range(n - 1, 0, -1):
+        labels[t - 1] = before[t, labels[t]]
+    return labels
