@@ -71,7 +71,7 @@ def exercise_sequence(
     runs : how many times an action is taken up; each comes once before any comes
         again, and never after itself
     repeats : fewest and most exercises of a run, joined one after the other
-    join : seconds over which a join is blended; at most two thirds of the
+    join : seconds over which a join is blended; at most a third of the
         shorter exercise
 
     Raises
@@ -147,7 +147,7 @@ def _joined(motions: list[Motion], join: float) -> tuple[Motion, NDArray[np.int6
     halves = []
     for before, after in pairwise(range(len(placed))):
         shorter = min(len(rotations[before]), len(rotations[after]))
-        half = min(round(join * fps / 2), shorter // 3)
+        half = min(round(join * fps / 2), shorter // 6)
         _blend(rotations[before], rotations[after], translations[before], translations[after], half)
         halves.append(half)
     motion = Motion.from_rotations(

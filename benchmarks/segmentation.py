@@ -1,0 +1,70 @@
+"""How long segmenting 86_10 takes, features to clusters, warm, beside a bare matrix product.
+
+    python benchmarks/segmentation.py [--runs 21]
+
+The yardstick is the float32 product X Y' of the search vectors with a copy of
+themselves (1896 × 45 and up), as a naive self-similarity matrix needs it. Of
+X X' numpy computes one half only and takes about half the time; it stands
+beside. All are medians of runs taken in turn. The authors' program took the
+seconds beside it under GNU Octave, on two cores of another machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import warnings
+from collections import defaultdict
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+
+import kineme
+from _measure import interleaved, verdict
+from kineme.segmentation.presets import PRESETS, PUBLISHED
+from kineme.segmentation.segmenter import motion_features
+
+DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
+REFERENCES = {"voegele2014": "2014_paper", "krueger2017": "2017_plain"}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--runs", type=int, default=21)
+    runs = parser.parse_args().runs
+    motion = kineme.read(DATA / "cmu86" / "86_10.amc")
+    stages: dict[str, dict[str, list[float]]] = {name: defaultdict(list) for name in PRESETS}
+    works = {}
+    for name, preset in PRESETS.items():
+        features = motion_features(motion, preset).astype(np.float32)
+        copy = features.copy()
+
+        def whole(name: str = name) -> None:
+            for stage, seconds in kineme.segment(motion, preset=name).timings.items():
+                stages[name][stage].append(seconds)
+
+        works[name] = whole
+        works[f"{name} X Y'"] = lambda x=features, y=copy: x @ y.T
+        works[f"{name} X X'"] = lambda x=features: x @ x.T
+    seconds = interleaved(works, runs=runs)
+    for name in PRESETS:
+        took, product, half = (seconds[f"{name}{what}"] for what in ("", " X Y'", " X X'"))
+        print(f"{name}: {1000 * took:.1f} ms")
+        parts = (f"{stage} {1000 * median(times):.1f}" for stage, times in stages[name].items())
+        print("  of which " + ", ".join(parts))
+        print(f"  X Y' {1000 * product:.1f} ms: {took / product:.1f} times", end="")
+        print(f"; X X' {1000 * half:.1f} ms: {took / half:.1f} times")
+        if name in PUBLISHED:
+            print(f"  seconds: {verdict(took, 0.1)}; times X Y': {verdict(took / product, 8)}")
+            path = DATA / "cmu86" / "reference" / f"{REFERENCES[name]}_86_10.json"
+            octave = sum(json.loads(path.read_text())["seconds_in_octave"].values())
+            print(f"  the authors' program in Octave: {octave:.1f} s, {octave / took:.0f} times")
+    ratio = seconds["kineme"] / seconds["voegele2014"]
+    print(f"kineme: {ratio:.2f} times voegele2014; {verdict(ratio, 2)}")
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    main()
