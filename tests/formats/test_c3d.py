@@ -165,6 +165,8 @@ def test_truncated_and_wrong_files(tmp_path: Path) -> None:
     data = c3d_bytes(POINTS, PLUG_IN_GAIT)
     with pytest.warns(KinemeWarning, match="60 frames declared, 59 found and kept"):
         assert read(tmp_path, data[:-10]).n_frames == 59
+    with pytest.raises(ReadError, match="truncated"):
+        parse(b"")
     for cut, reason in [
         (100, "truncated"),
         (600, "truncated|no points"),

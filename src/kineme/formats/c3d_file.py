@@ -224,8 +224,6 @@ class _File:
 
 
 def _header(source: Source, parameters: Parameters) -> Header:
-    if len(source.data) < BLOCK:
-        raise source.error("the file ends within the header: it is truncated")
     kind = parameters.processor
     words = np.frombuffer(source.data, number_type(kind, real=False), 12)
     words = words.view(words.dtype.str.replace("i", "u"))

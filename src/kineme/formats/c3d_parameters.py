@@ -79,8 +79,8 @@ def read_parameters(source: Source) -> Parameters:
     ReadError : there is no parameter section, or its processor is unknown
     """
     data = source.data
-    start = (max(data[0], 1) - 1) * BLOCK
-    if start + 4 > len(data):
+    start = (max(data[0], 1) - 1) * BLOCK if data else 0
+    if len(data) < max(start + 4, BLOCK):
         raise source.error("the file ends before its parameters: it is truncated, or no C3D file")
     processor = data[start + 3]
     if processor not in (INTEL, DEC, MIPS):
