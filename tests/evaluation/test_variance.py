@@ -21,7 +21,7 @@ from kineme.evaluation import (
     point_cloud_variance,
 )
 from kineme.evaluation._kernels import warped_cost
-from kineme.evaluation.variance import cloud_distances
+from kineme.features.point_clouds import cloud_distances
 
 
 @given(arrays(np.float64, st.tuples(st.integers(1, 7), st.integers(1, 7)),

@@ -11,10 +11,14 @@ from kineme.cli.convert import convert
 from kineme.cli.data import data
 from kineme.cli.demo import demo
 from kineme.cli.evaluate import evaluate
+from kineme.cli.graph import graph
 from kineme.cli.info import info
+from kineme.cli.label import label
 from kineme.cli.preset_options import with_preset_options
 from kineme.cli.segment import segment
 from kineme.cli.split import split
+from kineme.cli.synthesize import synthesize
+from kineme.cli.transfer import transfer
 
 app = typer.Typer(
     name="kineme",
@@ -30,6 +34,10 @@ app.command()(info)
 app.command()(demo)
 app.command()(evaluate)
 app.command()(data)
+app.command()(label)
+app.command()(transfer)
+app.command()(graph)
+app.command()(synthesize)
 
 
 def _show_version(wanted: bool) -> None:

@@ -25,6 +25,7 @@ from scipy.spatial.distance import cdist
 from kineme.errors import ParameterError
 from kineme.evaluation._kernels import warped_cost
 from kineme.evaluation.labelling import TRANSITION, Ints, Labelling
+from kineme.features.point_clouds import cloud_distances
 
 Floats = NDArray[np.float64]
 Distances = Callable[[slice, slice], Floats]
@@ -112,36 +113,6 @@ def length_variance(found: Labelling) -> tuple[float, float]:
         float(np.mean([np.mean(seconds) for seconds in shared])),
         float(np.mean([np.var(seconds, ddof=1) for seconds in shared])),
     )
-
-
-def cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -> Floats:
-    """``d[i, j]``: point clouds around frame i of ``rows`` and frame j of ``columns``, metres.
-
-    In closed form: with both clouds centred on the floor and their floor
-    coordinates read as complex numbers c = x + iz, the best turn leaves
-    Σ|c|² + Σ|c'|² - 2 |Σ c̄ c'|; heights are compared as they are.
-
-    Parameters
-    ----------
-    points : (frames, joints, 3), metres, y up
-    rows, columns : spans of frames
-    half : frames of the window on either side; the ends are repeated
-    """
-    floor_a, height_a = _clouds(points, rows, half)
-    floor_b, height_b = _clouds(points, columns, half)
-    own_a = (np.abs(floor_a) ** 2).sum(1) + (height_a**2).sum(1)
-    own_b = (np.abs(floor_b) ** 2).sum(1) + (height_b**2).sum(1)
-    shared = np.abs(floor_a.conj() @ floor_b.T) + height_a @ height_b.T
-    squares = own_a[:, None] + own_b - 2 * shared
-    distances: Floats = np.sqrt(np.maximum(squares, 0) / floor_a.shape[1])
-    return distances
-
-
-def _clouds(points: Floats, span: slice, half: int) -> tuple[NDArray[np.complex128], Floats]:
-    frames = np.arange(span.start, span.stop)[:, None] + np.arange(-half, half + 1)
-    cloud = points[np.clip(frames, 0, len(points) - 1)].reshape(len(frames), -1, 3)
-    floor = cloud[..., 0] + 1j * cloud[..., 2]
-    return floor - floor.mean(axis=1, keepdims=True), cloud[..., 1]
 
 
 def _variances(distances: Distances, frames: int, found: Labelling) -> list[ClusterVariance]:

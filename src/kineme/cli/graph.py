@@ -1,0 +1,85 @@
+"""``kineme graph``: recordings in, a motion graph out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from kineme.cli.messages import Failures, progress
+from kineme.cli.reading import Fps, Quiet, Skeleton, Unit, Up, read_options
+from kineme.cli.targets import check_writable, targets
+
+if TYPE_CHECKING:
+    from kineme.synthesis import MotionGraph
+
+
+def graph(
+    files: Annotated[list[Path], typer.Argument(metavar="FILES", help="BVH or AMC files.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="The graph: a .json file.")],
+    segments: Annotated[
+        Path | None,
+        typer.Option(
+            help="Segment tables to take primitives and labels from, in place of segmenting: "
+            "a file, a folder, or a name with {name} in it."
+        ),
+    ] = None,
+    plot: Annotated[Path | None, typer.Option(help="Picture: .png, .pdf or .svg.")] = None,
+    threshold: Annotated[
+        float, typer.Option(help="Largest distance of a jump, metres between joints.")
+    ] = 0.08,
+    window: Annotated[float, typer.Option(help="Seconds compared and blended at a jump.")] = 1 / 3,
+    keep_dead_ends: Annotated[
+        bool, typer.Option(help="Keep primitives after which nothing, or not all, can follow.")
+    ] = False,
+    quiet: Quiet = False,
+    skeleton: Skeleton = None,
+    fps: Fps = None,
+    unit: Unit = None,
+    up: Up = None,
+) -> None:
+    """Find which primitives of recordings can be played one after the other."""
+    options = {k: v for k, v in read_options(skeleton, fps, unit, up).items() if v is not None}
+    tables = targets("--segments", segments, files, ".json")
+    failures = Failures()
+    with failures.caught(output), progress(output.name, quiet=quiet) as stage:
+        check_writable(output, plot)
+        stage("reading")
+        from kineme.export import read_segments
+        from kineme.formats import read
+        from kineme.segmentation.segmenter import segment
+        from kineme.synthesis import motion_graph, write_graph
+
+        motions = [read(path, **options) for path in files]
+        stage("segments")
+        found = [
+            segment(motion) if table is None else read_segments(table)
+            for motion, table in zip(motions, tables, strict=True)
+        ]
+        stage("jumps")
+        made = motion_graph(
+            motions, found, threshold=threshold, window=window, prune=not keep_dead_ends
+        )
+        own = {k: str(v) if isinstance(v, Path) else v for k, v in options.items()}
+        made = replace(made, sources=tuple(replace(s, options=own) for s in made.sources))
+        write_graph(made, output)
+        if plot is not None:
+            from kineme.synthesis.picture import plot_graph
+
+            plot_graph(made, plot)
+        if not quiet:
+            _show(made)
+    failures.exit()
+
+
+def _show(made: MotionGraph) -> None:
+    """One line per super-node: its nodes, and where one can go from them."""
+    from kineme.synthesis import following
+
+    for name, count in made.names.items():
+        onward = ", ".join(following(made, name)) or "nothing"
+        typer.echo(f"{name}: {count} primitive{'s' * (count != 1)}, then {onward}")
+    jumps = sum(edge.jump for edge in made.edges)
+    typer.echo(f"{len(made.nodes)} nodes, {len(made.edges)} edges, {jumps} of them jumps.")

@@ -1,0 +1,27 @@
+"""New motion from primitives: a motion graph, ways through it, and their blending."""
+
+from kineme.synthesis.blending import Placement, synthesize
+from kineme.synthesis.building import motion_graph
+from kineme.synthesis.feet import foot_contacts, plant_feet
+from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
+from kineme.synthesis.motion_graph import Edge, MotionGraph, Node, Source
+from kineme.synthesis.routes import action_route, following, parse_actions, random_route
+
+__all__ = [
+    "Edge",
+    "MotionGraph",
+    "Node",
+    "Placement",
+    "Source",
+    "action_route",
+    "following",
+    "foot_contacts",
+    "load_sources",
+    "motion_graph",
+    "parse_actions",
+    "plant_feet",
+    "random_route",
+    "read_graph",
+    "synthesize",
+    "write_graph",
+]

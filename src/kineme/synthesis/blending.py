@@ -1,0 +1,162 @@
+"""From a walk through the graph to a motion.
+
+Stretches of the sources are laid end to end, each turned about the vertical
+and moved on the floor as its jump says. Around a jump both recordings go on
+for half a window, and the motion goes over from the one to the other: joint
+rotations along the sphere, translations in a line, with the smooth weight
+3w² - 2w³ (Kovar, Gleicher and Pighin 2002, section 3.2). Last, feet that
+stand are kept from sliding (see ``feet``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import accumulate, pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.errors import ParameterError
+from kineme.kinematics import local_translations
+from kineme.motion import Motion, Provenance
+from kineme.synthesis.feet import plant_feet
+from kineme.synthesis.motion_graph import MotionGraph
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Placement:
+    """A turn about the vertical through the origin, radians, then a move along x + iz, metres."""
+
+    angle: float = 0.0
+    shift: complex = 0j
+
+    def after(self, angle: float, shift: tuple[float, float]) -> Placement:
+        """The placement of what is itself turned and moved before."""
+        return Placement(self.angle + angle, self.of(complex(*shift)))
+
+    def of(self, floor: complex) -> complex:
+        """Where a point of the floor comes to lie."""
+        return complex(np.exp(-1j * self.angle)) * floor + self.shift
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Frames [start, stop) of a source, and where they are laid."""
+
+    source: int
+    start: int
+    stop: int
+    at: Placement
+
+
+def synthesize(
+    graph: MotionGraph,
+    motions: Sequence[Motion],
+    route: Sequence[int],
+    *,
+    start: Placement | None = None,
+    plant: bool = True,
+) -> Motion:
+    """The motion of a route: its nodes played one after the other.
+
+    Parameters
+    ----------
+    graph : MotionGraph
+    motions : those it was built on, in order
+    route : node numbers, each joined to the next by an edge; see ``routes``
+    start : where the first node is laid; as it was recorded, if not given
+    plant : keep standing feet from sliding
+
+    Raises
+    ------
+    ParameterError : an empty route, nodes without an edge between them, or
+        other motions than the graph's
+    """
+    if [m.n_frames for m in motions] != [s.n_frames for s in graph.sources]:
+        raise ParameterError("the motions are not those the graph was built on: build it anew")
+    pieces = pieces_of(graph, route, start or Placement())
+    rotations, translations = _joined(pieces, motions, round(graph.window * graph.fps / 2))
+    jumps = len(pieces) - 1
+    motion = Motion.from_rotations(
+        motions[0].skeleton,
+        rotations,
+        graph.fps,
+        translations=translations,
+        provenance=Provenance(
+            format="synthesis", notes=(f"{len(route)} primitives, {jumps} jumps",)
+        ),
+    )
+    return plant_feet(motion) if plant else motion
+
+
+def pieces_of(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[Piece]:
+    """The stretches to play; nodes that follow each other in a recording are one."""
+    if not route:
+        raise ParameterError("a route needs at least one node")
+    first = graph.nodes[route[0]]
+    pieces = [Piece(first.source, first.start, first.stop, at)]
+    for tail, head in pairwise(route):
+        if (tail, head) not in graph.edge_between:
+            raise ParameterError(f"no edge leads from node {tail} to node {head}")
+        edge, node = graph.edges[graph.edge_between[tail, head]], graph.nodes[head]
+        if not edge.jump:
+            pieces[-1] = replace(pieces[-1], stop=node.stop)
+            continue
+        pieces[-1] = replace(pieces[-1], stop=edge.leave)
+        at = pieces[-1].at.after(edge.angle, edge.shift)
+        pieces.append(Piece(node.source, edge.enter, node.stop, at))
+    return pieces
+
+
+def jump_frames(pieces: Sequence[Piece]) -> list[int]:
+    """The frame of the new motion at the middle of each jump."""
+    return list(accumulate(piece.stop - piece.start for piece in pieces))[:-1]
+
+
+def _joined(pieces: Sequence[Piece], motions: Sequence[Motion], half: int) -> tuple[Floats, Floats]:
+    """Rotations and translations of all pieces, blended over ``half`` frames about each jump."""
+    shifts = [local_translations(motion) for motion in motions]
+
+    def placed(piece: Piece, start: int, stop: int) -> tuple[Floats, Floats]:
+        motion = motions[piece.source]
+        rotations = np.array(motion.rotations)[start:stop]
+        return _laid(motion, rotations, shifts[piece.source][start:stop], piece.at)
+
+    parts = [placed(piece, piece.start, piece.stop) for piece in pieces]
+    rotations, translations = (np.concatenate(part) for part in zip(*parts, strict=True))
+    for t, (a, b) in zip(jump_frames(pieces), pairwise(pieces), strict=True):
+        room = min(a.stop - a.start, b.stop - b.start) // 2
+        n = min(half, room, motions[a.source].n_frames - a.stop, b.start)
+        before, before_shift = placed(a, a.stop - n, a.stop + n)
+        after, after_shift = placed(b, b.start - n, b.start + n)
+        w = ((np.arange(2 * n) + 0.5) / max(2 * n, 1))[:, None, None]
+        w = w * w * (3 - 2 * w)
+        rotations[t - n : t + n] = _between(before, after, w)
+        translations[t - n : t + n] = (1 - w) * before_shift + w * after_shift
+    return rotations, translations
+
+
+def _laid(
+    motion: Motion, rotations: Floats, shifts: Floats, at: Placement
+) -> tuple[Floats, Floats]:
+    roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
+    about_y = np.array([np.cos(at.angle / 2), 0.0, np.sin(at.angle / 2), 0.0])
+    rotations, shifts = rotations.copy(), shifts.copy()
+    rotations[:, roots] = rot.multiply(about_y, rotations[:, roots])
+    shifts[:, roots] = rot.rotate(about_y, shifts[:, roots])
+    shifts[:, roots] += [at.shift.real, 0, at.shift.imag]
+    return rotations, shifts
+
+
+def _between(a: Floats, b: Floats, weights: Floats) -> Floats:
+    """Rotations from a to b along the shorter arc, by weight."""
+    from scipy.spatial.transform import Rotation
+
+    arcs = rot.multiply(rot.conjugate(a), b).reshape(-1, 4)
+    vectors = Rotation.from_quat(np.roll(arcs, -1, -1)).as_rotvec().reshape(*a.shape[:-1], 3)
+    turns = Rotation.from_rotvec((weights * vectors).reshape(-1, 3)).as_quat()
+    return rot.multiply(a, np.roll(turns, 1, -1).reshape(a.shape))

@@ -1,0 +1,204 @@
+"""From recordings and their primitives to a motion graph.
+
+Jumps are looked for between the end part of one node and the start part of
+another: frames no farther from its border than a quarter of the node, and no
+farther than the window. Candidates are neighbours in feature space, found by
+one sparse search; of each pair of nodes the few nearest are measured as point
+clouds, and the best becomes an edge if it is below the threshold.
+
+Frames are those of the ``kineme`` preset's working rate, 30 Hz; leaving and
+entering frames are given at the sources' own rate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError
+from kineme.features.point_clouds import fit_clouds
+from kineme.graph import neighbor_graph
+from kineme.motion import Motion
+from kineme.operations import resample
+from kineme.segmentation.presets import KINEME
+from kineme.segmentation.result import Segmentation
+from kineme.segmentation.segmenter import motion_features, segment
+from kineme.synthesis.motion_graph import Edge, MotionGraph, Node, Source
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+THRESHOLD = 0.08
+"""Metres. Single walking steps of one person differ by about 0.04, walk and run by 0.15."""
+WINDOW = 1 / 3
+"""Seconds; Kovar and Gleicher's."""
+RADIUS = 0.25
+"""Body sizes, in the features of the preset: farther pairs are never below the threshold."""
+CANDIDATES = 12
+"""Pairs of frames measured for each pair of nodes."""
+
+
+def motion_graph(
+    motions: Sequence[Motion],
+    segmentations: Sequence[Segmentation] | None = None,
+    *,
+    threshold: float = THRESHOLD,
+    window: float = WINDOW,
+    prune: bool = True,
+) -> MotionGraph:
+    """The graph whose nodes are the primitives of all motions.
+
+    Parameters
+    ----------
+    motions : with rotations, of one skeleton and one frame rate
+    segmentations : one for each; found by `kineme.segment` where not given
+    threshold : largest point-cloud distance of a jump, metres
+    window : seconds compared, and blended, around a jump
+    prune : keep only the largest strongly connected part, which has no dead ends
+
+    Raises
+    ------
+    ParameterError : motions that do not fit together, segments that do not fit
+        them, a threshold or window not above 0, or nothing is left after pruning
+    """
+    _check(motions, threshold, window)
+    found = [segment(m) for m in motions] if segmentations is None else list(segmentations)
+    if [s.n_frames for s in found] != [m.n_frames for m in motions]:
+        raise ParameterError(
+            f"segments of {[s.n_frames for s in found]} frames do not belong to motions "
+            f"of {[m.n_frames for m in motions]}"
+        )
+    nodes, natural = _nodes_of(found)
+    best = {(e.tail, e.head): e for e in _jumps(motions, nodes, threshold, window)}
+    best |= {(e.tail, e.head): e for e in natural}
+    graph = MotionGraph(
+        tuple(Source(m.provenance.path, m.provenance.sha256, m.n_frames) for m in motions),
+        tuple(nodes),
+        tuple(best[pair] for pair in sorted(best)),
+        motions[0].fps,
+        float(threshold),
+        float(window),
+    )
+    return graph.pruned() if prune else graph
+
+
+def _check(motions: Sequence[Motion], threshold: float, window: float) -> None:
+    for name, value in (("threshold", threshold), ("window", window)):
+        if not (isfinite(value) and value > 0):
+            raise ParameterError(f"{name} must be a number above 0, not {value}")
+    if not motions:
+        raise ParameterError("a motion graph needs at least one recording")
+    first = motions[0]
+    for motion in motions:
+        where = motion.provenance.path or "a motion"
+        if motion.rotations is None:
+            raise ParameterError(f"{where} has no rotations: give BVH or AMC files")
+        same = (
+            motion.skeleton.names == first.skeleton.names
+            and motion.skeleton.parents == first.skeleton.parents
+            and np.allclose(motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3)
+        )
+        if not same or motion.fps != first.fps:
+            raise ParameterError(
+                f"{where} has another skeleton or frame rate than "
+                f"{first.provenance.path or 'the first motion'}; build one graph for each"
+            )
+
+
+def _nodes_of(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
+    """All primitives, clusters numbered on from recording to recording, and their successors."""
+    nodes: list[Node] = []
+    edges: list[Edge] = []
+    clusters = 0
+    for source, segmentation in enumerate(found):
+        rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
+        first = len(nodes)
+        for row in rows:
+            cluster = row.cluster + clusters if row.cluster >= 0 else -1
+            nodes.append(Node(source, row.start_frame, row.stop_frame, cluster, row.label))
+        for a, b in pairwise(range(first, len(nodes))):
+            edges.append(Edge(a, b, nodes[a].stop, nodes[b].start, jump=False))
+        clusters = max([clusters, *(node.cluster + 1 for node in nodes)])
+    return nodes, edges
+
+
+@dataclass(frozen=True)
+class _Parts:
+    """Frames at which nodes may be left or entered, and whose they are."""
+
+    frames: Ints
+    nodes: Ints
+
+
+def _jumps(
+    motions: Sequence[Motion], nodes: Sequence[Node], threshold: float, window: float
+) -> list[Edge]:
+    """The best jump of every pair of nodes that has one below the threshold."""
+    rate = KINEME.working_fps
+    slow = [resample(motion, rate) for motion in motions]
+    firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
+    points = np.concatenate([motion.positions for motion in slow])
+    features = np.concatenate([motion_features(motion, KINEME) for motion in motions])
+    half = round(window * rate / 2)
+    ratio = motions[0].fps / rate
+    ends, starts = (_parts(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0))
+    if not (len(ends.frames) and len(starts.frames)):
+        return []
+    near = neighbor_graph(features[ends.frames], features[starts.frames], radius=RADIUS)
+    rows = np.repeat(np.arange(len(near)), near.counts)
+    pairs = _nearest(
+        ends.nodes[rows] * len(nodes) + starts.nodes[near.indices], near.distances, CANDIDATES
+    )
+    leave, enter = rows[pairs], near.indices[pairs]
+    distances, angles, shifts = fit_clouds(
+        points, ends.frames[leave], starts.frames[enter], half=half
+    )
+    below = np.flatnonzero(distances <= threshold)
+    key = ends.nodes[leave[below]] * len(nodes) + starts.nodes[enter[below]]
+    edges = []
+    for i in below[_nearest(key, distances[below], 1)].tolist():
+        tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
+        at = (
+            _at_source(ends.frames[leave[i]] - firsts[nodes[tail].source], ratio),
+            _at_source(starts.frames[enter[i]] - firsts[nodes[head].source], ratio),
+        )
+        shift = (float(shifts[i, 0]), float(shifts[i, 1]))
+        edges.append(Edge(tail, head, *at, float(distances[i]), float(angles[i]), shift))
+    return edges
+
+
+def _parts(
+    nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
+) -> _Parts:
+    """The end parts (side 1) or start parts (side 0) of all nodes.
+
+    Only frames with a whole window inside their recording, and never so many
+    that a node entered late could be left before that.
+    """
+    frames, owners = [], []
+    for number, node in enumerate(nodes):
+        border = (node.start, node.stop)[side] / ratio
+        reach = min((node.stop - node.start) / ratio / 4, widest)
+        low, high = half, firsts[node.source + 1] - firsts[node.source] - half
+        own = np.arange(max(low, int(np.ceil(border - reach))), min(high, int(border + reach) + 1))
+        frames.append(own + firsts[node.source])
+        owners.append(np.full(len(own), number))
+    return _Parts(np.concatenate(frames), np.concatenate(owners))
+
+
+def _nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
+    """The indices of the ``count`` smallest distances of each group."""
+    order = np.lexsort((distances, groups))
+    sizes = np.unique(groups[order], return_counts=True)[1]
+    starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
+    kept: Ints = order[np.arange(len(order)) - starts < count]
+    return kept
+
+
+def _at_source(frame: int, ratio: float) -> int:
+    return round(float(frame) * ratio)

@@ -1,0 +1,171 @@
+"""Feet that stand do not slide (after Kovar, Schreiner and Gleicher 2002, Footskate cleanup).
+
+A foot stands while its ankle is low and slow. It is then held at one place of
+the floor, and hip, knee and ankle bend to bring it there: a two-bone inverse
+kinematics in closed form, which keeps the direction of the foot and the
+height of the ankle. Before and after, the correction fades.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.errors import EndEffectorError
+from kineme.features import end_effectors
+from kineme.kinematics import forward_kinematics, local_translations, world_rotations
+from kineme.motion import Motion
+
+Floats = NDArray[np.float64]
+Spans = list[tuple[int, int]]
+
+HEIGHT = 0.06
+"""Metres above the ankle's lowest 5 % of the motion."""
+SPEED = 0.3
+"""Metres per second."""
+SHORTEST = 0.1
+"""Seconds; shorter stands are not held."""
+REACH = 0.05
+"""Metres; a foot that creeps farther is held anew where it has come to."""
+FADE = 0.15
+"""Seconds over which a correction comes and goes."""
+STRAIGHT = 0.999
+"""Share of the leg's length that it never stretches beyond."""
+
+
+def plant_feet(motion: Motion) -> Motion:
+    """The motion with each standing foot held in place; as it is where no feet are found."""
+    try:
+        found = end_effectors(motion)
+    except EndEffectorError:
+        return motion
+    for ankle in (found.left_ankle, found.right_ankle):
+        knee = motion.skeleton.parents[ankle]
+        hip = motion.skeleton.parents[knee] if knee >= 0 else -1
+        if hip < 0:
+            continue
+        path = motion.positions[:, ankle]
+        target = path + _corrections(path, foot_contacts(path, motion.fps), motion.fps)
+        motion = _reach(motion, (hip, knee, ankle), target)
+    return motion
+
+
+def foot_contacts(path: Floats, fps: float) -> Spans:
+    """The spans [start, stop) of frames over which an ankle is low and slow.
+
+    Parameters
+    ----------
+    path : (frames, 3), the ankle, metres, y up
+    fps : frames per second
+    """
+    if len(path) < 2:
+        return []
+    speed = np.linalg.norm(np.gradient(path, axis=0), axis=1) * fps
+    low = path[:, 1] < np.percentile(path[:, 1], 5) + HEIGHT
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], (low & (speed < SPEED)), [0]])))
+    spans = edges.reshape(-1, 2).tolist()
+    return [(start, stop) for start, stop in spans if stop - start >= SHORTEST * fps]
+
+
+def slides(path: Floats, contacts: Spans) -> Floats:
+    """For each contact, how far the ankle gets on the floor from where it began, metres."""
+    floor = path[:, [0, 2]]
+    far = [np.linalg.norm(floor[a:b] - floor[a], axis=1).max() for a, b in contacts]
+    return np.array(far)
+
+
+def _corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
+    """What to add to the ankle's path, (frames, 3); nothing along y."""
+    floor = path[:, [0, 2]]
+    fade = round(FADE * fps)
+    frames, values = [-fade], [np.zeros(2)]
+    for start, stop in _holds(floor, contacts, round(SHORTEST * fps)):
+        wanted = np.median(floor[start:stop], axis=0) - floor[start:stop]
+        if start - frames[-1] > 2 * fade:
+            frames += [frames[-1] + fade, start - fade]
+            values += [np.zeros(2), np.zeros(2)]
+        frames += range(start, stop)
+        values += list(wanted)
+    frames.append(frames[-1] + fade)
+    values.append(np.zeros(2))
+    at = np.arange(len(path))
+    x, z = (np.interp(at, frames, column) for column in np.array(values).T)
+    return np.stack([x, np.zeros(len(path)), z], axis=1)
+
+
+def _holds(floor: Floats, contacts: Spans, gap: int) -> Spans:
+    """Contacts, each parted where the foot has crept out of reach, with a gap to step over."""
+    holds: Spans = []
+    for start, stop in contacts:
+        first = start
+        while first < stop:
+            crept = np.linalg.norm(floor[first:stop] - floor[first], axis=1) > REACH
+            last = first + int(np.argmax(crept)) if crept.any() else stop
+            holds.append((first, max(last - gap * (last < stop), first + 1)))
+            first = last
+    return holds
+
+
+def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
+    """The motion with the ankle at ``target``, or as near as the leg can reach.
+
+    The knee opens or closes about its hinge until the ankle is as far from the
+    hip as the target, then the leg turns about the hip.
+    """
+    world = world_rotations(motion)
+    hip, knee, ankle = (motion.positions[:, j] for j in leg)
+    moved = np.linalg.norm(target - ankle, axis=1) > 1e-9
+    if not moved.any():
+        return motion
+    thigh, shin = knee - hip, ankle - knee
+    a, b = np.linalg.norm(thigh, axis=1), np.linalg.norm(shin, axis=1)
+    wanted = np.linalg.norm(target - hip, axis=1)
+    wanted = np.clip(wanted, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
+    now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
+    then = np.arccos(np.clip((wanted**2 - a**2 - b**2) / (2 * a * b), -1, 1))
+    bend = _about(_hinge(thigh, shin, world[:, leg[0]]), then - now)
+    reached = thigh + rot.rotate(bend, shin)
+    swing = _arc(reached, target - hip)
+    still = np.where(moved[:, None], 1.0, 0.0)
+    bend, swing = (still * q + (1 - still) * rot.IDENTITY for q in (bend, swing))
+    turned = {
+        leg[0]: rot.multiply(swing, world[:, leg[0]]),
+        leg[1]: rot.multiply(swing, rot.multiply(bend, world[:, leg[1]])),
+        leg[2]: world[:, leg[2]],
+    }
+    rotations = np.array(motion.rotations)
+    for joint, own in turned.items():
+        parent = motion.skeleton.parents[joint]
+        above = turned.get(parent, world[:, parent])
+        rotations[:, joint] = rot.multiply(rot.conjugate(above), own)
+    positions = forward_kinematics(
+        motion.skeleton, rotations, translations=local_translations(motion)
+    )
+    return replace(motion, rotations=rotations, positions=positions)
+
+
+def _hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
+    """The knee's axis in the world; that of the whole motion where the leg is straight."""
+    axis = np.cross(thigh, shin)
+    size = np.linalg.norm(axis, axis=1, keepdims=True)
+    usual = rot.rotate(rot.conjugate(above), axis).sum(axis=0)
+    usual /= max(float(np.linalg.norm(usual)), 1e-12)
+    clear = size > 0.02 * np.linalg.norm(thigh, axis=1, keepdims=True) ** 2
+    hinge: Floats = np.where(clear, axis / np.maximum(size, 1e-12), rot.rotate(above, usual))
+    return hinge
+
+
+def _about(axis: Floats, angle: Floats) -> Floats:
+    half = angle[:, None] / 2
+    return np.concatenate([np.cos(half), np.sin(half) * axis], axis=1)
+
+
+def _arc(a: Floats, b: Floats) -> Floats:
+    """The smallest rotations that turn the direction of a into that of b."""
+    a, b = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (a, b))
+    q = np.concatenate([1 + (a * b).sum(1, keepdims=True), np.cross(a, b)], axis=1)
+    arc: Floats = q / np.linalg.norm(q, axis=1, keepdims=True)
+    return arc

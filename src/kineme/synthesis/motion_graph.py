@@ -1,0 +1,175 @@
+"""Motion graphs over primitives (Kovar, Gleicher and Pighin 2002; the paper's section 6.2).
+
+A node is a primitive, or a transition phase between two activities: a span of
+a source recording. An edge says that after one node another can be played:
+the recording's own successor, or a *jump* to a place that looks alike. A jump
+leaves its node at a frame near the node's end and enters the next one near
+its start; the next is then turned about the vertical and moved on the floor.
+
+Nodes of one name (a label, else the number of a cluster) form a super-node,
+as in Motion Graphs++ (Min and Chai 2012). Transition phases have no name.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError
+
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Source:
+    """A recording the graph was built on.
+
+    ``options`` are the keywords it was read with; ``path`` and ``sha256`` are
+    None for a motion that came from no file.
+    """
+
+    path: str | None
+    sha256: str | None
+    n_frames: int
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Node:
+    """Frames [start, stop) of a source, by its number.
+
+    ``cluster`` is -1 and ``label`` empty for what has none; clusters of
+    different sources have different numbers.
+    """
+
+    source: int
+    start: int
+    stop: int
+    cluster: int
+    label: str = ""
+
+    @property
+    def name(self) -> str:
+        """The super-node: the label, else the cluster's number; empty for neither."""
+        return self.label or (str(self.cluster) if self.cluster >= 0 else "")
+
+
+@dataclass(frozen=True)
+class Edge:
+    """From node ``tail`` to node ``head``: the frame after the last played, the first played.
+
+    ``distance`` is that of the point clouds, metres: 0 for the recording's own
+    successor, which ``jump`` tells from others. To go on from where the tail
+    is, the head's source is turned about the vertical by ``angle`` radians,
+    then moved by ``shift``, metres along x and z.
+    """
+
+    tail: int
+    head: int
+    leave: int
+    enter: int
+    distance: float = 0.0
+    angle: float = 0.0
+    shift: tuple[float, float] = (0.0, 0.0)
+    jump: bool = True
+
+
+@dataclass(frozen=True)
+class MotionGraph:
+    """Nodes, in the order of sources and time, and the edges between them.
+
+    Parameters
+    ----------
+    sources : recordings, of one skeleton
+    nodes : spans of them
+    edges : ordered by tail, then head; at most one for each pair
+    fps : frames per second of all sources
+    threshold : largest point-cloud distance of a jump, metres
+    window : seconds compared and blended around a jump
+    """
+
+    sources: tuple[Source, ...]
+    nodes: tuple[Node, ...]
+    edges: tuple[Edge, ...]
+    fps: float
+    threshold: float
+    window: float
+
+    @cached_property
+    def names(self) -> dict[str, int]:
+        """Super-nodes and how many nodes each has, in order of appearance."""
+        return dict(Counter(node.name for node in self.nodes if node.name))
+
+    @cached_property
+    def leaving(self) -> tuple[tuple[int, ...], ...]:
+        """For each node the numbers of the edges that leave it."""
+        lists: list[list[int]] = [[] for _ in self.nodes]
+        for number, edge in enumerate(self.edges):
+            lists[edge.tail].append(number)
+        return tuple(map(tuple, lists))
+
+    @cached_property
+    def edge_between(self) -> dict[tuple[int, int], int]:
+        """The number of the edge from one node to another."""
+        return {(edge.tail, edge.head): number for number, edge in enumerate(self.edges)}
+
+    def nodes_of(self, name: str) -> list[int]:
+        """The nodes of a super-node; ParameterError if there is none of that name."""
+        if name not in self.names:
+            known = ", ".join(f"{name} ({n})" for name, n in self.names.items())
+            raise ParameterError(f"no node is called {name!r}; there are {known or 'no names'}")
+        return [i for i, node in enumerate(self.nodes) if node.name == name]
+
+    def core(self) -> Ints:
+        """The largest strongly connected part: its nodes all reach each other.
+
+        Ties go to the part of more edges, then to the earlier one. A node alone
+        is a part only if it can repeat itself; empty if there is no part.
+        """
+        from scipy.sparse.csgraph import connected_components
+
+        part = connected_components(self._adjacency(), connection="strong")[1]
+        inner = [edge for edge in self.edges if part[edge.tail] == part[edge.head]]
+        edges = Counter(int(part[edge.tail]) for edge in inner)
+        sizes = Counter(part.tolist())
+        largest = max(edges, key=lambda p: (sizes[p], edges[p], -p), default=-1)
+        return np.flatnonzero(part == largest)
+
+    def pruned(self) -> MotionGraph:
+        """The graph of the core alone; ParameterError if there is none."""
+        kept = self.core().tolist()
+        if not kept:
+            raise ParameterError(
+                f"no node can be reached again with jumps of at most {self.threshold:g} m; "
+                "raise the threshold, or give recordings that repeat an action"
+            )
+        number = {node: i for i, node in enumerate(kept)}
+        edges = [
+            replace(edge, tail=number[edge.tail], head=number[edge.head])
+            for edge in self.edges
+            if edge.tail in number and edge.head in number
+        ]
+        return replace(self, nodes=tuple(self.nodes[i] for i in kept), edges=tuple(edges))
+
+    def reachable_pairs(self) -> int:
+        """Ordered pairs (a, b), a = b included, with a way of at least one edge from a to b."""
+        from scipy.sparse.csgraph import connected_components, shortest_path
+
+        apart = shortest_path(self._adjacency(), unweighted=True)
+        np.fill_diagonal(apart, np.inf)
+        part = connected_components(self._adjacency(), connection="strong")[1]
+        again = {part[e.tail] for e in self.edges if part[e.tail] == part[e.head]}
+        return int(np.isfinite(apart).sum()) + sum(p in again for p in part)
+
+    def _adjacency(self) -> Any:
+        from scipy.sparse import csr_array
+
+        ends = np.array([(e.tail, e.head) for e in self.edges], np.int64).reshape(-1, 2)
+        shape = (len(self.nodes), len(self.nodes))
+        return csr_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=shape)

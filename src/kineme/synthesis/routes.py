@@ -1,0 +1,156 @@
+"""Ways through a motion graph: actions in order, at random, or along a line on the floor.
+
+A route is a list of node numbers, each joined to the next by an edge; see
+``blending.synthesize``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError
+from kineme.synthesis.motion_graph import MotionGraph
+
+Floats = NDArray[np.float64]
+
+EDGE_COST = 1e-3
+"""Metres that every edge costs besides its distance: of equal ways the shorter is taken."""
+
+
+def parse_actions(text: str) -> list[tuple[str, int]]:
+    """``walk,run*3`` as ``[("walk", 1), ("run", 3)]``; ParameterError for anything else."""
+    actions = []
+    for part in text.split(","):
+        found = re.fullmatch(r"\s*([^*]*[^*\s])\s*(?:\*\s*([1-9]\d{0,4}))?\s*", part)
+        if found is None:
+            raise ParameterError(
+                f"{part.strip()!r} is not an action: give names with counts, as in walk,run*3"
+            )
+        actions.append((found[1], int(found[2] or 1)))
+    return actions
+
+
+def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list[int]:
+    """The route of least distance in sum that plays the named primitives in this order.
+
+    Between two of them only transition phases may come, which have no name.
+
+    Parameters
+    ----------
+    graph : MotionGraph
+    actions : super-nodes, by name, each with how often it is repeated
+
+    Raises
+    ------
+    ParameterError : no node has the name, or no way leads on; the message says
+        where one could go instead
+    """
+    wanted = [name for name, count in actions for _ in range(count)]
+    if not wanted:
+        raise ParameterError("no actions: give names with counts, as in walk,run*3")
+    layers = [graph.nodes_of(name) for name in wanted]
+    cost, before = _ways(graph)
+    total = np.zeros(len(layers[0]))
+    chosen = []
+    for i in range(1, len(layers)):
+        through = total[:, None] + cost[np.ix_(layers[i - 1], layers[i])]
+        chosen.append(through.argmin(axis=0))
+        total = through.min(axis=0)
+        if not np.isfinite(total).any():
+            raise ParameterError(_no_way(graph, wanted[: i + 1], cost))
+    at = int(total.argmin())
+    route = [layers[-1][at]]
+    for i in range(len(chosen) - 1, -1, -1):
+        at = int(chosen[i][at])
+        route = [*_way(before, layers[i][at], route[0]), *route]
+    return route
+
+
+def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
+    """A random walk of at least ``duration`` seconds that stays where it can go on.
+
+    All edges of a node are equally likely; the same seed gives the same walk.
+
+    Raises
+    ------
+    ParameterError : a duration not above 0, or a graph without a strongly
+        connected part
+    """
+    if not 0 < duration < 1e6:
+        raise ParameterError(f"the duration must be seconds above 0, not {duration}")
+    rng = np.random.default_rng(seed)
+    core = graph.core().tolist()
+    if not core:
+        raise ParameterError("every walk through this graph ends: build it with more recordings")
+    inside = set(core)
+    route = [int(rng.choice(core))]
+    frames = float(graph.nodes[route[0]].stop - graph.nodes[route[0]].start)
+    while frames < duration * graph.fps:
+        edges = [graph.edges[i] for i in graph.leaving[route[-1]]]
+        edge = edges[int(rng.choice([i for i, e in enumerate(edges) if e.head in inside]))]
+        frames += edge.leave - graph.nodes[edge.tail].stop
+        frames += graph.nodes[edge.head].stop - edge.enter
+        route.append(edge.head)
+    return route
+
+
+def following(graph: MotionGraph, name: str) -> list[str]:
+    """The super-nodes of which some primitive can come after one of ``name``."""
+    return _names(graph, np.isfinite(_ways(graph)[0][graph.nodes_of(name)]).any(axis=0))
+
+
+def _ways(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
+    """Least costs from node to node by way of nameless nodes, and predecessors on the way.
+
+    Every node is in the search twice: as one that is left, and, n later, as one
+    that is reached; from there only the nameless go on.
+    """
+    from scipy.sparse import csr_array
+    from scipy.sparse.csgraph import dijkstra
+
+    n = len(graph.nodes)
+    rows, columns, costs = [], [], []
+    for edge in graph.edges:
+        for tail in (edge.tail, *([] if graph.nodes[edge.tail].name else [n + edge.tail])):
+            rows.append(tail)
+            columns.append(n + edge.head)
+            costs.append(edge.distance + EDGE_COST)
+    matrix: Any = csr_array((costs, (rows, columns)), shape=(2 * n, 2 * n))
+    cost, before = dijkstra(matrix, indices=np.arange(n), return_predecessors=True)
+    return cost[:, n:], before
+
+
+def _way(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
+    """The nodes from start to stop, without stop."""
+    n = len(before)
+    way = [int(before[start, n + stop])]
+    while way[0] != start:
+        way.insert(0, int(before[start, way[0]]))
+    return [node % n for node in way]
+
+
+def _no_way(graph: MotionGraph, wanted: Sequence[str], cost: Floats) -> str:
+    shown = ", ".join(f"{name}*{len(list(same))}" for name, same in groupby(wanted))
+    tail, head = wanted[-2:]
+    back = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
+    return (
+        f"no way leads through {shown}: from {tail!r} one can go on to "
+        f"{_listed(following(graph, tail))}, and {head!r} is reached from "
+        f"{_listed(_names(graph, back))}; "
+        "put another action between, or build the graph with a higher threshold"
+    )
+
+
+def _names(graph: MotionGraph, mask: Any) -> list[str]:
+    chosen = (node.name for node, yes in zip(graph.nodes, mask, strict=True) if yes)
+    return list(dict.fromkeys(name for name in chosen if name))
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names) or "nowhere"
