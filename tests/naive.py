@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import combinations, groupby, pairwise
 from math import comb
 
 import numpy as np
@@ -636,3 +637,148 @@ def merged_cuts(main, mirrored, gap):
         if (not before or cut - max(before) > gap) and (not after or min(after) - cut > gap):
             added.append(cut)
     return sorted({*main, *added})
+
+
+# --- recurrence: pair by pair; bands are written out as full matrices -------------------------
+# ``near`` and ``alike`` are matrices of which only pairs at most ``width`` apart are looked at.
+
+
+def nearest_in_bins(features, step, width):
+    """Distance of frame i * step to the nearest frame of bin j, infinite beyond the width."""
+    n = len(features)
+    bins = -(-n // step)
+    near = np.full((bins, bins), np.inf)
+    for i in range(bins):
+        for j in range(bins):
+            first = j * step - step // 2
+            frames = [f for f in range(first, first + step) if 0 <= f < n]
+            if abs(i - j) <= width and frames:
+                near[i, j] = min(np.linalg.norm(features[i * step] - features[f]) for f in frames)
+    return near
+
+
+def blurred(near, width, blur):
+    """For each pair the least value of its row at most ``blur`` away, within the width."""
+    least = np.full(near.shape, np.inf)
+    for i, j in np.ndindex(near.shape):
+        if abs(i - j) <= width:
+            least[i, j] = min(
+                near[i, k] for k in range(len(near)) if abs(k - j) <= blur and abs(k - i) <= width
+            )
+    return least
+
+
+def local_scales(blurred, width, gap, rank, low, high):
+    scales = []
+    for i in range(len(blurred)):
+        others = [j for j in range(len(blurred)) if gap < abs(i - j) <= width]
+        distances = sorted(max(blurred[i, j], blurred[j, i]) for j in others)
+        scales.append(min(max([*distances, *[np.inf] * (rank + 1)][rank], low), high))
+    return np.array(scales)
+
+
+def similarities(blurred, scales, width, softness):
+    alike = np.zeros(blurred.shape)
+    for i, j in np.ndindex(blurred.shape):
+        if abs(i - j) <= width:
+            distance = max(blurred[i, j], blurred[j, i])
+            alike[i, j] = np.exp(-(distance**2) / (softness**2 * scales[i] * scales[j]))
+    return alike
+
+
+def recurrence_distances(near, width, start, stop, gap):
+    return [
+        min((near[i, j] for j in range(start, stop) if gap < abs(i - j) <= width), default=np.inf)
+        for i in range(start, stop)
+    ]
+
+
+def coverage(near, width, scales, g, h, gap, softness):
+    """Mean over the bins of g of how near the nearest of h is, more than the gap away."""
+    total = 0.0
+    for i in g:
+        nearest = min((near[i, j] for j in h if gap < abs(i - j) <= width), default=np.inf)
+        total += np.exp(-((nearest / (softness * scales[i])) ** 2))
+    return total / len(g)
+
+
+def mean_similarity(alike, width, g, h, gap):
+    values = [alike[i, j] for i in g for j in h if gap < abs(i - j) <= width]
+    return sum(values) / len(values) if values else 0.0
+
+
+def division_cost(alike, borders, penalty):
+    """What a division costs: per segment its length, less its mean sum of likeness, and more."""
+    return sum(
+        stop - start - alike[start:stop, start:stop].sum() / (stop - start) + penalty
+        for start, stop in pairwise(borders)
+    )
+
+
+def divisions(n, shortest, longest):
+    """All borders of n bins in segments of such lengths; undivided if there are none."""
+    found = [
+        [0, *inner, n]
+        for count in range(n)
+        for inner in combinations(range(1, n), count)
+        if all(shortest <= b - a <= longest for a, b in pairwise([0, *inner, n]))
+    ]
+    return found or [[0, n]]
+
+
+def class_affinities(alike, width, labels, classes, gap, min_count):
+    affinity = np.zeros((len(labels), classes))
+    for i in range(len(labels)):
+        for c in range(classes):
+            others = [j for j, label in enumerate(labels) if label == c]
+            values = [alike[i, j] for j in others if gap < abs(i - j) <= width]
+            if len(values) >= max(min_count, 1):
+                affinity[i, c] = sum(values) / len(values)
+    return affinity
+
+
+def labels_cost(costs, labels, switch_cost):
+    changes = sum(a != b for a, b in pairwise(labels))
+    return sum(costs[t][label] for t, label in enumerate(labels)) + switch_cost * changes
+
+
+def nearest_within(features, step, phase, stride, g, h):
+    """Distance from each moment of g to the nearest frame at most ``phase`` bins from one of h.
+
+    Of the frames around h every ``stride``-th is looked at.
+    """
+    low, high = max(0, (h.start - phase) * step), min(len(features), (h.stop + phase) * step)
+    return np.array(
+        [
+            [
+                min(
+                    np.linalg.norm(features[i * step] - features[f])
+                    for f in range(low, high, stride)
+                    if abs(f - j * step) <= phase * step
+                )
+                for j in h[::stride]
+            ]
+            for i in g[::stride]
+        ]
+    )
+
+
+def distant_similarity(features, scales, step, phase, stride, softness, g, h):
+    there = nearest_within(features, step, phase, stride, g, h)
+    back = nearest_within(features, step, phase, stride, h, g)
+    values = [
+        np.exp(-(max(there[r, c], back[c, r]) ** 2) / (softness**2 * scales[i] * scales[j]))
+        for r, i in enumerate(g[::stride])
+        for c, j in enumerate(h[::stride])
+    ]
+    return sum(values) / len(values)
+
+
+def visit_centers(distances, limit):
+    """The nearest column of each run within the limit, but those at either end."""
+    centers = []
+    for inside, run in groupby(range(len(distances)), lambda c: distances[c] < limit):
+        nearest = min(run, key=lambda c: distances[c])
+        if inside and 0 < nearest < len(distances) - 1:
+            centers.append(nearest)
+    return centers

@@ -115,7 +115,7 @@ def recurrence_distances(near, start, stop, gap):
 
 @njit("float64(float32[:, ::1], float32[::1], int64, int64, int64, int64, int64, float64)", **SUMS)
 def coverage(near, scales, g_start, g_stop, h_start, h_stop, gap, softness):
-    """How well the frames of g recur in h, ``gap`` or more away: mean similarity, 0 to 1."""
+    """How well the bins of g recur in h beyond the gap: mean similarity, 0 to 1."""
     width = near.shape[1] // 2
     total = 0.0
     for i in range(g_start, g_stop):

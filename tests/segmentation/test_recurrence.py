@@ -1,0 +1,164 @@
+"""Recurrence against its naive twins, pair by pair, and what it means."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import naive
+from bands import one_sided, points, to_matrix, two_sided
+from kineme.segmentation import _distance_kernels as distant
+from kineme.segmentation import _recurrence_kernels as kernels
+from kineme.segmentation.recurrence import recurrence
+
+seconds = settings(deadline=None, max_examples=120)
+STEPS = st.integers(1, 7)
+WIDTHS = st.integers(0, 12)
+BLURS = GAPS = st.integers(0, 15)
+
+
+@given(points(), STEPS, WIDTHS)
+@seconds
+def test_nearest_in_bins_is_that_of_the_naive_version(features, step, width) -> None:
+    expected = naive.nearest_in_bins(features, step, width)
+    near = np.full((len(expected), 2 * width + 1), np.nan, np.float32)
+    kernels.nearest_in_bins(features, step, width, 0, len(near), near)
+    np.testing.assert_allclose(near, two_sided(expected, width), rtol=1e-6)
+
+
+@given(points(), WIDTHS, BLURS)
+@seconds
+def test_blurred_rows_are_those_of_the_naive_version(features, width, blur) -> None:
+    near = naive.nearest_in_bins(features, 1, width)
+    found = np.full((len(near), 2 * width + 1), np.nan, np.float32)
+    kernels.blur_rows(two_sided(near, width), blur, 0, len(near), found)
+    # Beyond the ends a window may still reach back into the recording; nobody asks there.
+    inside = np.isfinite(two_sided(np.zeros_like(near), width))
+    expected = two_sided(naive.blurred(near, width, blur), width)
+    np.testing.assert_array_equal(found[inside], expected[inside])
+
+
+@given(
+    points(), WIDTHS, GAPS, st.integers(0, 9), st.sampled_from([0.1, 1.0]),
+    st.sampled_from([1.0, 2.5, 1e9]),
+)  # fmt: skip
+@seconds
+def test_local_scales_are_those_of_the_naive_version(features, width, gap, rank, low, high) -> None:
+    near = naive.nearest_in_bins(features, 1, width)
+    found = np.full(len(near), np.nan, np.float32)
+    kernels.local_scales(two_sided(near, width), gap, rank, 0, len(near), low, high, found)
+    expected = naive.local_scales(near, width, gap, rank, low, high)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+@given(points(), WIDTHS, st.sampled_from([0.5, 1.0, 3.0]))
+@seconds
+def test_similarities_are_those_of_the_naive_version(features, width, softness) -> None:
+    near = naive.nearest_in_bins(features, 1, width)
+    scales = np.linspace(0.5, 2, len(near)).astype(np.float32)
+    found = np.full((len(near), width + 1), np.nan, np.float32)
+    kernels.similarities(two_sided(near, width), scales, softness, 0, len(near), found)
+    expected = naive.similarities(near, scales, width, softness)
+    np.testing.assert_allclose(found, one_sided(expected, width), rtol=1e-4, atol=1e-6)
+
+
+@given(points(), WIDTHS, GAPS, st.data())
+@seconds
+def test_means_over_stretches_are_those_of_the_naive_version(features, width, gap, data) -> None:
+    n = len(features)
+    near = naive.nearest_in_bins(features, 1, width)
+    scales = np.linspace(0.5, 2, n).astype(np.float32)
+    alike = naive.similarities(near, scales, width, 1.0)
+    g, h = (stretch(data, n) for _ in range(2))
+    ends = (g.start, g.stop, h.start, h.stop)
+    covered = kernels.coverage(two_sided(near, width), scales, *ends, gap, 1.5)
+    assert covered == pytest.approx(naive.coverage(near, width, scales, g, h, gap, 1.5), abs=1e-6)
+    mean = kernels.mean_similarity(one_sided(alike, width), *ends, gap)
+    assert mean == pytest.approx(naive.mean_similarity(alike, width, g, h, gap), abs=1e-6)
+    recurring = kernels.recurrence_distances(two_sided(near, width), g.start, g.stop, gap)
+    expected = naive.recurrence_distances(near, width, g.start, g.stop, gap)
+    np.testing.assert_allclose(recurring, expected, rtol=1e-6)
+
+
+@given(points(), STEPS, st.integers(0, 20), st.integers(1, 4), st.data())
+@seconds
+def test_stretches_far_apart_are_compared_as_in_the_naive_version(
+    features, step, phase, stride, data
+) -> None:
+    bins = -(-len(features) // step)
+    g, h = (stretch(data, bins) for _ in range(2))
+    ends = (g.start, g.stop, h.start, h.stop)
+    nearest = distant.nearest_within(features, step, phase, stride, *ends)
+    expected = naive.nearest_within(features, step, phase, stride, g, h)
+    np.testing.assert_allclose(nearest, expected, rtol=1e-6)
+    scales = np.linspace(0.5, 2, bins).astype(np.float32)
+    options = (features, scales, step, phase, stride, 1.5)
+    assert distant.distant_similarity(*options, *ends) == pytest.approx(
+        naive.distant_similarity(*options, g, h), abs=1e-5
+    )
+
+
+def stretch(data: st.DataObject, bins: int) -> range:
+    start = data.draw(st.integers(0, bins - 1))
+    return range(start, data.draw(st.integers(start + 1, bins)))
+
+
+OPTIONS = {
+    "step": 3, "width": 600, "phase": 12, "rank": 30, "low": 0.08, "high": 0.16, "softness": 1.6,
+}  # fmt: skip
+
+
+def swing(frames: int, *, period: float, height: float = 0.3, axis: int = 0) -> np.ndarray:
+    """A figure of eight in its own plane, at 30 frames per second."""
+    turns = 2 * np.pi * np.arange(frames) / (30 * period)
+    rows = np.zeros((frames, 6))
+    rows[:, axis] = height * np.sin(turns)
+    rows[:, axis + 1] = height / 2 * np.sin(2 * turns)
+    return rows
+
+
+def test_moments_of_one_movement_are_alike_whatever_their_phase() -> None:
+    rows = np.concatenate([swing(300, period=1.2), swing(300, period=1.2, axis=2)])
+    alike = to_matrix(recurrence(rows, **OPTIONS).similarity)
+    assert alike[:90, :90].min() > 0.5
+    assert alike[110:, 110:].min() > 0.5
+    assert np.median(alike[:90, 110:]) < 0.1
+
+
+def test_far_apart_is_as_alike_as_near_by() -> None:
+    rows = np.concatenate([swing(600, period=p, axis=a) for p, a in [(1.4, 0), (2.1, 1), (1.7, 0)]])
+    band = recurrence(rows, **OPTIONS)
+    for g, h in [((20, 80), (420, 480)), ((20, 80), (220, 280)), ((220, 280), (420, 480))]:
+        near_by = kernels.mean_similarity(band.similarity, *g, *h, band.phase)
+        far = distant.distant_similarity(
+            band.features, band.scales, band.step, band.phase, 2, band.softness, *g, *h
+        )
+        assert far == pytest.approx(near_by, abs=0.03)
+
+
+def test_a_band_is_no_wider_than_the_recording() -> None:
+    for frames in (1, 2, 3, 4, 50):
+        found = recurrence(swing(frames, period=1), **OPTIONS)
+        bins = -(-frames // 3)
+        assert len(found) == bins
+        assert found.near.shape == (bins, 2 * bins - 1)
+        assert found.similarity.shape == (bins, bins)
+
+
+def test_a_narrow_band_is_the_middle_of_a_wide_one() -> None:
+    rows = swing(600, period=1.3)
+    wide = recurrence(rows, **OPTIONS)
+    narrow = recurrence(rows, **{**OPTIONS, "width": 40})
+    np.testing.assert_array_equal(narrow.near, wide.near[:, 199 - 40 : 199 + 41])
+
+
+def test_small_movements_count_as_large_ones_do() -> None:
+    rows = np.random.default_rng(0).normal(size=(300, 3)).cumsum(axis=0)
+    unlimited = {**OPTIONS, "low": 1e-9, "high": 1e9}
+    large, small = recurrence(rows, **unlimited), recurrence(rows / 8, **unlimited)
+    np.testing.assert_array_equal(small.similarity, large.similarity)
+    np.testing.assert_array_equal(8 * small.scales, large.scales)
+    limited = recurrence(rows, **{**OPTIONS, "low": 1.0, "high": 2.0})
+    np.testing.assert_array_equal(limited.scales, np.clip(large.scales, 1, 2))
