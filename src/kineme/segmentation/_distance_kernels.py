@@ -36,7 +36,7 @@ def nearest_within(features, step, phase, stride, g_start, g_stop, h_start, h_st
             line[f] = square
         for c in range(nearest.shape[1]):
             center = (h_start + c * stride) * step - low
-            first = max(0, (center - phase * step) // stride)
+            first = max(0, -((phase * step - center) // stride))
             for f in range(first, min(len(line), (center + phase * step) // stride + 1)):
                 nearest[r, c] = min(nearest[r, c], line[f])
             nearest[r, c] = np.sqrt(nearest[r, c])
@@ -78,26 +78,58 @@ def distances_to(features, references, start, stop):
     return distances
 
 
-@njit("Tuple((int64[::1], int64[:, ::1]))(float32[:, ::1], float32[::1])", **OPTIONS)
-def visit_centers(distances, limits):
-    """How often each row comes within its limit, and the nearest column of each visit.
+@njit("int64[::1](float32[::1], float32)", **OPTIONS)
+def turning_points(row, least):
+    """Lowest, highest, ..., lowest columns of a row that rises and falls by ``least`` between."""
+    turns = np.empty(len(row) + 1, np.int64)
+    count = low = high = 0
+    rising = falling = False
+    for c in range(len(row)):
+        low = c if row[c] < row[low] else low
+        high = c if row[c] > row[high] else high
+        if not rising and row[c] - row[low] >= least:
+            turns[count] = low
+            count += 1
+            rising, falling, high = True, False, c
+        elif not falling and row[high] - row[c] >= least:
+            if count > 0:  # begin with a lowest
+                turns[count] = high
+                count += 1
+            rising, falling, low = False, True, c
+    if falling or count == 0:
+        turns[count] = low
+        count += 1
+    return turns[:count]
 
-    A visit cut off by either end before it is nearest does not count.
+
+@njit("Tuple((float32[:, ::1], int64[:, ::1]))(float32[:, ::1], float32[::1])", **OPTIONS)
+def dips(distances, least):
+    """Depths of the dips of each row, deepest first, and their columns; zero where no more.
+
+    A dip is as deep as one must climb to reach a deeper one, the deepest as
+    deep as the row is high (topological persistence). Those shallower than
+    ``least``, and those lowest at either end of the row, do not count.
     """
     rows, columns = distances.shape
-    counts = np.zeros(rows, np.int64)
-    centers = np.zeros((rows, columns // 2 + 1), np.int64)
+    depths = np.zeros((rows, columns // 2 + 1), np.float32)
+    lowest = np.zeros(depths.shape, np.int64)
     for r in range(rows):
-        inside = False
-        nearest = 0
-        for c in range(columns + 1):
-            if c < columns and distances[r, c] < limits[r]:
-                if not inside or distances[r, c] < distances[r, nearest]:
-                    nearest = c
-                inside = True
-            elif inside:
-                inside = False
-                if 0 < nearest < columns - 1:
-                    centers[r, counts[r]] = nearest
-                    counts[r] += 1
-    return counts, centers
+        row = distances[r]
+        turns = turning_points(row, least[r])
+        found = np.zeros(len(turns) // 2 + 1, np.float32)
+        where = np.zeros(len(found), np.int64)
+        count = 0
+        while len(turns) > 1:
+            # The smallest climb is that out of the shallowest dip: take both away.
+            climbs = np.abs(row[turns[1:]] - row[turns[:-1]])
+            at = np.argmin(climbs)
+            found[count], where[count] = climbs[at], turns[at + at % 2]
+            count += 1
+            turns = np.concatenate((turns[:at], turns[at + 2 :]))
+        found[count], where[count] = np.max(row) - row[turns[0]], turns[0]
+        place = 0
+        for i in np.argsort(-found):
+            if 0 < where[i] < columns - 1:
+                depths[r, place], lowest[r, place] = found[i], where[i]
+                place += 1
+    return depths, lowest

@@ -18,7 +18,7 @@ from kineme.segmentation._recurrence_kernels import recurrence_distances
 from kineme.segmentation.actions import Actions, leading, refine, transition_ends
 from kineme.segmentation.presets import ActionPreset
 from kineme.segmentation.recurrence import Recurrence, recurrence
-from kineme.segmentation.repetitions import Repetitions, repetitions
+from kineme.segmentation.repetitions import SURROUNDINGS, Repetitions, repetitions
 from kineme.segmentation.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ Frames = NDArray[np.int64]
 PICTURED = 256
 # Ends of an activity that recur worse than this many times its upper quartile are
 # not counted as repetition, over at most so many seconds and a quarter of it.
-CORE_FACTOR, CORE_QUANTILE, CORE_SECONDS = 1.2, 0.75, 1.0
+CORE_FACTOR, CORE_QUANTILE, CORE_SECONDS = 1.2, 0.75, 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,7 +182,9 @@ def _count(
         start, stop = int(blocks[block]), int(blocks[block + 1])
         if labels[block] < 0:
             return Repetitions(np.empty(0, np.int64), np.nan)
-        return repetitions(likeness.features, start, stop, _core(likeness, start, stop, preset))
+        core = _core(likeness, start, stop, preset)
+        around = preset.frames(SURROUNDINGS)
+        return repetitions(likeness.features, start, stop, core, surroundings=around)
 
     return map_threads(count, range(len(labels)))
 
