@@ -1,0 +1,68 @@
+"""``kineme label``: the labelled primitives of a recording into a knowledge base."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from kineme.cli.messages import Failures, progress
+from kineme.cli.reading import (
+    Effectors,
+    Fps,
+    Quiet,
+    Skeleton,
+    Unit,
+    Up,
+    effector_names,
+    read_options,
+)
+
+
+def label(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording.")],
+    labels: Annotated[
+        Path,
+        typer.Option(
+            metavar="TABLE",
+            help="Its labels: a segment table, or a label file of another program.",
+        ),
+    ],
+    knowledge: Annotated[
+        Path, typer.Option(help="Knowledge base to add to, .npz; made if it is not there.")
+    ],
+    quiet: Quiet = False,
+    skeleton: Skeleton = None,
+    fps: Fps = None,
+    unit: Unit = None,
+    up: Up = None,
+    effectors: Effectors = None,
+) -> None:
+    """Add the labelled primitives of a recording to a knowledge base.
+
+    Where the labels name whole activities only, the recording is cut into primitives first.
+    What the knowledge base held of this recording is replaced.
+    """
+    reading = read_options(skeleton, fps, unit, up)
+    names = effector_names(effectors)
+    failures = Failures()
+    with failures.caught(file), progress(file.name, quiet=quiet) as stage:
+        stage("reading")
+        from kineme.export import read_segments
+        from kineme.formats import read
+        from kineme.segmentation.segmenter import segment
+        from kineme.transfer import KnowledgeBase, name_primitives
+
+        known = [KnowledgeBase.load(knowledge)] if knowledge.exists() else []
+        motion = read(file, **reading)
+        table = read_segments(labels, fps=motion.fps, n_frames=motion.n_frames)
+        if not len(table.primitives):
+            table = name_primitives(segment(motion, effectors=names, progress=stage), table)
+        added = KnowledgeBase.from_recording(motion, table, effectors=names)
+        merged = KnowledgeBase.merged(*known, added)
+        merged.save(knowledge)
+        if not quiet:
+            what = ", ".join(f"{name} {count}" for name, count in added.counts().items())
+            typer.echo(f"{knowledge}: {what} from {file.name}; {len(merged)} primitives in all")
+    failures.exit()

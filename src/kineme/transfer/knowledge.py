@@ -1,0 +1,218 @@
+"""KnowledgeBase: labelled primitives of any recordings, ready to be searched.
+
+A primitive is its label, where it comes from, and its features: five end
+effectors in the body's own frame, in body sizes, each frame stacked with those
+0.1 and 0.2 s before and after it, ten times a second, as the ``kineme`` method
+compares moments. Skeletons, sizes and frame rates may therefore differ.
+
+Source: Vögele, Krüger and Klein 2014, section 6.1.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError, ReadError
+from kineme.features import end_effectors
+from kineme.features.effectors import Names
+from kineme.motion import Motion
+from kineme.segmentation.presets import KINEME
+from kineme.segmentation.result import Segmentation
+from kineme.segmentation.segmenter import motion_features
+from kineme.segmentation.table import SegmentTable
+from kineme.transfer import knowledge_file
+from kineme.transfer.matching import Primitives
+
+FPS = KINEME.working_fps / KINEME.step
+SETTINGS = {"fps": FPS, "offsets_s": list(KINEME.offsets), "unit": "body sizes"}
+DIMS = 15 * len(KINEME.offsets)
+
+
+@dataclass(frozen=True, eq=False)
+class KnowledgeBase:
+    """Labelled primitives; primitive p is the next ``lengths[p]`` frames of ``features``.
+
+    Usually made by :meth:`from_recording`, :meth:`merged` or :meth:`load`.
+
+    Parameters
+    ----------
+    features : (frames, 75) float32, as :func:`transfer_features` gives them
+    lengths : frames of each primitive
+    labels : name of each
+    sources : file name of the recording each comes from
+    digests : SHA-256 of that file, empty where there is none
+    start_s, stop_s : where in the recording, seconds
+
+    Raises
+    ------
+    ParameterError : parts of different length, an empty label, or values that are not finite
+    """
+
+    features: NDArray[np.float32]
+    lengths: NDArray[np.int64]
+    labels: NDArray[np.str_]
+    sources: NDArray[np.str_]
+    digests: NDArray[np.str_]
+    start_s: NDArray[np.float64]
+    stop_s: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        if self.features.ndim != 2 or self.features.shape[1] != DIMS:
+            raise ParameterError(f"features must be frames x {DIMS}, not {self.features.shape}")
+        for name, column in self.columns().items():
+            if column.shape != self.labels.shape or column.ndim != 1:
+                raise ParameterError(f"{name} and labels must be of the same length")
+        if len(self) and self.lengths.min() < 1:
+            raise ParameterError("a primitive has at least 1 frame")
+        if self.lengths.sum() != len(self.features):
+            raise ParameterError(
+                f"lengths add up to {self.lengths.sum()} frames, there are {len(self.features)}"
+            )
+        if not all(self.labels.tolist()):
+            raise ParameterError("every primitive needs a label")
+        if not np.isfinite(self.features).all():
+            raise ParameterError("features must be finite")
+
+    @classmethod
+    def from_recording(
+        cls, motion: Motion, segments: Segmentation, *, effectors: Names | None = None
+    ) -> Self:
+        """The labelled primitives of a recording.
+
+        Parameters
+        ----------
+        motion : Motion
+        segments : of this recording. A primitive without a label takes that
+            of its activity; where there are no primitives, labelled
+            activities are taken for such. Transitions are left out.
+        effectors : joints to take for head, hands and feet where names do not tell
+
+        Raises
+        ------
+        EndEffectorError : head, hands or feet were not found
+        ParameterError : the segments are of a recording of another length, or none is labelled
+        """
+        if segments.n_frames != motion.n_frames:
+            raise ParameterError(
+                f"the segments are of {segments.n_frames} frames, the motion has {motion.n_frames}"
+            )
+        rows = _labelled(segments)
+        features = transfer_features(motion, effectors=effectors).astype(np.float32)
+        starts, stops = working_frames(rows, segments.fps, len(features))
+        path, digest = motion.provenance.path, motion.provenance.sha256
+        return cls(
+            np.concatenate([features[a:b] for a, b in zip(starts, stops, strict=True)]),
+            stops - starts,
+            rows.label,
+            np.full(len(rows), Path(path).name if path else ""),
+            np.full(len(rows), digest or ""),
+            rows.start_s,
+            rows.stop_s,
+        )
+
+    @classmethod
+    def merged(cls, *bases: KnowledgeBase) -> Self:
+        """All primitives of all; of a recording that several hold, those of the last."""
+        if not bases:
+            raise ParameterError("nothing to merge: give at least one knowledge base")
+        kept = []
+        for number, base in enumerate(bases):
+            later = {d for other in bases[number + 1 :] for d in set(other.digests.tolist()) if d}
+            kept.append(base.select(~np.isin(base.digests, list(later))))
+        parts = [{"features": base.features, **base.columns()} for base in kept]
+        return cls(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
+
+    def __add__(self, other: KnowledgeBase) -> Self:
+        return self.merged(self, other)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Self:
+        """The knowledge base in a file that :meth:`save` wrote.
+
+        Raises
+        ------
+        ReadError : missing, damaged, no knowledge base, or of another version
+        """
+        try:
+            return cls(**knowledge_file.read(path, SETTINGS))
+        except ParameterError as error:
+            raise ReadError(path, f"is damaged: {error}") from error
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write all of it to one ``.npz`` file, or leave what is there as it was.
+
+        Raises
+        ------
+        WriteError : another suffix, or the file cannot be written
+        """
+        knowledge_file.write({"features": self.features, **self.columns()}, SETTINGS, path)
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """What is known of each primitive, by name, without the features."""
+        names = ("lengths", "labels", "sources", "digests", "start_s", "stop_s")
+        return {name: getattr(self, name) for name in names}
+
+    def select(self, mask: NDArray[np.bool_]) -> Self:
+        """The primitives where the mask is true."""
+        columns = {name: column[mask] for name, column in self.columns().items()}
+        return replace(self, features=self.features[np.repeat(mask, self.lengths)], **columns)
+
+    def counts(self) -> dict[str, int]:
+        """How many primitives bear each label."""
+        return dict(sorted(Counter(self.labels.tolist()).items()))
+
+    def primitives(self) -> Primitives:
+        """The primitives to search; those that touch under one label are one stretch."""
+        follows = self.start_s[1:] == self.stop_s[:-1]
+        for column in (self.labels, self.sources, self.digests):
+            follows &= column[1:] == column[:-1]
+        stretches = np.concatenate([[0], np.cumsum(~follows)])[: len(self)]
+        return Primitives(self.features, self.lengths, stretches)
+
+    def __len__(self) -> int:
+        return len(self.labels)
+
+    def __repr__(self) -> str:
+        labels = ", ".join(f"{label} {count}" for label, count in self.counts().items())
+        return f"<KnowledgeBase of {len(self)} primitives: {labels}>"
+
+
+def transfer_features(motion: Motion, *, effectors: Names | None = None) -> NDArray[np.float64]:
+    """Features (frames at 10 Hz, 75) in which primitives are compared, in body sizes.
+
+    Raises
+    ------
+    EndEffectorError : head, hands or feet were not found
+    """
+    found = end_effectors(motion, names=effectors)
+    return motion_features(motion, KINEME, effectors=found)[:: KINEME.step]
+
+
+def working_frames(
+    rows: SegmentTable, fps: float, n_features: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """First frame and end of each row in the features; at least one frame each."""
+    starts = np.minimum(np.rint(rows.start_frame * (FPS / fps)).astype(np.int64), n_features - 1)
+    stops = np.minimum(np.rint(rows.stop_frame * (FPS / fps)).astype(np.int64), n_features)
+    return starts, np.maximum(stops, starts + 1)
+
+
+def _labelled(segments: Segmentation) -> SegmentTable:
+    """The rows to learn from, with their labels."""
+    rows = segments.primitives
+    if len(rows):
+        inherited = segments.activities.label[rows.activity]
+        rows = replace(rows, label=np.where(rows.label == "", inherited, rows.label))
+    else:
+        rows = segments.activities
+    rows = rows.select((rows.label != "") & (rows.kind == "activity"))
+    if not len(rows):
+        raise ParameterError("no activity has a label: there is nothing to learn")
+    return rows

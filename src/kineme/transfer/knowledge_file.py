@@ -1,0 +1,96 @@
+"""Knowledge bases as files: one ``.npz``, a zip of plain numpy arrays, no pickle.
+
+============ ================ ==================================================
+``head``     text             JSON: ``schema`` (``kineme.knowledge/1``), ``kineme``
+                              (version that wrote it), ``fps``, ``offsets_s`` and
+                              ``unit`` of the features
+``features`` float32 (n, 75)  frames of all primitives end to end, body sizes
+``lengths``  int64            frames of each primitive; the others go with it
+``labels``   text             its name
+``sources``  text             file name of the recording
+``digests``  text             SHA-256 of the recording, or empty
+``start_s``  float64          where it starts in the recording, seconds
+``stop_s``   float64          where it stops
+============ ================ ==================================================
+
+Any program with numpy reads it. A reader ignores arrays it does not know; a
+change that old readers would misunderstand gets the next number.
+"""
+
+from __future__ import annotations
+
+import json
+import zipfile
+import zlib
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._files import atomic_write
+from kineme._version import __version__
+from kineme.errors import ReadError, WriteError
+
+SCHEMA = "kineme.knowledge/1"
+KINDS = {
+    "features": "f",
+    "lengths": "i",
+    "labels": "U",
+    "sources": "U",
+    "digests": "U",
+    "start_s": "f",
+    "stop_s": "f",
+}
+TYPES = {"features": np.float32, "lengths": np.int64}
+DAMAGE = (
+    OSError,
+    EOFError,
+    KeyError,
+    TypeError,  # a bare array has no names
+    AttributeError,
+    ValueError,  # pickles, and JSON that is none
+    NotImplementedError,  # flags of a zip entry that mean encryption and the like
+    RuntimeError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+
+
+def write(
+    arrays: dict[str, NDArray[Any]], settings: dict[str, Any], path: str | PathLike[str]
+) -> None:
+    """Leave a knowledge base's arrays at ``path``; ``settings`` are those of its features."""
+    if Path(path).suffix.lower() != ".npz":
+        raise WriteError(path, "a knowledge base is a .npz file: name it so")
+    head = json.dumps({"schema": SCHEMA, "kineme": __version__, **settings})
+    with atomic_write(path) as draft, draft.open("wb") as file:
+        np.savez(file, allow_pickle=False, head=np.array(head), **arrays)
+
+
+def read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDArray[Any]]:
+    """The arrays of the knowledge base at ``path``, whose features must have these settings."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            _check_head(json.loads(str(file["head"])), settings, path)
+            arrays = {name: file[name] for name in KINDS}
+    except FileNotFoundError as error:
+        raise ReadError(path, "cannot be read: there is no such file") from error
+    except DAMAGE as error:
+        raise ReadError(path, "is not a knowledge base, or is damaged") from error
+    for name, kind in KINDS.items():
+        if arrays[name].dtype.kind != kind:
+            raise ReadError(path, f"is damaged: {name} holds {arrays[name].dtype}")
+    return arrays | {name: arrays[name].astype(kind) for name, kind in TYPES.items()}
+
+
+def _check_head(head: Any, settings: dict[str, Any], path: str | PathLike[str]) -> None:
+    schema = head.get("schema") if isinstance(head, dict) else head
+    if schema != SCHEMA:
+        reason = f"is of version {schema!r}, this kineme reads {SCHEMA}: build it again"
+        raise ReadError(path, reason)
+    for name, value in settings.items():
+        if head.get(name) != value:
+            reason = f"has features with {name} {head.get(name)}, not {value}: build it again"
+            raise ReadError(path, reason)

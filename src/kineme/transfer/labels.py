@@ -1,0 +1,218 @@
+"""transfer_labels(): the labels of a knowledge base for the primitives of a recording.
+
+Every unlabelled primitive takes the label of its cheapest valid match (see
+:mod:`kineme.transfer.matching`), and stays without one where none is cheap
+enough. The score is the margin: the share by which the next label is dearer,
+from 0 (a toss-up) to 1.
+
+Source: Vögele, Krüger and Klein 2014, section 6.1; threshold, margin and
+spreading through clusters are our own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme.errors import ParameterError
+from kineme.segmentation.presets import KINEME
+from kineme.segmentation.result import Segmentation
+from kineme.segmentation.table import Level, SegmentTable
+from kineme.transfer.knowledge import FPS, KnowledgeBase, working_frames
+from kineme.transfer.matching import Floats, Primitives, label_costs
+
+THRESHOLD = (KINEME.min_scale + KINEME.max_scale) / 2
+"""Body sizes: the middle of the scales at which ``kineme`` calls two moments alike, 0.12."""
+REACH = 2.0
+"""Thresholds at which two frames no longer match, so that a path may pass a worse moment."""
+
+
+def transfer_labels(
+    segmentation: Segmentation,
+    features: ArrayLike,
+    knowledge: KnowledgeBase,
+    *,
+    threshold: float = THRESHOLD,
+    spread: bool = False,
+) -> Segmentation:
+    """The same segments, with labels from the knowledge base and the margin as score.
+
+    Labels that are there already stay. An activity is called as most of its
+    frames are. ``provenance["transfer"]`` holds the threshold and, for each
+    primitive, the cost of its match in body sizes (null: no label came from one).
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+        Its primitives are labelled, or its activities where it has none;
+        transitions are not.
+    features : (frames at 10 Hz, 75), of the same recording, by :func:`transfer_features`
+    knowledge : KnowledgeBase
+    threshold : body sizes
+        Largest cost of a match. Lower: fewer labels, more of them right.
+    spread : a cluster takes the label that most of its members got, its score
+        for the others being the share of them that did
+
+    Raises
+    ------
+    ParameterError : features of another recording, or a threshold that is not above 0
+    """
+    if not (math.isfinite(threshold) and threshold > 0):
+        raise ParameterError(f"the threshold must be a number above 0, not {threshold}")
+    features = _checked(features, segmentation)
+    level: Level = "primitive" if len(segmentation.primitives) else "activity"
+    rows = segmentation.level(level)
+    labels = rows.label.astype(object)
+    scores, costs = rows.score.copy(), np.full(len(rows), np.nan)
+    todo = np.flatnonzero((rows.kind == "activity") & (rows.label == ""))
+    if len(todo) and len(knowledge):
+        unknown = _primitives(rows.select(todo), features, segmentation.fps)
+        found, names = _costs(unknown, knowledge, REACH * threshold)
+        labels[todo], scores[todo], costs[todo] = _cheapest(found, names, threshold)
+    if spread:
+        _spread(labels, scores, rows.cluster, todo)
+    table = segmentation.table
+    own = table.level == level
+    all_labels, all_scores = table.label.astype(object), table.score.copy()
+    all_labels[own], all_scores[own] = labels, scores
+    if level == "primitive":
+        activities = table.level == "activity"
+        all_labels[activities] = _activity_labels(segmentation, labels)
+    return Segmentation(
+        replace(table, label=all_labels.astype(np.str_), score=all_scores),
+        segmentation.n_frames,
+        segmentation.fps,
+        _provenance(segmentation, labels[todo], costs, threshold, spread=spread),
+        segmentation.timings,
+    )
+
+
+def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segmentation:
+    """The same segments, each called as most of its frames are in ``labels``.
+
+    Parameters
+    ----------
+    segmentation : of a recording
+    labels : of the same recording, from a person; its activities count, and a
+        segment stays without a label where most frames have none
+
+    Raises
+    ------
+    ParameterError : the two are of recordings of different length
+    """
+    if labels.n_frames != segmentation.n_frames:
+        raise ParameterError(
+            f"the labels are of {labels.n_frames} frames, the recording has {segmentation.n_frames}"
+        )
+    per_frame = labels.per_frame("label", level="activity").astype(object)
+    names = [
+        Counter(per_frame[row.start_frame : row.stop_frame]).most_common(1)[0][0]
+        for row in segmentation
+    ]
+    table = replace(segmentation.table, label=np.array(names, dtype=np.str_))
+    return replace(segmentation, table=table)
+
+
+def _checked(features: ArrayLike, segmentation: Segmentation) -> Floats:
+    array = np.asarray(features, np.float64)
+    expected = segmentation.n_frames * FPS / segmentation.fps
+    if array.ndim != 2 or abs(len(array) - expected) > 2:
+        raise ParameterError(
+            f"features have the shape {array.shape}, the recording {expected:.0f} frames at "
+            f"{FPS:g} Hz: make them with transfer_features()"
+        )
+    return array
+
+
+def _primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
+    """The rows with their frames; those of a cluster that touch are a stretch."""
+    starts, stops = working_frames(rows, fps, len(features))
+    follows = (rows.start_frame[1:] == rows.stop_frame[:-1]) & (
+        rows.cluster[1:] == rows.cluster[:-1]
+    )
+    frames = np.concatenate([features[a:b] for a, b in zip(starts, stops, strict=True)])
+    return Primitives(frames, stops - starts, np.concatenate([[0], np.cumsum(~follows)]))
+
+
+def _costs(
+    unknown: Primitives, knowledge: KnowledgeBase, radius: float
+) -> tuple[Floats, NDArray[np.str_]]:
+    """Costs (primitives, names), and the names; what has no valid path costs the radius."""
+    names, codes = np.unique(knowledge.labels, return_inverse=True)
+    costs = label_costs(unknown, knowledge.primitives(), codes, len(names), radius=radius)
+    return np.minimum(costs, radius), names
+
+
+def _cheapest(
+    costs: Floats, names: NDArray[np.str_], threshold: float
+) -> tuple[NDArray[Any], Floats, Floats]:
+    """Label, margin and cost of each row; empty and nan where nothing is within the threshold."""
+    best = costs.argmin(axis=1)
+    cost = costs[np.arange(len(costs)), best]
+    others = costs.copy()
+    others[np.arange(len(costs)), best] = np.inf
+    # With one label alone the radius stands for the next: nothing dearer was looked at.
+    following = np.minimum(others.min(axis=1), REACH * threshold)
+    margin = 1 - cost / np.maximum(following, 1e-12)
+    valid = cost <= threshold
+    return (
+        np.where(valid, names[best].astype(object), ""),
+        np.where(valid, margin, np.nan),
+        np.where(valid, cost, np.nan),
+    )
+
+
+def _spread(
+    labels: NDArray[Any], scores: Floats, clusters: NDArray[np.int64], todo: NDArray[np.intp]
+) -> None:
+    """Give every cluster's members the label that most of them have; a person's label stays."""
+    for cluster in set(clusters[todo].tolist()) - {-1}:
+        named = Counter(label for label in labels[clusters == cluster] if label)
+        if not named:
+            continue
+        winner, votes = named.most_common(1)[0]
+        others = [row for row in todo if clusters[row] == cluster and labels[row] != winner]
+        labels[others] = winner
+        scores[others] = votes / named.total()
+
+
+def _activity_labels(segmentation: Segmentation, labels: NDArray[Any]) -> list[str]:
+    """The label of each activity: its own, else that of more than half of its frames."""
+    primitives = segmentation.primitives
+    names = []
+    for row in segmentation.activities:
+        inside = np.flatnonzero(primitives.activity == row.activity)
+        frames: Counter[str] = Counter()
+        for p in inside:
+            frames[labels[p]] += int(primitives.stop_frame[p] - primitives.start_frame[p])
+        name, most = frames.most_common(1)[0] if frames else ("", 0)
+        wide = most > (row.stop_frame - row.start_frame) / 2
+        names.append(row.label or (name if wide and row.kind == "activity" else ""))
+    return names
+
+
+def _provenance(
+    segmentation: Segmentation,
+    given: NDArray[Any],
+    costs: Floats,
+    threshold: float,
+    *,
+    spread: bool,
+) -> dict[str, Any]:
+    counts = Counter(label for label in given if label)
+    named = ", ".join(f"{label} {count}" for label, count in sorted(counts.items())) or "none"
+    note = f"{counts.total()} of {len(given)} unlabelled primitives labelled: {named}"
+    return {
+        **segmentation.provenance,
+        "transfer": {
+            "threshold": threshold,
+            "spread": spread,
+            "costs": [None if math.isnan(cost) else round(cost, 4) for cost in costs.tolist()],
+        },
+        "notes": [*segmentation.provenance.get("notes", []), note],
+    }
