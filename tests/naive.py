@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from itertools import combinations, groupby, pairwise
+from itertools import combinations, pairwise
 from math import comb
 
 import numpy as np
@@ -732,7 +732,7 @@ def class_affinities(alike, width, labels, classes, gap, min_count):
         for c in range(classes):
             others = [j for j, label in enumerate(labels) if label == c]
             values = [alike[i, j] for j in others if gap < abs(i - j) <= width]
-            if len(values) >= max(min_count, 1):
+            if len(values) >= min_count:
                 affinity[i, c] = sum(values) / len(values)
     return affinity
 
@@ -774,11 +774,20 @@ def distant_similarity(features, scales, step, phase, stride, softness, g, h):
     return sum(values) / len(values)
 
 
-def visit_centers(distances, limit):
-    """The nearest column of each run within the limit, but those at either end."""
-    centers = []
-    for inside, run in groupby(range(len(distances)), lambda c: distances[c] < limit):
-        nearest = min(run, key=lambda c: distances[c])
-        if inside and 0 < nearest < len(distances) - 1:
-            centers.append(nearest)
-    return centers
+def dips(row, least):
+    """(depth, column) of each dip of a row without equal values, deepest first.
+
+    A dip is a column lower than those beside it. It is as deep as one must
+    climb to reach a lower column, the lowest as deep as the row is high.
+    """
+    last = len(row) - 1
+    found = []
+    for c in range(len(row)):
+        if (c > 0 and row[c - 1] < row[c]) or (c < last and row[c + 1] < row[c]):
+            continue
+        lower = [d for d in range(len(row)) if row[d] < row[c]]
+        tops = [max(row[min(c, d) : max(c, d) + 1]) for d in lower] or [max(row)]
+        depth = min(tops) - row[c]
+        if depth >= least and 0 < c < last:
+            found.append((depth, c))
+    return sorted(found, reverse=True)

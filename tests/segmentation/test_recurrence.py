@@ -12,6 +12,7 @@ from bands import one_sided, points, to_matrix, two_sided
 from kineme.segmentation import _distance_kernels as distant
 from kineme.segmentation import _recurrence_kernels as kernels
 from kineme.segmentation.recurrence import recurrence
+from loops import swing
 
 seconds = settings(deadline=None, max_examples=120)
 STEPS = st.integers(1, 7)
@@ -110,25 +111,18 @@ OPTIONS = {
 }  # fmt: skip
 
 
-def swing(frames: int, *, period: float, height: float = 0.3, axis: int = 0) -> np.ndarray:
-    """A figure of eight in its own plane, at 30 frames per second."""
-    turns = 2 * np.pi * np.arange(frames) / (30 * period)
-    rows = np.zeros((frames, 6))
-    rows[:, axis] = height * np.sin(turns)
-    rows[:, axis + 1] = height / 2 * np.sin(2 * turns)
-    return rows
-
-
 def test_moments_of_one_movement_are_alike_whatever_their_phase() -> None:
-    rows = np.concatenate([swing(300, period=1.2), swing(300, period=1.2, axis=2)])
+    rows = np.concatenate([swing(8, period=1.2), swing(8, period=1.2, axis=2)])
     alike = to_matrix(recurrence(rows, **OPTIONS).similarity)
-    assert alike[:90, :90].min() > 0.5
-    assert alike[110:, 110:].min() > 0.5
-    assert np.median(alike[:90, 110:]) < 0.1
+    assert alike[:84, :84].min() > 0.5
+    assert alike[108:, 108:].min() > 0.5
+    assert np.median(alike[:84, 108:]) < 0.1
 
 
 def test_far_apart_is_as_alike_as_near_by() -> None:
-    rows = np.concatenate([swing(600, period=p, axis=a) for p, a in [(1.4, 0), (2.1, 1), (1.7, 0)]])
+    rows = np.concatenate(
+        [swing(14, period=1.4), swing(10, period=2.1, axis=1), swing(12, period=1.7)]
+    )
     band = recurrence(rows, **OPTIONS)
     for g, h in [((20, 80), (420, 480)), ((20, 80), (220, 280)), ((220, 280), (420, 480))]:
         near_by = kernels.mean_similarity(band.similarity, *g, *h, band.phase)
@@ -140,7 +134,7 @@ def test_far_apart_is_as_alike_as_near_by() -> None:
 
 def test_a_band_is_no_wider_than_the_recording() -> None:
     for frames in (1, 2, 3, 4, 50):
-        found = recurrence(swing(frames, period=1), **OPTIONS)
+        found = recurrence(swing(2, period=1)[:frames], **OPTIONS)
         bins = -(-frames // 3)
         assert len(found) == bins
         assert found.near.shape == (bins, 2 * bins - 1)
@@ -148,10 +142,10 @@ def test_a_band_is_no_wider_than_the_recording() -> None:
 
 
 def test_a_narrow_band_is_the_middle_of_a_wide_one() -> None:
-    rows = swing(600, period=1.3)
+    rows = swing(15, period=1.3)
     wide = recurrence(rows, **OPTIONS)
     narrow = recurrence(rows, **{**OPTIONS, "width": 40})
-    np.testing.assert_array_equal(narrow.near, wide.near[:, 199 - 40 : 199 + 41])
+    np.testing.assert_array_equal(narrow.near, wide.near[:, 194 - 40 : 194 + 41])
 
 
 def test_small_movements_count_as_large_ones_do() -> None:

@@ -19,7 +19,8 @@ def change_points(similarity, penalty, min_length):
 
     Minimises, by dynamic programming, the sum over segments of
     ``length - (sum of similarities of all pairs) / length + penalty``. No
-    segment is longer than the band is wide.
+    segment is longer than the band is wide; where that leaves no division,
+    there is one segment.
     """
     bins, width = similarity.shape
     best = np.full(bins + 1, np.inf)
@@ -35,7 +36,7 @@ def change_points(similarity, penalty, min_length):
                 row_sums[start] += similarity[start, last - start]
             inside += similarity[start, 0] + 2 * row_sums[start]
             length = end - start
-            if length >= min_length or start == 0:
+            if length >= min_length or length == bins:
                 cost = best[start] + length - inside / length + penalty
                 if cost < best[end]:
                     best[end] = cost
@@ -50,7 +51,7 @@ def change_points(similarity, penalty, min_length):
 def class_affinities(similarity, labels, gap, min_count, start, stop, affinity):
     """Mean similarity of each bin to the bins of each class, within the band and off the gap.
 
-    Zero where fewer than ``min_count`` bins of the class are within reach.
+    Zero where fewer than ``min_count`` bins, at least one, of the class are within reach.
     """
     bins, width = similarity.shape
     counts = np.empty(affinity.shape[1], np.int64)

@@ -129,7 +129,7 @@ def dips(distances, least):
         found[count], where[count] = np.max(row) - row[turns[0]], turns[0]
         place = 0
         for i in np.argsort(-found):
-            if 0 < where[i] < columns - 1:
+            if found[i] >= least[r] and 0 < where[i] < columns - 1:
                 depths[r, place], lowest[r, place] = found[i], where[i]
                 place += 1
     return depths, lowest

@@ -1,0 +1,106 @@
+"""How often a movement repeats itself: loops of known number, and the kernels' naive twins."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import naive
+from bands import points
+from kineme.segmentation import _distance_kernels as kernels
+from kineme.segmentation.repetitions import Repetitions, repetitions
+from loops import nod, swing
+
+seconds = settings(deadline=None, max_examples=150)
+
+
+@given(points(), st.data())
+@seconds
+def test_distances_are_those_of_the_naive_version(features, data) -> None:
+    frames = st.integers(0, len(features) - 1)
+    references = np.array(data.draw(st.lists(frames, max_size=4)), np.int64)
+    start = data.draw(frames)
+    stop = data.draw(st.integers(start + 1, len(features)))
+    found = kernels.distances_to(features, references, start, stop)
+    assert found.shape == (len(references), stop - start)
+    for row, reference in zip(found, references, strict=True):
+        expected = [np.linalg.norm(features[reference] - features[f]) for f in range(start, stop)]
+        np.testing.assert_allclose(row, expected, rtol=1e-6)
+
+
+@given(st.integers(1, 25).flatmap(lambda n: st.permutations(range(n))), st.integers(1, 9))
+@seconds
+def test_dips_are_those_of_the_naive_version(row, least) -> None:
+    rows = np.array([row, row[::-1]], np.float32)
+    depths, columns = kernels.dips(rows, np.array([least, 0.5], np.float32))
+    for found, where, values, limit in zip(depths, columns, rows, (least, 0.5), strict=True):
+        pairs = [(d, c) for d, c in zip(found.tolist(), where.tolist(), strict=True) if d > 0]
+        expected = naive.dips(values.tolist(), limit)
+        assert [d for d, _ in pairs] == [d for d, _ in expected]
+        assert sorted(pairs) == sorted(expected)
+
+
+def count(rows: np.ndarray) -> Repetitions:
+    frames = len(rows)
+    return repetitions(rows.astype(np.float32), 0, frames, (0, frames), surroundings=6)
+
+
+movements = pytest.mark.parametrize("movement", [swing, nod])
+
+
+@movements
+@pytest.mark.parametrize("period", [0.5, 0.8, 1.2, 2.0, 3.0])
+def test_every_repetition_is_counted(movement, period: float) -> None:
+    for times in range(2, 13):
+        found = count(movement(times, period=period))
+        assert len(found.cuts) + 1 == times
+        assert found.agreement > 0.5
+
+
+@movements
+@pytest.mark.parametrize("rest", [0.3, 1.0, 2.0])
+def test_a_rest_between_repetitions_changes_no_count(movement, rest: float) -> None:
+    for period in (0.5, 1.2, 3.0):
+        for times in range(2, 13):
+            assert len(count(movement(times, period=period, rest=rest)).cuts) + 1 == times
+
+
+@movements
+def test_repetitions_begin_at_equal_phase(movement) -> None:
+    found = count(movement(8, period=1.2))
+    lengths = [b - a for a, b in pairwise([0, *found.cuts.tolist(), 8 * 36])]
+    assert max(abs(length - 36) for length in lengths[1:-1]) <= 1
+    assert max(lengths) - min(lengths) <= 18
+
+
+@given(st.integers(2, 9), st.integers(0, 2**32 - 1))
+@settings(deadline=None, max_examples=60)
+def test_people_are_not_clocks(times: int, seed: int) -> None:
+    """Pace and size differ by up to a sixth from one repetition to the next, and joints shake."""
+    rng = np.random.default_rng(seed)
+    rows = np.concatenate(
+        [
+            swing(1, period=1.2 * rng.uniform(0.92, 1.08), height=0.3 * rng.uniform(0.92, 1.08))
+            for _ in range(times)
+        ]
+    )
+    rows += rng.normal(0, 0.003, rows.shape)
+    assert len(count(rows).cuts) + 1 == times
+
+
+def test_what_does_not_move_has_one_repetition() -> None:
+    for frames in (1, 2, 3, 100):
+        assert len(count(np.zeros((frames, 4))).cuts) == 0
+        assert len(count(np.linspace(0, 1, frames)[:, None]).cuts) == 0
+
+
+def test_only_the_core_is_counted() -> None:
+    """A single movement before the repetitions joins the first of them."""
+    rows = np.concatenate([swing(1, period=2, axis=2), swing(6, period=1)])
+    found = repetitions(rows.astype(np.float32), 0, len(rows), (60, len(rows)), surroundings=6)
+    assert len(found.cuts) == 5
+    assert found.cuts[0] > 60
