@@ -543,3 +543,15 @@ def read_or_refuse(path: Path, name: str) -> None:
     with suppress(KinemeError):
         result = read_segments(path, format=name, fps=119.88)
         assert math.isfinite(result.table.stop_s[-1])
+
+
+def test_a_label_without_length_is_no_recording(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("0\t0\twalk\n", encoding="utf-8")
+    with pytest.raises(ReadError, match="no label that lasts a frame"):
+        read_segments(tmp_path / "a.txt", format="audacity", fps=30)
+
+
+def test_clips_that_last_no_seconds_do_not_tell_the_rate(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("file,start,stop,stop_s\nx.bvh,0,7,0.0\n", encoding="utf-8")
+    with pytest.raises(ReadError, match="frame rate"):
+        read_segments(tmp_path / "a.csv", format="clips")

@@ -60,4 +60,5 @@ def read(path: Path) -> Labels:
     if len(sources) > 1:
         names = ", ".join(sources)
         raise ReadError(path, f"lists clips of {len(sources)} files ({names:.100}): keep one")
-    return Labels(list(spans), "frames", roundest_rate(*seconds) if seconds else None)
+    rate = roundest_rate(*seconds) if seconds and min(seconds) > 0 else None
+    return Labels(list(spans), "frames", rate)

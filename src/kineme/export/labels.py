@@ -111,6 +111,8 @@ def as_segmentation(
         notes.append(f"length of {last} frames taken from the end of the last label")
     elif last > n_frames + 1:  # 1: some programs close with the frame after the last
         raise ReadError(path, f"has labels up to frame {last}, but the recording has {n_frames}")
+    if n_frames < 1:
+        raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
     tiled = _both_levels(rows, n_frames, path)
     return Segmentation.from_columns(
         dict(zip(COLUMNS, zip(*tiled, strict=True), strict=True)),
