@@ -20,6 +20,7 @@ change that old readers would misunderstand gets the next number.
 from __future__ import annotations
 
 import json
+import struct
 import zipfile
 import zlib
 from os import PathLike
@@ -53,6 +54,8 @@ DAMAGE = (
     ValueError,  # pickles, and JSON that is none
     NotImplementedError,  # flags of a zip entry that mean encryption and the like
     RuntimeError,
+    MemoryError,  # a shape that nobody has
+    struct.error,
     zipfile.BadZipFile,
     zlib.error,
 )
@@ -72,7 +75,7 @@ def write(
 def read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDArray[Any]]:
     """The arrays of the knowledge base at ``path``, whose features must have these settings."""
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with Path(path).open("rb") as raw, np.load(raw, allow_pickle=False) as file:
             _check_head(json.loads(str(file["head"])), settings, path)
             arrays = {name: file[name] for name in KINDS}
     except FileNotFoundError as error:

@@ -31,8 +31,8 @@ Ints = NDArray[np.int64]
 
 COVERAGE = 0.75
 """Share of a primitive's frames that a path must pass."""
-BLOCK_PAIRS = 200_000_000
-"""Pairs of frames compared at a time, so that memory does not grow with the knowledge."""
+BLOCK_FRAMES = 8192
+"""Labelled frames searched at a time: memory does not grow with the knowledge, time linearly."""
 
 # Which primitive, in which stretch of the other side, at what cost per node.
 Matches = tuple[Ints, Ints, Floats]
@@ -79,7 +79,7 @@ def label_costs(
     radius : frames farther apart than this do not match
     """
     costs = np.full((len(unknown), n_labels), np.inf)
-    for block, block_codes in _blocks(known, codes, BLOCK_PAIRS // len(unknown.features)):
+    for block, block_codes in _blocks(known, codes):
         of_stretch = np.empty(block.stretches[-1] + 1, np.int64)
         of_stretch[block.stretches] = block_codes
         u, stretch, cost = two_way_matches(unknown, block, radius)
@@ -154,12 +154,12 @@ def _transposed(graph: NeighborGraph) -> NeighborGraph:
     )
 
 
-def _blocks(known: Primitives, codes: Ints, frames: int) -> Iterator[tuple[Primitives, Ints]]:
-    """The known primitives in blocks of whole stretches of about so many frames, with labels."""
+def _blocks(known: Primitives, codes: Ints) -> Iterator[tuple[Primitives, Ints]]:
+    """The known primitives in blocks of whole stretches, with their labels."""
     ends = np.flatnonzero(np.append(np.diff(known.stretches) > 0, True)) + 1
     start = 0
     for end in ends.tolist():
-        if known.starts[end] - known.starts[start] >= frames or end == ends[-1]:
+        if known.starts[end] - known.starts[start] >= BLOCK_FRAMES or end == ends[-1]:
             features = known.features[known.starts[start] : known.starts[end]]
             stretches = known.stretches[start:end] - known.stretches[start]
             yield Primitives(features, known.lengths[start:end], stretches), codes[start:end]

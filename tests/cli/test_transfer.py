@@ -1,0 +1,80 @@
+"""``kineme label`` and ``kineme transfer`` from file to file."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+import kineme as package
+from kineme.datasets import bundled_recording
+from kineme.datasets.bundled import bundled_truth
+from kineme.transfer import KnowledgeBase
+
+
+@pytest.fixture
+def recording(tmp_path: Path) -> Path:
+    return Path(shutil.copy(bundled_recording(), tmp_path / "exercises.bvh"))
+
+
+@pytest.fixture
+def taught(kineme, tmp_path: Path, recording: Path) -> Path:
+    base = tmp_path / "base.npz"
+    done = kineme("label", recording, "--labels", bundled_truth(), "--knowledge", base)
+    assert done.returncode == 0, done.stderr
+    assert f"{len(KnowledgeBase.load(base))} primitives in all" in done.stdout
+    return base
+
+
+def test_what_was_taught_is_found_again(kineme, tmp_path, recording, taught) -> None:
+    done = kineme("transfer", recording, "--knowledge", taught, "-o", "named.csv")
+    assert done.returncode == 0, done.stderr
+    written = package.read_segments(tmp_path / "named.csv")
+    truth = package.read_segments(bundled_truth())
+    own, right = (s.per_frame("label", level="activity") for s in (written, truth))
+    named = own != ""
+    assert named.mean() > 0.5
+    assert (own == right)[named].mean() > 0.9
+    assert "unlabelled primitives labelled" in done.stdout
+
+
+def test_labelling_twice_adds_nothing(kineme, recording, taught) -> None:
+    before = KnowledgeBase.load(taught)
+    kineme("label", recording, "--labels", bundled_truth(), "--knowledge", taught, "-q")
+    assert KnowledgeBase.load(taught).counts() == before.counts()
+
+
+def test_activity_labels_of_another_program_suffice(kineme, tmp_path, recording) -> None:
+    truth = package.read_segments(bundled_truth())
+    package.write_segments(truth, tmp_path / "labels.txt")
+    done = kineme("label", recording, "--labels", "labels.txt", "--knowledge", "new.npz", "-q")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    names = {row.label for row in truth.activities if row.label}
+    assert set(KnowledgeBase.load(tmp_path / "new.npz").counts()) == names
+
+
+def test_json_holds_costs_and_options(kineme, recording, taught) -> None:
+    options = ("--threshold", 0.05, "--spread", "--json")
+    done = kineme("transfer", recording, "--knowledge", taught, "--knowledge", taught, *options)
+    transfer = json.loads(done.stdout)["provenance"]["transfer"]
+    assert (transfer["threshold"], transfer["spread"]) == (0.05, True)
+
+
+def test_what_goes_wrong_is_one_line(kineme, tmp_path, recording, taught) -> None:
+    (tmp_path / "bad.npz").write_bytes(b"PK")
+    before = taught.read_bytes()
+    for arguments, reason in (
+        (("transfer", recording, "--knowledge", "bad.npz"), "is not a knowledge base"),
+        (("transfer", recording, "--knowledge", "gone.npz"), "no such file"),
+        (("label", recording, "--labels", "gone.csv", "--knowledge", taught), "gone.csv"),
+        (("label", recording, "--labels", bundled_truth(), "--knowledge", "bad.npz"), "bad.npz"),
+    ):
+        done = kineme(*arguments)
+        assert done.returncode == 1
+        assert len(done.stderr.splitlines()) == 1
+        assert reason in done.stderr
+    assert taught.read_bytes() == before
+    assert (tmp_path / "bad.npz").read_bytes() == b"PK"
+    assert kineme("transfer", recording, "--knowledge", taught, "--threshold", 0).returncode == 2

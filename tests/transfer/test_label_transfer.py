@@ -1,0 +1,173 @@
+"""transfer_labels(): the right names across bodies, rates and phases, and none where none fits."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.datasets import Action, synthesize
+from kineme.errors import ParameterError
+from kineme.evaluation.trials import load_trials
+from kineme.segmentation.result import Segmentation
+from kineme.transfer import KnowledgeBase, name_primitives, transfer_features, transfer_labels
+
+TAUGHT = synthesize(
+    [Action("walk", 3), Action("kick", 3), Action("walk", 2), Action("jump", 3)], fps=60, seed=1
+)
+KNOWLEDGE = KnowledgeBase.from_recording(TAUGHT.motion, TAUGHT.truth)
+ASKED = synthesize(
+    [Action("jump", 4), Action("walk", 4), Action("squat", 3), Action("kick", 3)],
+    fps=48,
+    size=1.2,
+    seed=5,
+)
+FEATURES = transfer_features(ASKED.motion)
+
+
+def without_labels(segments: Segmentation) -> Segmentation:
+    blank = np.full(len(segments.table), "")
+    return replace(segments, table=replace(segments.table, label=blank))
+
+
+BLANK = without_labels(ASKED.truth)
+
+
+def of_activities(segments: Segmentation) -> list[tuple[str, str]]:
+    rows = zip(ASKED.truth.primitives, segments.primitives, strict=True)
+    return [(truth.label, row.label) for truth, row in rows if truth.kind == "activity"]
+
+
+def test_another_body_at_another_rate_gets_the_right_names() -> None:
+    result = transfer_labels(BLANK, FEATURES, KNOWLEDGE)
+    pairs = of_activities(result)
+    assert {got for truth, got in pairs if truth == "squat"} == {""}  # nobody taught it
+    known = [(truth, got) for truth, got in pairs if truth != "squat"]
+    assert known
+    assert all(truth == got for truth, got in known)
+    activities = [row.label for row in result.activities if row.kind == "activity"]
+    assert activities == ["jump", "walk", "", "kick"]
+
+
+def test_scores_are_margins_and_costs_stay_within_the_threshold() -> None:
+    result = transfer_labels(BLANK, FEATURES, KNOWLEDGE)
+    rows = result.primitives
+    named = rows.label != ""
+    assert (rows.score[named] > 0).all()
+    assert (rows.score[named] <= 1).all()
+    costs = result.provenance["transfer"]["costs"]
+    assert [cost is not None for cost in costs] == named.tolist()
+    assert max(cost for cost in costs if cost is not None) <= 0.12
+    assert f"{named.sum()} of " in result.provenance["notes"][-1]
+
+
+def test_a_lower_threshold_only_takes_labels_away() -> None:
+    before = None
+    for threshold in (0.3, 0.12, 0.08, 0.04, 0.001):
+        named = transfer_labels(BLANK, FEATURES, KNOWLEDGE, threshold=threshold).primitives
+        if before is not None:
+            assert not ((named.label != "") & (before == "")).any()
+        before = named.label
+    assert not (before != "").any()
+
+
+def test_a_persons_labels_stay() -> None:
+    first = int(np.flatnonzero(ASKED.truth.primitives.kind == "activity")[0])
+    row = int(np.flatnonzero(BLANK.table.level == "primitive")[first])
+    labels = BLANK.table.label.astype("U9")
+    labels[row] = "my word"
+    own = replace(BLANK, table=replace(BLANK.table, label=labels))
+    result = transfer_labels(own, FEATURES, KNOWLEDGE, spread=True)
+    assert result.primitives.label[first] == "my word"
+
+
+def test_spreading_names_the_rest_of_a_cluster() -> None:
+    knowledge = KNOWLEDGE.select(KNOWLEDGE.labels != "kick")
+    walk = ASKED.truth.primitives
+    one = np.where(walk.label == "walk", 7, 8)
+    table = BLANK.table
+    cluster = table.cluster.copy()
+    cluster[table.level == "primitive"] = one
+    clustered = replace(BLANK, table=replace(table, cluster=cluster))
+    strict = transfer_labels(clustered, FEATURES, knowledge, threshold=0.09)
+    spread = transfer_labels(clustered, FEATURES, knowledge, threshold=0.09, spread=True)
+    activity = walk.kind == "activity"
+    for number in (7, 8):
+        members = activity & (one == number)
+        votes = Counter(label for label in strict.primitives.label[members].tolist() if label)
+        winner = votes.most_common(1)[0][0] if votes else ""
+        assert set(spread.primitives.label[members].tolist()) == {winner}
+
+
+def test_activities_are_labelled_where_there_are_no_primitives() -> None:
+    table = BLANK.table.select(BLANK.table.level == "activity")
+    result = transfer_labels(replace(BLANK, table=table), FEATURES, KNOWLEDGE)
+    activities = [row.label for row in result.activities if row.kind == "activity"]
+    assert activities == ["jump", "walk", "", "kick"]
+
+
+def test_an_empty_knowledge_base_names_nothing() -> None:
+    empty = KNOWLEDGE.select(np.zeros(len(KNOWLEDGE), bool))
+    assert not transfer_labels(BLANK, FEATURES, empty).table.label.any()
+
+
+@pytest.mark.parametrize("threshold", [0, -1, float("nan"), float("inf")])
+def test_bad_thresholds_are_named(threshold: float) -> None:
+    with pytest.raises(ParameterError, match="threshold must be a number above 0"):
+        transfer_labels(BLANK, FEATURES, KNOWLEDGE, threshold=threshold)
+
+
+def test_features_of_another_recording_are_refused() -> None:
+    with pytest.raises(ParameterError, match="make them with transfer_features"):
+        transfer_labels(BLANK, FEATURES[:10], KNOWLEDGE)
+
+
+def test_primitives_are_called_as_most_of_their_frames() -> None:
+    columns = {
+        "level": ["activity", "activity", "activity"],
+        "kind": ["activity", "transition", "activity"],
+        "start_frame": [0, 50, 60],
+        "stop_frame": [50, 60, 100],
+        "label": ["a", "", "b"],
+    }
+    person = Segmentation.from_columns(columns, n_frames=100, fps=50)
+    cuts = {
+        "level": ["activity", *["primitive"] * 4],
+        "kind": ["activity"] * 5,
+        "start_frame": [0, 0, 30, 51, 59],
+        "stop_frame": [100, 30, 51, 59, 100],
+    }
+    named = name_primitives(Segmentation.from_columns(cuts, n_frames=100, fps=50), person)
+    assert named.primitives.label.tolist() == ["a", "a", "", "b"]
+    assert named.activities.label.tolist() == ["a"]
+
+
+def test_precision_on_subject_86(data_dir: Path) -> None:
+    taught, asked = load_trials(data_dir / "cmu86", ["86_01", "86_10"])
+    bases, named = [], []
+    for trial in (taught, asked):
+        marks = trial.truth.at_means()
+        borders = np.append(marks.borders[:-1] * 4, trial.motion.n_frames)
+        n = len(marks.labels)
+        columns = {
+            "level": ["activity"] * n,
+            "kind": ["activity"] * n,
+            "start_frame": borders[:-1],
+            "stop_frame": borders[1:],
+            "label": list(marks.labels),
+        }
+        person = Segmentation.from_columns(columns, n_frames=trial.motion.n_frames, fps=120)
+        named.append(name_primitives(kineme.segment(trial.motion), person))
+        bases.append(KnowledgeBase.from_recording(trial.motion, named[-1]))
+    features = transfer_features(asked.motion)
+    result = transfer_labels(without_labels(named[1]), features, bases[0])
+    rows = zip(named[1].primitives, result.primitives, strict=True)
+    pairs = [(truth.label, row.label) for truth, row in rows if row.kind == "activity"]
+    found = [(truth, got) for truth, got in pairs if got]
+    assert all(truth == got for truth, got in found)
+    walks = [got for truth, got in pairs if truth == "walk"]
+    assert walks.count("walk") >= 0.8 * len(walks)
