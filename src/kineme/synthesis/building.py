@@ -34,13 +34,15 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 THRESHOLD = 0.08
-"""Metres. Single walking steps of one person differ by about 0.04, walk and run by 0.15."""
+"""Metres, root mean square over the joints. On three takes of subject 86 and the bundled
+recording, 0.05 already joins all but two nodes or fewer of each into one strong part."""
 WINDOW = 1 / 3
 """Seconds; Kovar and Gleicher's."""
 RADIUS = 0.25
-"""Body sizes, in the features of the preset: farther pairs are never below the threshold."""
+"""Body sizes, in the features of the preset."""
 CANDIDATES = 12
-"""Pairs of frames measured for each pair of nodes."""
+"""Pairs of frames measured for each pair of nodes; with this radius, 99.8 % of the jumps are found
+that measuring all pairs of frames finds on these four recordings."""
 
 
 def motion_graph(

@@ -1,4 +1,4 @@
-"""Ways through a motion graph: actions in order, at random, or along a line on the floor.
+"""Ways through a motion graph: actions in order, or at random.
 
 A route is a list of node numbers, each joined to the next by an edge; see
 ``blending.synthesize``.
