@@ -145,12 +145,12 @@ def invariance(cases: Iterable[Case]) -> dict[str, dict[str, float]]:
 
 def show(title: str, rows: dict[str, Scores], promised: Scores | None = None) -> None:
     columns = [name for name in SHOWN if any(name in scores for scores in rows.values())]
-    print(f"\n{title:20}" + "".join(f"{SHOWN[name]:>11}" for name in columns))
+    print(f"\n{title:26}" + "".join(f"{SHOWN[name]:>11}" for name in columns))
     if promised:
         rows = rows | {"promised of kineme": promised}
     for label, scores in rows.items():
         cells = (f"{scores[name]:11.3f}" if name in scores else f"{'':11}" for name in columns)
-        print(f"{label:20}" + "".join(cells))
+        print(f"{label:26}" + "".join(cells))
 
 
 def main() -> None:
