@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -75,6 +76,25 @@ def test_segmenting_finds_the_actions_and_counts_asked_for(
     first = {name: i for i, (name, _) in reversed([*enumerate(wanted)])}
     assert [row.cluster for row in runs] == [runs[first[name]].cluster for name, _ in wanted]
     assert len({row.cluster for row in runs}) == len(first)
+
+
+@pytest.mark.parametrize(
+    ("trial", "actions"),
+    [("86_11", "0*4,1*5,3*4"), ("86_11", "1*5,2*6,1*4"), ("86_14", "0*4,2*6,0*4")],
+)
+def test_and_so_it_does_in_motion_made_of_real_takes(
+    data_dir: Path, trial: str, actions: str
+) -> None:
+    take = kineme.read(data_dir / "cmu86" / f"{trial}.amc")
+    graph = motion_graph([take])
+    wanted = parse_actions(actions)
+    motion = synthesize(graph, [take], action_route(graph, wanted))
+    assert largest_step(motion) <= 1.5 * largest_step(take)
+    assert ankle_slides(motion).mean() < 0.01
+    found = kineme.segment(motion)
+    runs = [row.activity for row in found.activities if row.kind == "activity"]
+    inside = [int((found.primitives.activity == run).sum()) for run in runs]
+    assert inside == [count for _, count in wanted]
 
 
 @pytest.mark.parametrize("seed", range(3))
