@@ -4,8 +4,8 @@ The similarity graph holds the frames of both that are within a radius. A
 primitive u matches a stretch L of labelled ones if a warping path through the
 graph leads from u's beginning to its end inside L (subsequence warping), and
 another through a primitive of L inside the stretch of u. The match costs the
-mean distance of the nodes of the dearer of the two paths. One way alone would
-find a hop in the landing of a kick, and standing still in nearly everything.
+mean distance of the nodes of the dearer of the two paths. One way alone, a
+part of a movement would pass for the whole.
 
 A *stretch* is a run of primitives that touch and are of one kind: cyclic
 movements may be cut at another phase, so a path may cross from one primitive
