@@ -18,11 +18,12 @@ MODULES = {
     for path in sorted(ROOT.rglob("*.py"))
 }
 
-BASE = {"errors", "_version", "_threads", "_files", "_rotations", "_compiled"}
+BASE = {"errors", "_version", "_threads", "_files", "_rotations", "_compiled", "_checks"}
 MOTION = {"motion", "kinematics", "operations"}
 # For each room of the way of the data, all that it may import besides itself.
 DOWNHILL = {
     "errors": set(),
+    "_checks": {"errors"},
     "_threads": set(),
     "_files": {"errors"},
     "_rotations": set(),
@@ -31,7 +32,7 @@ DOWNHILL = {
     "operations": BASE | MOTION,
     "formats": BASE | MOTION,
     "features": BASE | MOTION,
-    "graph": {"errors", "_threads", "_compiled"},
+    "graph": {"errors", "_checks", "_threads", "_compiled"},
     "segmentation": BASE | MOTION | {"features", "graph"},
 }
 # In segmentation only this module may know what a skeleton is.

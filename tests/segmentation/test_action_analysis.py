@@ -249,6 +249,19 @@ def test_a_constant_out_of_range_is_named(name: str, value: object) -> None:
         resolve_preset("kineme", **{name: value})
 
 
+@pytest.mark.parametrize("shape", [(0, 3), (50, 0), (50,)])
+def test_features_of_another_shape_are_refused(shape) -> None:
+    with pytest.raises(ParameterError, match="frames x dims"):
+        analyze_actions(np.zeros(shape), KINEME)
+
+
+def test_a_gap_in_the_features_is_named() -> None:
+    rows = np.zeros((50, 2))
+    rows[20, 1] = np.nan
+    with pytest.raises(ParameterError, match="not finite, first in frame 20"):
+        analyze_actions(rows, KINEME)
+
+
 def test_progress_and_timings_name_the_stages() -> None:
     names: list[str] = []
     found = analyze_actions(np.zeros((40, 2)), KINEME, progress=names.append)

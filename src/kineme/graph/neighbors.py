@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import as_features
 from kineme._threads import even_slices, map_threads
 from kineme.errors import ParameterError
 from kineme.graph import _kernels
@@ -155,8 +156,8 @@ def neighbor_graph(
     ParameterError
         Shapes disagree, values are not finite, or a parameter is out of range.
     """
-    rows = _as_features(features, "features")
-    columns = rows if others is None else _as_features(others, "others")
+    rows = as_features(features)
+    columns = rows if others is None else as_features(others, "others")
     if rows.shape[1] != columns.shape[1]:
         raise ParameterError(f"features have {rows.shape[1]} dimensions, others {columns.shape[1]}")
     if not (np.isfinite(radius) and radius >= 0):
@@ -259,15 +260,3 @@ def _block_shape(n_rows: int, n_columns: int, lag: int) -> tuple[int, int]:
         height = max(height, min(2 * lag, int(BLOCK_ENTRIES**0.5)))
     height = min(height, n_rows)
     return height, min(n_columns, height + 2 * lag)
-
-
-def _as_features(values: ArrayLike, name: str) -> Floats:
-    array = np.ascontiguousarray(values, np.float64)
-    if array.ndim != 2 or 0 in array.shape:
-        raise ParameterError(
-            f"{name} must be frames x dims with at least one of each, not of shape {array.shape}"
-        )
-    if not np.isfinite(array).all():
-        frame = int(np.argmin(np.isfinite(array).all(axis=1)))
-        raise ParameterError(f"{name} hold a value that is not finite, first in frame {frame}")
-    return array

@@ -10,8 +10,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.segmentation import stretches
 from kineme.segmentation._recurrence_kernels import recurrence_distances
@@ -73,7 +74,7 @@ class ActionAnalysis:
 
 
 def analyze_actions(
-    features: NDArray[np.float64], preset: ActionPreset, *, progress: Progress | None = None
+    features: ArrayLike, preset: ActionPreset, *, progress: Progress | None = None
 ) -> ActionAnalysis:
     """Recurrence, actions and repetitions of a sequence of features.
 
@@ -85,13 +86,18 @@ def analyze_actions(
         of stacked blocks.
     preset : ActionPreset
     progress : called with the name of each stage before it runs
+
+    Raises
+    ------
+    ParameterError : features of another shape, empty, or not finite
     """
+    rows = as_features(features)
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
     reach = preset.window if preset.max_lag is None else min(preset.window, preset.max_lag)
     with stage("recurrence"):
         likeness = recurrence(
-            features,
+            rows,
             step=preset.step,
             width=max(1, preset.moments(reach)),
             phase=preset.moments(preset.phase),
@@ -102,14 +108,14 @@ def analyze_actions(
         )
     with stage("actions"):
         found = find_actions(likeness, preset)
-        blocks, labels, confidence = _blocks(found, likeness, preset, len(features))
+        blocks, labels, confidence = _blocks(found, likeness, preset, len(rows))
     with stage("repetitions"):
         counted = _count(likeness, blocks, labels, preset)
     segments = np.unique(np.concatenate([blocks, *(c.cuts for c in counted)]))
     parents = np.searchsorted(blocks, segments[:-1], side="right") - 1
     agreement = np.array([c.agreement for c in counted])[parents]
     return ActionAnalysis(
-        features, likeness, preset, blocks, labels, confidence, segments, agreement, timings
+        rows, likeness, preset, blocks, labels, confidence, segments, agreement, timings
     )
 
 
