@@ -10,51 +10,63 @@ from __future__ import annotations
 
 import argparse
 import os
+import resource
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from statistics import median
 from time import perf_counter
+from typing import NamedTuple
 
-from _measure import interleaved, verdict
+from _measure import verdict
 from kineme.segmentation.presets import PRESETS
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 RECORDING = str(DATA / "cmu86" / "86_10.amc")
 
 
-def process(*arguments: str, cache: str) -> None:
-    """Runs this python with the arguments; a failure is an error here, too."""
+class Took(NamedTuple):
+    """Seconds by the clock, and of processor time, which other work on the machine spares."""
+
+    clock: float
+    processor: float
+
+    def __str__(self) -> str:
+        return f"{self.clock:.2f} s ({self.processor:.2f} s of processor time)"
+
+
+def process(*arguments: str, cache: str) -> Took:
+    """What this python takes with the arguments; a failure is an error here, too."""
     environment = os.environ | {"NUMBA_CACHE_DIR": cache}
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
     subprocess.run(
         [sys.executable, *arguments], env=environment, check=True, stdout=subprocess.DEVNULL
     )
+    clock, after = perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+    return Took(clock, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
 
 
-def seconds(*arguments: str, cache: str) -> float:
-    start = perf_counter()
-    process(*arguments, cache=cache)
-    return perf_counter() - start
+def middle(runs: Iterable[Took]) -> Took:
+    """The medians."""
+    return Took(*map(median, zip(*runs, strict=True)))
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=7)
-    runs = parser.parse_args().runs
-    with tempfile.TemporaryDirectory() as cache:
-        segment = {name: ("-m", "kineme.cli", "segment", "--preset", name, RECORDING)
-                   for name in PRESETS}  # fmt: skip
-        for name, arguments in segment.items():
-            with tempfile.TemporaryDirectory() as empty:
-                first = seconds(*arguments, cache=empty)
-            print(f"{name}, first run ever: {first:.2f} s; {verdict(first, 15)}")
-        works = {name: lambda a=a: process(*a, cache=cache) for name, a in segment.items()}
-        for name, took in interleaved(works, runs=runs).items():
-            print(f"{name}, compiled code cached: {took:.2f} s; {verdict(took, 2)}")
-        bare = median(seconds("-c", "pass", cache=cache) for _ in range(runs))
-        whole = median(seconds("-c", "import kineme", cache=cache) for _ in range(runs))
-        print(f"import kineme: {whole - bare:.3f} s; {verdict(whole - bare, 0.2)}")
+    runs = range(parser.parse_args().runs)
+    for name in PRESETS:
+        segment = ("-m", "kineme.cli", "segment", "--preset", name, RECORDING)
+        with tempfile.TemporaryDirectory() as cache:
+            first = process(*segment, cache=cache)
+            again = middle(process(*segment, cache=cache) for _ in runs)
+        print(f"{name}, first run ever: {first}; {verdict(first.clock, 15)}")
+        print(f"{name}, compiled code cached: {again}; {verdict(again.clock, 2)}")
+    bare = middle(process("-c", "pass", cache="") for _ in runs).clock
+    whole = middle(process("-c", "import kineme", cache="") for _ in runs).clock
+    print(f"import kineme: {whole - bare:.3f} s; {verdict(whole - bare, 0.2)}")
 
 
 if __name__ == "__main__":
