@@ -27,7 +27,10 @@ if TYPE_CHECKING:
 
 
 def info(
-    files: Annotated[list[Path], typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz.")],
+    files: Annotated[
+        list[Path],
+        typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz."),
+    ],
     joints: Annotated[bool, typer.Option("--joints", help="Show the tree of joints.")] = False,
     json: Json = False,
     skeleton: Skeleton = None,

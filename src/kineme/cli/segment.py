@@ -33,7 +33,10 @@ if TYPE_CHECKING:
 
 
 def segment(
-    files: Annotated[list[Path], typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz.")],
+    files: Annotated[
+        list[Path],
+        typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz."),
+    ],
     preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
     output: Annotated[
         Path | None,
