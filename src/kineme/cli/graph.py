@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def graph(
-    files: Annotated[list[Path], typer.Argument(metavar="FILES", help="BVH or AMC files (rotations are needed).")],
+    files: Annotated[list[Path], typer.Argument(metavar="FILES", help="BVH or AMC files.")],
     output: Annotated[Path, typer.Option("--output", "-o", help="The graph: a .json file.")],
     segments: Annotated[
         Path | None,
