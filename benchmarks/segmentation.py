@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import warnings
 from collections import defaultdict
@@ -23,11 +24,17 @@ import numpy as np
 
 import kineme
 from _measure import interleaved, verdict
-from kineme.segmentation.presets import PRESETS, PUBLISHED
+from kineme.segmentation.presets import KRUEGER2017, PRESETS, Preset
 from kineme.segmentation.segmenter import motion_features
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
-REFERENCES = {"voegele2014": "2014_paper", "krueger2017": "2017_plain"}
+PLAIN = KRUEGER2017.replace(bundling=None, radius=0.302 * math.sqrt(5))
+MEASURED = {**PRESETS, "krueger2017, not bundled": PLAIN}
+REFERENCES = {
+    "voegele2014": "2014_paper",
+    "krueger2017": "2017_bundled",
+    "krueger2017, not bundled": "2017_plain",
+}
 
 
 def main() -> None:
@@ -35,28 +42,28 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=21)
     runs = parser.parse_args().runs
     motion = kineme.read(DATA / "cmu86" / "86_10.amc")
-    stages: dict[str, dict[str, list[float]]] = {name: defaultdict(list) for name in PRESETS}
+    stages: dict[str, dict[str, list[float]]] = {name: defaultdict(list) for name in MEASURED}
     works = {}
-    for name, preset in PRESETS.items():
+    for name, preset in MEASURED.items():
         features = motion_features(motion, preset).astype(np.float32)
         copy = features.copy()
 
-        def whole(name: str = name) -> None:
-            for stage, seconds in kineme.segment(motion, preset=name).timings.items():
+        def whole(name: str = name, preset: Preset = preset) -> None:
+            for stage, seconds in kineme.segment(motion, preset=preset).timings.items():
                 stages[name][stage].append(seconds)
 
         works[name] = whole
         works[f"{name} X Y'"] = lambda x=features, y=copy: x @ y.T
         works[f"{name} X X'"] = lambda x=features: x @ x.T
     seconds = interleaved(works, runs=runs)
-    for name in PRESETS:
+    for name in MEASURED:
         took, product, half = (seconds[f"{name}{what}"] for what in ("", " X Y'", " X X'"))
         print(f"{name}: {1000 * took:.1f} ms")
         parts = (f"{stage} {1000 * median(times):.1f}" for stage, times in stages[name].items())
         print("  of which " + ", ".join(parts))
         print(f"  X Y' {1000 * product:.1f} ms: {took / product:.1f} times", end="")
         print(f"; X X' {1000 * half:.1f} ms: {took / half:.1f} times")
-        if name in PUBLISHED:
+        if name in REFERENCES:
             print(f"  seconds: {verdict(took, 0.1)}; times X Y': {verdict(took / product, 8)}")
             path = DATA / "cmu86" / "reference" / f"{REFERENCES[name]}_86_10.json"
             octave = sum(json.loads(path.read_text())["seconds_in_octave"].values())
