@@ -33,6 +33,18 @@ def box_rows(indptr, indices, row_start, row_stop, column_start, column_stop):
     return first, node
 
 
+@njit("Tuple((int64, int64))(int32[::1], int64[::1], int64[::1])", **OPTIONS)
+def used_columns(indices, first, node):
+    """First column with a node, and how many from there hold all: what a ring must span."""
+    low, high = np.int64(np.iinfo(np.int32).max), np.int64(-1)
+    for r in range(len(first)):
+        nodes = node[r + 1] - node[r]
+        if nodes:
+            low = min(low, np.int64(indices[first[r]]))
+            high = max(high, np.int64(indices[first[r] + nodes - 1]))
+    return (low, high - low + 1) if high >= 0 else (np.int64(0), np.int64(0))
+
+
 @njit("Tuple((int32[::1], int64, int64))(int64[:, ::1], int64)", **OPTIONS)
 def empty_ring(steps, width):
     """The ring, the length of its rows, and how far steps reach to the left."""
@@ -215,8 +227,8 @@ def paths_in_box(
     separation,
 ):
     """Cheapest paths through the components of a box: pointers, rows, columns, costs."""
-    width = column_stop - column_start
     first, node = box_rows(indptr, indices, row_start, row_stop, column_start, column_stop)
+    column_start, width = used_columns(indices, first, node)
     roots = component_roots(indices, first, node, steps, column_start, width)
     wanted, last_rows = survey_components(roots, node, min_nodes)
     costs, before, origins = cheapest_arrivals(
