@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 import naive
 from bands import one_sided
 from kineme.segmentation import _action_kernels as kernels
+from kineme.segmentation.numbering import by_first_appearance
 from kineme.segmentation.recurrence import Recurrence, recurrence
 from kineme.segmentation.stretches import (
-    by_first_appearance,
     change_points,
     link,
     merge_parts,

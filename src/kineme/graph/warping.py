@@ -74,6 +74,11 @@ class WarpingPaths:
         (row_start, column_start), (row_end, column_end) = self.starts, self.ends
         return (column_end - column_start) / (row_end - row_start)
 
+    def within_slope(self, max_slope: float) -> NDArray[np.bool_]:
+        """Which paths match stretches that differ by this factor at most in length."""
+        slopes = self.slopes
+        return (slopes >= 1 / max_slope) & (slopes <= max_slope)
+
     def select(self, mask: NDArray[np.bool_]) -> WarpingPaths:
         """The paths where the mask is true, in the same order."""
         nodes = np.repeat(mask, self.n_nodes)
@@ -135,7 +140,7 @@ def warping_paths(
     paths = WarpingPaths(ptr, path_rows, path_columns, costs)
     keep = paths.n_nodes >= min_nodes
     if max_slope is not None:
-        keep &= (paths.slopes >= 1 / max_slope) & (paths.slopes <= max_slope)
+        keep &= paths.within_slope(max_slope)
     return paths.select(keep)
 
 

@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 from kineme._threads import even_slices, map_threads
 from kineme.segmentation import _action_kernels as kernels
 from kineme.segmentation._recurrence_kernels import recurrence_distances
+from kineme.segmentation.numbering import by_first_appearance
 from kineme.segmentation.recurrence import Recurrence
-from kineme.segmentation.stretches import Bins, by_first_appearance
+from kineme.segmentation.stretches import Bins
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,6 +23,7 @@ from kineme._threads import map_threads
 from kineme.graph import NeighborGraph, warping_paths
 from kineme.graph.warping import Step
 from kineme.segmentation import _kernels
+from kineme.segmentation.numbering import by_first_appearance
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +87,7 @@ def cluster_segments(
     targets, shares = zip(*map_threads(links_of, range(n)), strict=True)
     links = _link_matrix(targets, shares)
     _, components = connected_components(links, directed=True, connection=connection)
-    return Clustering(_by_first_appearance(components), _best_shares(links, components))
+    return Clustering(by_first_appearance(components), _best_shares(links, components))
 
 
 def _link_matrix(
@@ -101,11 +102,6 @@ def _link_matrix(
     keep = g != h
     keep[1:] &= (np.diff(g) != 0) | (np.diff(h) != 0)
     return csr_array((share[keep], (g[keep], h[keep])), shape=(n, n))
-
-
-def _by_first_appearance(components: NDArray[np.int32]) -> NDArray[np.int64]:
-    _, first, inverse = np.unique(components, return_index=True, return_inverse=True)
-    return np.argsort(np.argsort(first))[inverse].astype(np.int64)
 
 
 def _best_shares(links: csr_array, components: NDArray[np.int32]) -> NDArray[np.float64]:

@@ -73,14 +73,8 @@ def primitive_cuts(
         separation=separation,
     )
     coherent = _kernels.coherent_paths(paths.ptr, paths.rows, paths.columns, symmetry)
-    paths = paths.select(coherent & slope_within(paths, max_slope))
+    paths = paths.select(coherent & paths.within_slope(max_slope))
     return _choose(paths, first + min_length, last - min_length, min_length)
-
-
-def slope_within(paths: WarpingPaths, max_slope: float) -> NDArray[np.bool_]:
-    """Paths whose projections differ by a factor of ``max_slope`` at most (coverage)."""
-    slopes = paths.slopes
-    return (slopes >= 1 / max_slope) & (slopes <= max_slope)
 
 
 def _choose(paths: WarpingPaths, low: float, high: float, min_length: float) -> PrimitiveCuts:

@@ -23,6 +23,7 @@ from kineme.features import (
 from kineme.features.effectors import Names
 from kineme.motion import Motion
 from kineme.operations import resample
+from kineme.segmentation.numbering import by_first_appearance
 from kineme.segmentation.presets import (
     DEFAULT,
     ActionPreset,
@@ -219,10 +220,7 @@ def _cluster_numbers(analysis: Analysis, parents: NDArray[np.intp]) -> NDArray[n
     labels = analysis.clustering.labels
     lonely = np.bincount(labels)[labels] == 1
     named = ~(lonely & ~analysis.repeats[parents])
-    numbers = np.full(len(labels), -1)
-    _, first, inverse = np.unique(labels[named], return_index=True, return_inverse=True)
-    numbers[named] = np.argsort(np.argsort(first))[inverse]
-    return numbers
+    return by_first_appearance(np.where(named, labels, -1))
 
 
 def _main_clusters(

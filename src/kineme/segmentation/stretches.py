@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from kineme._threads import map_threads
 from kineme.segmentation import _action_kernels, _distance_kernels
 from kineme.segmentation import _recurrence_kernels as kernels
+from kineme.segmentation.numbering import by_first_appearance
 from kineme.segmentation.recurrence import Recurrence
 
 Bins = NDArray[np.int64]
@@ -158,12 +159,3 @@ def repeating(
         for start, stop in pairwise(borders.tolist())
     ]
     return shared | (np.array(within) >= least)
-
-
-def by_first_appearance(labels: NDArray[np.integer]) -> Bins:
-    """The same labels counted from 0 in order of appearance; -1 stays."""
-    known = labels >= 0
-    _, first, inverse = np.unique(labels[known], return_index=True, return_inverse=True)
-    numbered = np.full(len(labels), -1, np.int64)
-    numbered[known] = np.argsort(np.argsort(first))[inverse]
-    return numbered
