@@ -1,0 +1,58 @@
+/** One colour per cluster, the same as in `kineme._colors`. */
+
+const PALETTE = [
+  "#332288",
+  "#DDCC77",
+  "#117733",
+  "#CC6677",
+  "#88CCEE",
+  "#882255",
+  "#999933",
+  "#44AA99",
+  "#AA4499",
+] as const;
+const NO_CLUSTER = "#DDDDDD";
+const MIXES = [
+  { share: 0, grey: 0 },
+  { share: 0.5, grey: 255 },
+  { share: 0.4, grey: 0 },
+] as const;
+
+/** `#RRGGBB` of a cluster; grey for -1, which is none. */
+export function clusterColor(cluster: number): string {
+  if (cluster < 0) return NO_CLUSTER;
+  const color = PALETTE[cluster % PALETTE.length]!;
+  const { share, grey } = MIXES[Math.floor(cluster / PALETTE.length) % MIXES.length]!;
+  const mixed = channelsOf(color).map((channel) =>
+    halfToEven((1 - share) * channel + share * grey),
+  );
+  return "#" + mixed.map((c) => c.toString(16).padStart(2, "0").toUpperCase()).join("");
+}
+
+/** Black or white, whichever is easier to read on a colour. */
+export function inkOn(color: string): "#000000" | "#FFFFFF" {
+  const l = luminance(color);
+  return 1.05 / (l + 0.05) >= (l + 0.05) / 0.05 ? "#FFFFFF" : "#000000";
+}
+
+/** Relative luminance from 0 (black) to 1 (white), as WCAG defines it. */
+export function luminance(color: string): number {
+  const [r, g, b] = channelsOf(color).map((channel) => {
+    const c = channel / 255;
+    return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+  }) as [number, number, number];
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+
+/** Red, green and blue from 0 to 255. */
+export function channelsOf(color: string): [number, number, number] {
+  const at = (i: number): number => parseInt(color.slice(i, i + 2), 16);
+  return [at(1), at(3), at(5)];
+}
+
+/** Python's way of rounding, so that both sides agree to the last digit. */
+function halfToEven(value: number): number {
+  const floor = Math.floor(value);
+  if (value - floor !== 0.5) return Math.round(value);
+  return floor % 2 === 0 ? floor : floor + 1;
+}

@@ -1,0 +1,62 @@
+/** Several panels in one place, one shown at a time; arrow keys go from tab to tab. */
+import { useSignal, type Signal } from "@preact/signals";
+import type { ComponentChildren, JSX } from "preact";
+
+export interface Tab {
+  id: string;
+  title: string;
+  panel: () => ComponentChildren;
+}
+
+interface Props {
+  label: string;
+  tabs: readonly Tab[];
+  /** Which tab is open; the first where not given. */
+  open?: Signal<string>;
+}
+
+export function Tabs({ label, tabs, open }: Props): JSX.Element {
+  const own = useSignal(tabs[0]?.id ?? "");
+  const shown = open ?? own;
+  const tab = tabs.find((each) => each.id === shown.value) ?? tabs[0];
+  const onKeyDown = (event: KeyboardEvent): void => {
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!by || !tab) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const next = tabs[(tabs.indexOf(tab) + by + tabs.length) % tabs.length]!;
+    shown.value = next.id;
+    document.getElementById(`tab-${next.id}`)?.focus();
+  };
+  return (
+    <div class="tabs">
+      <div class="tab-row" role="tablist" aria-label={label} onKeyDown={onKeyDown}>
+        {tabs.map((each) => (
+          <button
+            key={each.id}
+            id={`tab-${each.id}`}
+            role="tab"
+            type="button"
+            aria-selected={each === tab}
+            aria-controls={`panel-${each.id}`}
+            tabIndex={each === tab ? 0 : -1}
+            onClick={() => (shown.value = each.id)}
+          >
+            {each.title}
+          </button>
+        ))}
+      </div>
+      {tab && (
+        <div
+          class="tab-panel"
+          id={`panel-${tab.id}`}
+          role="tabpanel"
+          aria-labelledby={`tab-${tab.id}`}
+          tabIndex={0}
+        >
+          {tab.panel()}
+        </div>
+      )}
+    </div>
+  );
+}

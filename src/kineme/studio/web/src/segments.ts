@@ -1,0 +1,87 @@
+/** Questions about a segment table. */
+import type { Level, Segment, Segments } from "./messages";
+
+/** What the list of clusters says of one. */
+export interface Cluster {
+  id: number;
+  label: string;
+  members: Segment[];
+  /** Seconds of all members together. */
+  total_s: number;
+  mean_s: number;
+}
+
+/** The segments of a level in time order; they tile the recording. */
+export function laneOf(table: Segments, level: Level): Segment[] {
+  return table.segments
+    .filter((segment) => segment.level === level)
+    .sort((a, b) => a.start_frame - b.start_frame);
+}
+
+/** The segment of a lane that holds a frame; the nearest one for frames outside. */
+export function segmentAt(lane: readonly Segment[], frame: number): Segment | undefined {
+  return lane[indexAt(lane, frame)];
+}
+
+/** Position in the lane of the segment that holds a frame; -1 in an empty lane. */
+export function indexAt(lane: readonly Segment[], frame: number): number {
+  let low = 0;
+  let high = lane.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (lane[middle]!.start_frame <= frame) low = middle;
+    else high = middle - 1;
+  }
+  return high < 0 ? -1 : low;
+}
+
+/** The clusters of a lane of primitives, by number. */
+export function clustersOf(primitives: readonly Segment[]): Cluster[] {
+  const members = new Map<number, Segment[]>();
+  for (const segment of primitives) {
+    if (segment.cluster < 0) continue;
+    const others = members.get(segment.cluster);
+    if (others) others.push(segment);
+    else members.set(segment.cluster, [segment]);
+  }
+  return [...members.entries()]
+    .sort(([a], [b]) => a - b)
+    .map(([id, all]) => {
+      const total_s = all.reduce((sum, segment) => sum + durationOf(segment), 0);
+      return { id, label: commonLabel(all), members: all, total_s, mean_s: total_s / all.length };
+    });
+}
+
+export function durationOf(segment: Segment): number {
+  return segment.stop_s - segment.start_s;
+}
+
+/** What people call a segment: its label, else its cluster's number, else its kind. */
+export function nameOf(segment: Segment): string {
+  if (segment.label) return segment.label;
+  if (segment.cluster >= 0) return `cluster ${segment.cluster}`;
+  return segment.kind === "transition" ? "transition" : "no cluster";
+}
+
+/** Neighbours of one label joined; stretches without a label are left out. */
+export function labelSpans(
+  activities: readonly Segment[],
+  primitives: readonly Segment[],
+): Segment[] {
+  const rows = primitives.some((segment) => segment.label) ? primitives : activities;
+  const spans: Segment[] = [];
+  for (const segment of rows) {
+    const last = spans.at(-1);
+    if (!segment.label) continue;
+    if (last && last.label === segment.label && last.stop_frame === segment.start_frame)
+      spans[spans.length - 1] = { ...last, stop_frame: segment.stop_frame, stop_s: segment.stop_s };
+    else spans.push(segment);
+  }
+  return spans;
+}
+
+function commonLabel(segments: readonly Segment[]): string {
+  const counts = new Map<string, number>();
+  for (const { label } of segments) if (label) counts.set(label, (counts.get(label) ?? 0) + 1);
+  return [...counts.entries()].sort((a, b) => b[1] - a[1])[0]?.[0] ?? "";
+}

@@ -1,0 +1,42 @@
+/** One clock for everything that is drawn: at most one picture per refresh of the screen. */
+
+/** Called before each picture with the seconds since the last one (at most 0.1). */
+export type Task = (seconds: number) => void;
+
+export class Ticker {
+  /** Pictures drawn since the page was opened. */
+  drawn = 0;
+  private readonly tasks = new Set<Task>();
+  private readonly times: number[] = [];
+  private pending = 0;
+  private last = 0;
+
+  add(task: Task): () => void {
+    this.tasks.add(task);
+    this.request();
+    return () => this.tasks.delete(task);
+  }
+
+  /** Asks for one more picture. */
+  request(): void {
+    if (this.pending === 0) this.pending = requestAnimationFrame((now) => this.run(now));
+  }
+
+  /** Pictures per second over the last second; 0 when nothing has been drawn. */
+  rate(now: number = performance.now()): number {
+    const recent = this.times.filter((time) => now - time <= 1000);
+    return recent.length < 2 ? 0 : (1000 * (recent.length - 1)) / (recent.at(-1)! - recent[0]!);
+  }
+
+  private run(now: number): void {
+    this.pending = 0;
+    const seconds = Math.min(Math.max((now - this.last) / 1000, 0), 0.1);
+    this.last = now;
+    this.times.push(now);
+    if (this.times.length > 240) this.times.splice(0, 120);
+    this.drawn += 1;
+    for (const task of this.tasks) task(seconds);
+  }
+}
+
+export const ticker = new Ticker();
