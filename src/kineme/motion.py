@@ -151,10 +151,13 @@ class Motion:
     rotations : (frames, joints, 4) unit quaternions (w, x, y, z), local to the
         parent, or None
     provenance : Provenance
+    gaps : frames [start, stop) in which the body was not seen, in time order and
+        apart from each other; positions in them only join what is around
 
     Raises
     ------
-    MotionError : shapes disagree, no frames, or values that are not finite
+    MotionError : shapes disagree, no frames, values that are not finite, or
+        gaps out of order
     """
 
     skeleton: Skeleton
@@ -162,6 +165,7 @@ class Motion:
     fps: float
     rotations: Floats | None = None
     provenance: Provenance = field(default_factory=Provenance)
+    gaps: tuple[tuple[int, int], ...] = ()
 
     def __post_init__(self) -> None:
         _set(self, positions=_frozen(self.positions, "positions"), fps=float(self.fps))
@@ -174,6 +178,8 @@ class Motion:
             )
         if self.n_frames == 0:
             raise MotionError("a motion needs at least one frame")
+        _set(self, gaps=tuple((int(start), int(stop)) for start, stop in self.gaps))
+        _check_gaps(self.gaps, self.n_frames)
         if self.rotations is None:
             return
         _set(self, rotations=_frozen(self.rotations, "rotations"))
@@ -221,6 +227,16 @@ class Motion:
     def joint(self, name: str) -> int:
         """The index of the joint called ``name``; ParameterError if there is none."""
         return self.skeleton.joint(name)
+
+
+def _check_gaps(gaps: tuple[tuple[int, int], ...], n_frames: int) -> None:
+    before = -1
+    for start, stop in gaps:
+        if not before < start < stop <= n_frames:
+            raise MotionError(
+                f"gap {start} to {stop} is not a stretch of {n_frames} frames after the one before"
+            )
+        before = stop
 
 
 def _frozen(values: ArrayLike, what: str) -> Floats:

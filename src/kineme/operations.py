@@ -7,13 +7,13 @@ provenance of what it returns.
 from __future__ import annotations
 
 from dataclasses import replace
-from math import cos, floor, isfinite, sin
+from math import ceil, cos, floor, isfinite, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme import _rotations as rot
-from kineme.errors import ParameterError
+from kineme.errors import MotionError, ParameterError
 from kineme.kinematics import forward_kinematics, local_translations
 from kineme.motion import Motion
 
@@ -45,15 +45,16 @@ def resample(motion: Motion, fps: float) -> Motion:
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
     note = f"resampled from {motion.fps:g} to {fps:g} Hz"
     if abs(ratio - round(ratio)) < 1e-9 * ratio:
-        return _frames(motion, slice(None, None, round(ratio)), fps, note)
+        return _frames(motion, slice(0, motion.n_frames, round(ratio)), fps, note)
     at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
     provenance = motion.provenance.noted(note)
+    gaps = _gaps(motion, 0, ratio, n)
     if motion.rotations is None:
-        return Motion(motion.skeleton, _between(motion.positions, at), fps, None, provenance)
+        return Motion(motion.skeleton, _between(motion.positions, at), fps, None, provenance, gaps)
     rotations = _slerp(motion.rotations, at)
     translations = _between(local_translations(motion), at)
     positions = forward_kinematics(motion.skeleton, rotations, translations=translations)
-    return Motion(motion.skeleton, positions, fps, rotations, provenance)
+    return Motion(motion.skeleton, positions, fps, rotations, provenance, gaps)
 
 
 def cut(motion: Motion, start: int, stop: int) -> Motion:
@@ -63,6 +64,26 @@ def cut(motion: Motion, start: int, stop: int) -> Motion:
             f"frames {start} to {stop} are not a stretch of a motion of {motion.n_frames} frames"
         )
     return _frames(motion, slice(start, stop), motion.fps, f"cut to frames {start} to {stop}")
+
+
+def split_at_gaps(motion: Motion) -> list[tuple[int, Motion]]:
+    """The stretches between a motion's gaps, each after the frame at which it starts.
+
+    A motion without gaps is the only one, as it is.
+
+    Raises
+    ------
+    MotionError : the whole motion is a gap
+    """
+    if not motion.gaps:
+        return [(0, motion)]
+    starts = [0, *(stop for _, stop in motion.gaps)]
+    stops = [*(start for start, _ in motion.gaps), motion.n_frames]
+    spans = zip(starts, stops, strict=True)
+    parts = [(start, cut(motion, start, stop)) for start, stop in spans if start < stop]
+    if not parts:
+        raise MotionError("the body is not seen in any frame of this motion")
+    return parts
 
 
 def scale(motion: Motion, factor: float) -> Motion:
@@ -109,8 +130,25 @@ def move(motion: Motion, offset: ArrayLike) -> Motion:
 
 def _frames(motion: Motion, which: slice, fps: float, note: str) -> Motion:
     rotations = None if motion.rotations is None else motion.rotations[which]
-    provenance = motion.provenance.noted(note)
-    return Motion(motion.skeleton, motion.positions[which], fps, rotations, provenance)
+    positions = motion.positions[which]
+    gaps = _gaps(motion, which.start, which.step or 1, len(positions))
+    return Motion(motion.skeleton, positions, fps, rotations, motion.provenance.noted(note), gaps)
+
+
+def _gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
+    """The gaps among n frames taken from ``first`` on, each ``ratio`` frames after the one before.
+
+    A frame between one that was seen and one that was not counts as not seen.
+    """
+    spans: list[tuple[int, int]] = []
+    for start, stop in motion.gaps:
+        begin = max(0, floor((start - first - 1) / ratio + 1e-9) + 1)
+        end = min(n, ceil((stop - first) / ratio - 1e-9))
+        if spans and begin <= spans[-1][1]:
+            begin = spans.pop()[0]
+        if begin < end:
+            spans.append((begin, end))
+    return tuple(spans)
 
 
 def _between(values: Floats, at: Floats) -> Floats:

@@ -27,6 +27,7 @@ from kineme.errors import KinemeError, KinemeWarning, ReadError
 from kineme.features import pose_features
 from kineme.formats.c3d_file import parse_c3d
 from kineme.formats.files import Source, load
+from kineme.operations import split_at_gaps
 
 REAL = ["Dec_real", "Eb015pi", "Eb015pr", "Eb015si", "sample_propulsion", "walkingOptiTrack"]
 POINTS = z_up_millimetres(walking())
@@ -147,10 +148,31 @@ def test_gaps(tmp_path: Path) -> None:
     points[10:31, t10] = np.nan  # longer: left out
     with pytest.warns(KinemeWarning, match=r"T10 \(frames 10 to 30\)"):
         assert "T10" not in read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT)).skeleton.names
-    points[20:50, ankle] = np.nan
-    with pytest.raises(
-        ReadError, match=r"'RANK', which makes the right ankle, .* frames 20 to 49 \(0.30 s\)"
-    ):
+    points = z_up_millimetres(walking(120))
+    points[30:60, ankle] = np.nan  # longer, and the body needs it: the recording is split
+    with pytest.warns(KinemeWarning, match=r"frames 30 to 59 \(0.30 s\), for gaps .* RANK: the"):
+        broken = read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
+    assert broken.gaps == ((30, 60),)
+    assert [(start, part.n_frames) for start, part in split_at_gaps(broken)] == [(0, 30), (60, 60)]
+    seen = np.r_[0:30, 60:120]
+    wanted = walking(120)[seen, ankle]
+    assert np.abs(broken.positions[seen, broken.joint("right_ankle")] - wanted).max() < 1e-4
+
+
+def test_markers_without_gaps_make_the_body_where_they_can(tmp_path: Path) -> None:
+    points = POINTS.copy()
+    points[10:40, PLUG_IN_GAIT.index("LWRB")] = np.nan
+    with pytest.warns(KinemeWarning, match="left out for gaps above 0.2 s: LWRB"):
+        motion = read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
+    assert motion.gaps == ()
+    assert any("left wrist from LWRA, right wrist from RWRA" in n for n in motion.provenance.notes)
+
+
+def test_a_body_seen_in_no_frame(tmp_path: Path) -> None:
+    points = POINTS.copy()
+    points[:30, PLUG_IN_GAIT.index("LANK")] = np.nan
+    points[30:, PLUG_IN_GAIT.index("RANK")] = np.nan
+    with pytest.raises(ReadError, match="whole in no frame: LANK, RANK are never seen together"):
         read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
 
 

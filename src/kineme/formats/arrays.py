@@ -1,12 +1,7 @@
 """npz and npy: arrays of joint positions, and all of a motion in an npz.
 
-An npz holds
-
-- what `write_npz` leaves: ``positions`` (frames, joints, 3), ``fps``, ``names``,
-  and ``parents``, ``offsets``, ``end_sites``, ``rotations`` (w, x, y, z), in metres
-  with y up. ``positions``, ``names`` and ``fps`` are enough;
-- or one array per column of a table, see `kineme.formats.columns`;
-- or ``poses`` and ``trans``, see `kineme.formats.amass`.
+An npz holds arrays by name, see `kineme.formats.named_arrays`; `write_npz` leaves
+all of a motion but its provenance in one.
 
 An npy holds positions (frames, joints, 3) without names, or records with named
 fields as a table. Pickled objects are refused, and so is an archive that claims
@@ -18,7 +13,6 @@ from __future__ import annotations
 import io
 import zipfile
 import zlib
-from collections.abc import Mapping
 from pathlib import Path
 from tokenize import TokenError
 from typing import Any
@@ -28,26 +22,16 @@ import numpy as np
 from numpy.lib import format as npy_format
 
 from kineme._files import atomic_write
-from kineme.formats.amass import poses_to_motion
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import MOST_EXPANSION, Source, unique
-from kineme.formats.points import Points, to_motion
+from kineme.formats.files import MOST_EXPANSION, Source
+from kineme.formats.named_arrays import Array, arrays_to_motion, positions_to_motion
 from kineme.formats.registry import Format, ReadOptions
-from kineme.motion import Motion, Skeleton
-
-Array = np.ndarray[Any, np.dtype[Any]]
+from kineme.motion import Motion
 
 
 def read_npz(source: Source, options: ReadOptions) -> Motion:
     """The motion in an npz archive."""
-    arrays = _members(source)
-    if "poses" in arrays:
-        return poses_to_motion(source, arrays, options)
-    if "positions" in arrays:
-        return _from_positions(source, arrays, options)
-    columns = {name: array for name, array in arrays.items() if array.ndim == 1}
-    columns |= {name: array[None] for name, array in arrays.items() if array.ndim == 0}
-    return columns_to_motion(source, "npz", columns, options)
+    return arrays_to_motion(source, "npz", _members(source), options)
 
 
 def read_npy(source: Source, options: ReadOptions) -> Motion:
@@ -56,7 +40,7 @@ def read_npy(source: Source, options: ReadOptions) -> Motion:
     if array.dtype.names:
         columns = {name: array[name] for name in array.dtype.names}
         return columns_to_motion(source, "npy", columns, options)
-    return _from_positions(source, {"positions": array}, options)
+    return positions_to_motion(source, "npy", {"positions": array}, options)
 
 
 def write_npz(motion: Motion, path: Path) -> None:
@@ -72,57 +56,10 @@ def write_npz(motion: Motion, path: Path) -> None:
     }
     if motion.rotations is not None:
         arrays["rotations"] = motion.rotations
+    if motion.gaps:
+        arrays["gaps"] = np.array(motion.gaps, np.int64)
     with atomic_write(path) as draft, draft.open("wb") as file:
         np.savez(file, **arrays)
-
-
-def _from_positions(source: Source, arrays: Mapping[str, Array], options: ReadOptions) -> Motion:
-    positions = _numbers(source, arrays, "positions")
-    if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
-        raise source.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
-    fps = options.fps or _rate(source, arrays)
-    if "parents" in arrays and "names" in arrays and not (options.unit or options.up):
-        return _whole(source, arrays, positions, fps)
-    usual = [f"joint{i}" for i in range(positions.shape[1])]
-    names = list(map(str, arrays["names"].ravel())) if "names" in arrays else usual
-    if len(names) != len(usual):
-        raise source.error(f"{len(names)} names for {len(usual)} joints")
-    positions = np.where(np.isfinite(positions), positions, np.nan)
-    points = Points(names, positions, fps, options.unit, options.up)
-    return to_motion(points, source.provenance("npz", []))
-
-
-def _whole(source: Source, arrays: Mapping[str, Array], positions: Array, fps: float) -> Motion:
-    """What `write_npz` wrote, as it was."""
-    n = positions.shape[1]
-    offsets = _numbers(source, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
-    ends = _numbers(source, arrays, "end_sites").ravel() if "end_sites" in arrays else np.empty(0)
-    parents = _numbers(source, arrays, "parents").ravel()
-    if not (np.isfinite(parents).all() and np.isfinite(ends).all()):
-        raise source.error("parents or end_sites are not whole numbers")
-    skeleton = Skeleton(
-        tuple(unique(map(str, arrays["names"].ravel()))),
-        tuple(parents.astype(int).tolist()),
-        offsets,
-        frozenset(ends.astype(int).tolist()),
-    )
-    rotations = _numbers(source, arrays, "rotations") if "rotations" in arrays else None
-    return Motion(skeleton, positions, fps, rotations, source.provenance("npz", []))
-
-
-def _rate(source: Source, arrays: Mapping[str, Array]) -> float:
-    for name in ("fps", "framerate", "frame_rate", "rate"):
-        if name in arrays and arrays[name].size == 1:
-            rate = float(_numbers(source, arrays, name).item())
-            if np.isfinite(rate) and rate > 0:
-                return rate
-    raise source.error("no 'fps' in it: give fps=")
-
-
-def _numbers(source: Source, arrays: Mapping[str, Array], name: str) -> Array:
-    if arrays[name].dtype.kind not in "iufb":
-        raise source.error(f"{name} hold {arrays[name].dtype}, not numbers")
-    return np.asarray(arrays[name], np.float64)
 
 
 def _members(source: Source) -> dict[str, Array]:

@@ -2,15 +2,20 @@
 
 Gaps of up to 0.2 s are filled along a monotone cubic (PCHIP) through the frames
 in which the point was seen; at either end of the recording its nearest position
-is held. Nothing else is made up.
+is held. Longer ones are listed; where the body cannot be told without the point
+they split the recording, and `bridge` joins the positions around them so that
+every frame has some: nobody is to look at those.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from kineme.motion import Motion
 
 Floats = NDArray[np.float64]
 Spans = NDArray[np.intp]
@@ -51,6 +56,44 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
         if long.any():
             gaps.open[point] = spans[long]
     return gaps
+
+
+def bridge(
+    points: Floats, gaps: Gaps, which: Iterable[int], fps: float
+) -> tuple[tuple[int, int], ...]:
+    """The frames [start, stop) in which any of these points has an open gap; they are filled.
+
+    In place, along a straight line. What was seen for no longer than 0.2 s
+    between two gaps is part of one.
+    """
+    n, longest = len(points), int(LONGEST_S * fps + 1e-9)
+    missing = np.zeros(n, np.bool_)
+    for point in which:
+        if point not in gaps.open:
+            continue
+        hidden = covered(gaps.open[point].tolist(), n)
+        seen = np.flatnonzero(~hidden)
+        for axis in range(points.shape[2]):
+            track = points[:, point, axis]
+            track[hidden] = np.interp(np.flatnonzero(hidden), seen, track[seen])
+        missing |= hidden
+    for start, stop in spans_of(~missing).tolist():
+        if missing.any() and stop - start <= longest:
+            missing[start:stop] = True
+    return tuple((start, stop) for start, stop in spans_of(missing).tolist())
+
+
+def covered(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
+    """(n,): whether a frame lies in any of the spans [start, stop)."""
+    inside = np.zeros(n, np.bool_)
+    for start, stop in spans:
+        inside[start:stop] = True
+    return inside
+
+
+def unseen(motion: Motion) -> list[bool]:
+    """For each frame whether it lies in a gap of the motion."""
+    return list(map(bool, covered(motion.gaps, motion.n_frames)))
 
 
 def spans_of(mask: NDArray[np.bool_]) -> Spans:

@@ -7,8 +7,8 @@ that make up no pelvis with hips each stand alone. Offsets are those of the
 frame in which the body stands highest.
 
 Gaps are treated by `kineme.formats.gaps`. A point with a longer gap is left
-out with a warning; if a joint of the body cannot be made without it, the
-recording is refused.
+out with a warning; if a joint of the body cannot be made without it, the gap is
+one of the motion, and splits it.
 """
 
 from __future__ import annotations
@@ -21,13 +21,14 @@ from numpy.typing import NDArray
 
 from kineme.errors import ReadError
 from kineme.formats.files import unique, warn
-from kineme.formats.gaps import LONGEST_S, Gaps, fill_gaps
+from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
 from kineme.formats.units import UNITS, metres, upright
 from kineme.motion import Motion, Provenance, Skeleton
 
 Floats = NDArray[np.float64]
 Body = dict[str, tuple[int, ...]]
+Spans = tuple[tuple[int, int], ...]
 
 SPREADS = (0.3, 3.0)
 """Metres over which markers on a person spread, in the middle of the recording:
@@ -63,8 +64,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
 
     Raises
     ------
-    ReadError : no point was seen throughout, or a joint of the body has a gap
-        too long to fill
+    ReadError : no point was seen throughout, or the body in no frame
     """
     path = provenance.path or "recording"
     names, subjects = of_one_subject([name.strip() or "point" for name in points.names])
@@ -73,39 +73,76 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
         warn(f"{path}: {len(subjects)} subjects: the body is that of {subjects[0]!r}")
     positions = np.array(points.positions, np.float64)
     gaps = fill_gaps(positions, points.fps)
-    kept = [i for i in range(len(names)) if i not in gaps.open]
-    body = find_body(names, kept)
-    _refuse_broken(path, names, gaps, body, points.fps)
-    notes = _said_of_gaps(path, names, gaps, len(positions))
+    body = _least_broken(names, gaps, len(positions))
+    used = _used(body)
+    kept = [i for i in range(len(names)) if i not in gaps.open or i in used]
+    missing = bridge(positions, gaps, used, points.fps)
+    seen = ~covered(missing, len(positions))
     if not kept:
         raise ReadError(path, f"no marker is seen throughout: each has a gap above {LONGEST_S} s")
-    scale, note = _scale(path, points.unit, positions[:, kept])
+    if not seen.any():
+        which = _listed([names[i] for i in sorted(used & gaps.open.keys())])
+        raise ReadError(path, f"the body is whole in no frame: {which} are never seen together")
+    notes = _said_of_gaps(path, names, gaps, kept, len(positions))
+    notes += _said_of_splits(path, names, gaps, used, missing, points.fps)
+    scale, note = _scale(path, points.unit, positions[seen][:, kept])
     notes += note
-    up, note = _up(points, positions, body)
+    up, note = _up(points, positions[seen], body)
     notes += note
-    skeleton, positions = _tree(names, upright(scale * positions, up), body, kept)
+    skeleton, positions = _tree(names, upright(scale * positions, up), body, kept, seen)
     if "pelvis" in body:
         notes.append(f"joints of the body: {described(body, names)}")
-    return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes))
+    return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)
 
 
-def _refuse_broken(path: str, names: list[str], gaps: Gaps, body: Body, fps: float) -> None:
-    """ReadError if a joint of the body would be there but for a long gap."""
-    whole = find_body(names, range(len(names)))
-    for joint in PARENTS:
-        if joint in body or joint not in whole or "pelvis" not in whole:
-            continue
-        point = next(i for i in whole[joint] if i in gaps.open)
-        start, stop = max(gaps.open[point].tolist(), key=lambda span: span[1] - span[0])
-        raise ReadError(
-            path,
-            f"marker {names[point]!r}, which makes the {joint.replace('_', ' ')}, is not seen in "
-            f"frames {start} to {stop - 1} ({(stop - start) / fps:.2f} s): fill gaps above "
-            f"{LONGEST_S} s in the capture program, or export the time without them",
-        )
+def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:
+    """The joints that the points make up, from those that leave the shortest gaps.
+
+    Points with open gaps are taken where a joint cannot be made without.
+    """
+    hidden = {point: covered(spans.tolist(), n_frames) for point, spans in gaps.open.items()}
+    usable = {i for i in range(len(names)) if i not in hidden or not hidden[i].all()}
+    body = find_body(names, usable)
+    if "pelvis" not in body:
+        return find_body(names, usable - hidden.keys())
+    tried: set[int] = set()
+    while broken := (_used(body) & hidden.keys()) - tried:
+        worst = max(broken, key=lambda point: (hidden[point].sum(), -point))
+        without = find_body(names, usable - {worst})
+        tried.add(worst)
+        if without.keys() == body.keys() and _missing(without, hidden) < _missing(body, hidden):
+            usable, body = usable - {worst}, without
+    return body
 
 
-def _said_of_gaps(path: str, names: list[str], gaps: Gaps, n_frames: int) -> list[str]:
+def _used(body: Body) -> set[int]:
+    return {point for made_of in body.values() for point in made_of}
+
+
+def _missing(body: Body, hidden: dict[int, NDArray[np.bool_]]) -> int:
+    """Frames in which one of the body's points was not seen."""
+    masks = [hidden[point] for point in _used(body) & hidden.keys()]
+    return int(np.logical_or.reduce(masks).sum()) if masks else 0
+
+
+def _said_of_splits(
+    path: str, names: list[str], gaps: Gaps, used: set[int], missing: Spans, fps: float
+) -> list[str]:
+    if not missing:
+        return []
+    spans = [f"frames {a} to {b - 1} ({(b - a) / fps:.2f} s)" for a, b in missing]
+    which = [names[point] for point in sorted(used & gaps.open.keys())]
+    note = (
+        f"the body is not seen whole in {_listed(spans)}, for gaps above {LONGEST_S} s in "
+        f"{_listed(which)}: the recording is split there"
+    )
+    warn(f"{path}: {note}")
+    return [note]
+
+
+def _said_of_gaps(
+    path: str, names: list[str], gaps: Gaps, kept: list[int], n_frames: int
+) -> list[str]:
     notes = []
     if gaps.filled:
         most = max(gaps.filled, key=lambda point: gaps.filled[point])
@@ -117,7 +154,7 @@ def _said_of_gaps(path: str, names: list[str], gaps: Gaps, n_frames: int) -> lis
     never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
     if never:
         notes.append(f"never seen, left out: {_listed([names[p] for p in never])}")
-    broken = [p for p in gaps.open if p not in never]
+    broken = [p for p in gaps.open if p not in never and p not in kept]
     if broken:
         said = [
             f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken
@@ -169,7 +206,11 @@ def _up(points: Points, positions: Floats, body: Body) -> tuple[str, list[str]]:
 
 
 def _tree(
-    names: list[str], positions: Floats, body: Body, kept: list[int]
+    names: list[str],
+    positions: Floats,
+    body: Body,
+    kept: list[int],
+    seen: NDArray[np.bool_],
 ) -> tuple[Skeleton, Floats]:
     """The skeleton and its joints' positions: the body's joints first, then the points."""
     if not {"pelvis", "left_hip", "right_hip"} <= body.keys():
@@ -182,7 +223,7 @@ def _tree(
     placed = np.concatenate([np.stack(middles, axis=1), positions[:, rest]], axis=1)
     parents = [joints.index(PARENTS[joint] or "") if PARENTS[joint] else -1 for joint in joints]
     parents += [0] * len(rest)
-    upright_pose = placed[np.ptp(placed[:, :, 1], axis=1).argmax()]
+    upright_pose = placed[(np.ptp(placed[:, :, 1], axis=1) * seen).argmax()]
     offsets = upright_pose - upright_pose[parents]
     offsets[0] = 0
     return Skeleton((*joints, *(names[i] for i in rest)), tuple(parents), offsets), placed

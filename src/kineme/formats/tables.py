@@ -2,7 +2,7 @@
 
 What the columns may be called: `kineme.formats.columns`. Lines before the names
 that begin with ``#`` are passed over. Written are ``time`` in seconds and
-``JOINT_x JOINT_y JOINT_z`` in metres, y up; the skeleton is not.
+``JOINT_x JOINT_y JOINT_z`` in metres, y up, empty in gaps; the skeleton is not.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from kineme.formats.columns import columns_to_motion, is_used
 from kineme.formats.deeplabcut import is_deeplabcut, read_deeplabcut
 from kineme.formats.delimited import rows_of, separator_of
 from kineme.formats.files import MOST_EXPANSION, Source, save, unique
+from kineme.formats.gaps import unseen
 from kineme.formats.registry import Format, ReadOptions
 from kineme.motion import Motion
 
@@ -61,9 +62,10 @@ def write_csv(motion: Motion, path: Path) -> None:
     names = ["time", *(f"{joint}_{axis}" for joint in joints for axis in "xyz")]
     head = ",".join(f'"{name}"' if "," in name else name for name in names) + "\n"
     row = "%.9f" + ",%.9f" * (len(names) - 1) + "\n"
+    empty = "%.9f" + "," * (len(names) - 1) + "\n"
     values = motion.positions.reshape(motion.n_frames, -1).tolist()
-    times = motion.times.tolist()
-    save(path, [head, *(row % (t, *line) for t, line in zip(times, values, strict=True))])
+    rows = zip(motion.times.tolist(), values, unseen(motion), strict=True)
+    save(path, [head, *(empty % t if gap else row % (t, *line) for t, line, gap in rows)])
 
 
 def _cells(line: str, separator: str, source: Source) -> list[str]:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from kineme.formats.delimited import rows_of, separator_of
 from kineme.formats.files import Source, numbers, save, unique, warn
+from kineme.formats.gaps import unseen
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.timing import even_frames
@@ -50,7 +51,7 @@ def read_trc(source: Source, options: ReadOptions) -> Motion:
 
 
 def write_trc(motion: Motion, path: Path) -> None:
-    """Leave the joints' positions in a TRC file, in millimetres."""
+    """Leave the joints' positions in a TRC file, in millimetres; cells in gaps are empty."""
     names = unique(" ".join(name.split()) for name in motion.skeleton.names)
     n, m = motion.n_frames, len(names)
     fps = f"{motion.fps!r}"
@@ -63,8 +64,12 @@ def write_trc(motion: Motion, path: Path) -> None:
         "\t\t" + "\t".join(f"{axis}{i}" for i in range(1, m + 1) for axis in "XYZ") + "\n\n"
     )
     row = "%d\t%.9f" + "\t%.6f" * (3 * m) + "\n"
-    values = (motion.positions / _MM).reshape(n, -1).tolist()
-    lines = (row % (i + 1, i / motion.fps, *line) for i, line in enumerate(values))
+    empty = "%d\t%.9f" + "\t" * (3 * m) + "\n"
+    values = zip((motion.positions / _MM).reshape(n, -1).tolist(), unseen(motion), strict=True)
+    lines = (
+        empty % (i + 1, i / motion.fps) if gap else row % (i + 1, i / motion.fps, *line)
+        for i, (line, gap) in enumerate(values)
+    )
     save(path, [head, *lines])
 
 
