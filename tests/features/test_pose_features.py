@@ -15,7 +15,14 @@ import kineme.formats
 import naive
 from kineme.datasets import Action, synthesize
 from kineme.errors import EndEffectorError, MotionError, ParameterError
-from kineme.features import body_frame, end_effectors, offsets_in_frames, pose_features, stack
+from kineme.features import (
+    body_frame,
+    end_effectors,
+    heading,
+    offsets_in_frames,
+    pose_features,
+    stack,
+)
 from kineme.motion import Motion, Skeleton
 
 RECORDING = synthesize([Action("walk", 2), Action("kick", 2)], fps=30, seed=3).motion
@@ -147,6 +154,16 @@ def test_lying_on_the_side_keeps_the_last_facing() -> None:
         np.testing.assert_allclose(local[frame], back.apply(relative[frame]), atol=1e-12)
     never = Motion.from_rotations(RECORDING.skeleton, quaternions[3:7], 30.0, np.zeros((4, 3)))
     np.testing.assert_array_equal(body_frame(never), never.positions)
+
+
+def test_heading_is_what_the_body_frame_takes_away() -> None:
+    pelvis, angles = heading(RECORDING)
+    relative = RECORDING.positions - RECORDING.positions[:, pelvis, None]
+    back = Rotation.from_euler("y", -angles[:, None])
+    for joint in (2, 7):
+        np.testing.assert_allclose(
+            body_frame(RECORDING)[:, joint], back.apply(relative[:, joint]), atol=1e-9
+        )
 
 
 def test_some_joints_are_those_of_all() -> None:

@@ -3,7 +3,7 @@
 ``bundling`` is not loaded here: it comes with compiled code.
 """
 
-from kineme.features.body_frame import body_frame
+from kineme.features.body_frame import body_frame, heading
 from kineme.features.effectors import PARTS, EndEffectors, Names, end_effectors
 from kineme.features.mirroring import mirror, mirror_features
 from kineme.features.pose import offsets_in_frames, pose_features, stack
@@ -16,6 +16,7 @@ __all__ = [
     "body_frame",
     "body_size",
     "end_effectors",
+    "heading",
     "mirror",
     "mirror_features",
     "offsets_in_frames",

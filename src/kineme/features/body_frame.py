@@ -53,19 +53,34 @@ def body_frame(
     ------
     Voegele et al. 2014, section 3.1; heading as in the authors' program.
     """
-    pelvis, left_hip, right_hip = _pelvis(motion.skeleton, effectors or end_effectors(motion))
+    pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
     positions = motion.positions if joints is None else motion.positions[:, joints]
     relative = positions - motion.positions[:, pelvis, None]
+    x, z = relative[:, :, 0].copy(), relative[:, :, 2]
+    relative[:, :, 0] = cos * x + sin * z
+    relative[:, :, 2] = cos * z - sin * x
+    return relative
+
+
+def heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[int, Floats]:
+    """The pelvis's joint, and the angles (frames,) by which the body looks away from +z.
+
+    Radians about the vertical, positive towards +x: what ``body_frame`` takes
+    away. Arguments and errors are those of ``body_frame``.
+    """
+    pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
+    return pelvis, np.arctan2(-sin, cos)[:, 0]
+
+
+def _turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats]:
+    """The pelvis, and cosine and sine, (frames, 1) each, of the turns that face the body to +z."""
+    pelvis, left_hip, right_hip = _pelvis(motion.skeleton, effectors)
     if motion.rotations is None:
         to_left = motion.positions[:, left_hip] - motion.positions[:, right_hip]
         to_left /= np.maximum(np.linalg.norm(to_left, axis=1, keepdims=True), _UPRIGHT)
     else:
         to_left = _turned_axis(motion.skeleton, motion.rotations, pelvis, left_hip, right_hip)
-    cos, sin = _facing(to_left)
-    x, z = relative[:, :, 0].copy(), relative[:, :, 2]
-    relative[:, :, 0] = cos * x + sin * z
-    relative[:, :, 2] = cos * z - sin * x
-    return relative
+    return pelvis, *_facing(to_left)
 
 
 def _pelvis(skeleton: Skeleton, effectors: EndEffectors) -> tuple[int, int, int]:
