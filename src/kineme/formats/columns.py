@@ -56,7 +56,7 @@ def columns_to_motion(
     names, positions, sure = _joints(source, columns)
     positions[sure < SURE] = np.nan
     flat = all(len(axes) == 2 for axes in _axes(columns).values())
-    fps, positions, notes = _timed(source, columns, positions, options.fps)
+    fps, positions, notes = timed(source, columns, positions, options.fps)
     if (sure < SURE).any():
         notes.append(f"{int((sure < SURE).sum())} positions less sure than {SURE:g} not used")
     unit, up = options.unit, options.up
@@ -70,6 +70,45 @@ def is_used(column: str) -> bool:
     """Whether a column of this name tells a position, a time, a rate or a confidence."""
     patterns = (_COORDINATE, _CONFIDENCE, _TIME, _RATE)
     return any(pattern.fullmatch(column.strip()) for pattern in patterns)
+
+
+def joint_names(columns: Iterable[str]) -> list[str]:
+    """The joints that columns of these names are the coordinates of, in order."""
+    return list(_axes(columns))
+
+
+def is_timing(column: str) -> bool:
+    """Whether a column of this name tells a time or a rate."""
+    return any(pattern.fullmatch(column.strip()) for pattern in (_TIME, _RATE))
+
+
+def timed(
+    source: Source, columns: Mapping[str, ArrayLike], values: Floats, fps: float | None
+) -> tuple[float, Floats, list[str]]:
+    """Frames per second, the values at even times, and what was done.
+
+    Parameters
+    ----------
+    columns : (rows,) each, by their names; one of them tells the time or the rate
+    values : (rows, ...)
+    fps : in place of what the columns tell
+
+    Raises
+    ------
+    ReadError : nothing tells the rate, or what does contradicts itself
+    """
+    if fps:
+        return fps, values, []
+    for column in columns:
+        if _RATE.fullmatch(column.strip()):
+            return _one_rate(source, _column(source, columns, column)), values, []
+    for column in columns:
+        match = _TIME.fullmatch(column.strip())
+        if match:
+            times = _column(source, columns, column, len(values))
+            times = times / 1000 if (match[2] or "").lower() == "ms" else times
+            return even_frames(source, times, values)
+    raise source.error("no column 'time' or 'fps' found: give fps=")
 
 
 def _axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
@@ -117,24 +156,6 @@ def _column(
     if values.ndim != 1 or len(values) == 0 or len(values) != (rows or len(values)):
         raise source.error(f"column {name!r} has shape {values.shape}, not one value per row")
     return values
-
-
-def _timed(
-    source: Source, columns: Mapping[str, ArrayLike], positions: Floats, fps: float | None
-) -> tuple[float, Floats, list[str]]:
-    """Frames per second, positions at even times, and what was done."""
-    if fps:
-        return fps, positions, []
-    for column in columns:
-        if _RATE.fullmatch(column.strip()):
-            return _one_rate(source, _column(source, columns, column)), positions, []
-    for column in columns:
-        match = _TIME.fullmatch(column.strip())
-        if match:
-            times = _column(source, columns, column, len(positions))
-            times = times / 1000 if (match[2] or "").lower() == "ms" else times
-            return even_frames(source, times, positions)
-    raise source.error("no column 'time' or 'fps' found: give fps=")
 
 
 def _one_rate(source: Source, rates: Sequence[float] | Floats) -> float:
