@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from kineme._colors import NO_CLUSTER, cluster_color
 from kineme._files import atomic_write
 from kineme.errors import WriteError
+from kineme.segmentation.parts import in_time
 from kineme.segmentation.result import Segmentation
 
 if TYPE_CHECKING:
@@ -82,8 +83,9 @@ def draw_segmentation(axes: Axes, segmentation: Segmentation, graph: NeighborGra
     """The picture on axes of one's own, with seconds along both."""
     seconds = segmentation.n_frames / segmentation.fps
     bar = 0.022 * seconds
+    gaps = segmentation.provenance.get("gaps", ())
     axes.imshow(
-        similarity_image(graph),
+        similarity_image(in_time(graph, gaps, segmentation.n_frames) if gaps else graph),
         cmap=SHADES,
         vmin=0,
         vmax=1,

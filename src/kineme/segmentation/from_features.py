@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.segmentation.numbering import by_first_appearance
+from kineme.segmentation.parts import Columns, Part, gaps_between, in_source_frames
 from kineme.segmentation.presets import ActionPreset, Preset, RegionPreset
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.stages import Progress
@@ -23,8 +24,6 @@ from kineme.segmentation.stages import Progress
 if TYPE_CHECKING:
     from kineme.segmentation.action_analysis import ActionAnalysis
     from kineme.segmentation.analysis import Analysis, Mirror
-
-Columns = dict[str, NDArray[Any]]
 
 # Scores below which a result is to be looked at: activities whose moments are nearly as
 # much like another action's, and counts that few poses agree on.
@@ -37,6 +36,7 @@ def segment_features(
     *,
     n_frames: int,
     fps: float,
+    parts: Sequence[Part] | None = None,
     mirror: Mirror | None = None,
     source: Mapping[str, Any] | None = None,
     notes: Sequence[str] = (),
@@ -51,6 +51,7 @@ def segment_features(
         Search vectors at the working rate, in the unit that the preset's lengths are in.
     preset : whose class says which method
     n_frames, fps : of the recording, in whose frames the result counts
+    parts : the stretches of it that the features are of, where these are not all
     mirror : exchanges left and right in the features, where they have these
     source : ``path``, ``format`` and ``sha256`` of the recording
     notes : sentences on what was inferred so far
@@ -75,15 +76,18 @@ def segment_features(
         columns = _region_columns(analysis)
     else:
         raise ParameterError(f"no method goes with a preset of type {type(preset).__name__}")
-    columns = _at_source_rate(columns, n_frames, fps / preset.working_fps)
+    parts = parts or [Part(0, n_frames, int(columns["stop_frame"].max()))]
+    columns = in_source_frames(columns, parts, n_frames, fps / preset.working_fps)
     doubts = _doubts(columns, fps) if isinstance(preset, ActionPreset) else []
-    provenance = {
+    provenance: dict[str, Any] = {
         "kineme": __version__,
         "preset": preset.name,
         "parameters": {k: v for k, v in asdict(preset).items() if k != "name"},
         "input": {"path": None, "format": None, "sha256": None, **(source or {})},
         "notes": [*notes, *doubts],
     }
+    if gaps := gaps_between(parts, n_frames):
+        provenance["gaps"] = [list(gap) for gap in gaps]
     result = Segmentation.from_columns(
         columns,
         n_frames=n_frames,
@@ -145,22 +149,6 @@ def _doubts(columns: Columns, fps: float) -> list[str]:
 def _kinds(is_activity: NDArray[np.bool_], parents: NDArray[np.intp]) -> NDArray[np.str_]:
     kinds = np.where(is_activity, "activity", "transition")
     return np.concatenate([kinds, kinds[parents]])
-
-
-def _at_source_rate(columns: Columns, n_frames: int, ratio: float) -> Columns:
-    """The columns in frames of the recording, without rows that vanish there.
-
-    ``ratio``: frames of the recording in one of the working rate.
-    """
-    last = columns["stop_frame"].max()
-    frames = {}
-    for name in ("start_frame", "stop_frame"):
-        at_source = np.rint(columns[name] * ratio).astype(np.int64)
-        frames[name] = np.where(columns[name] == last, n_frames, at_source)
-    columns = {**columns, **frames}
-    # At low frame rates two borders may fall on the same frame.
-    full = columns["start_frame"] < columns["stop_frame"]
-    return {name: column[full] for name, column in columns.items()}
 
 
 def _cluster_numbers(analysis: Analysis, parents: NDArray[np.intp]) -> NDArray[np.int64]:

@@ -19,8 +19,9 @@ from kineme.features import (
 )
 from kineme.features.effectors import Names
 from kineme.motion import Motion
-from kineme.operations import resample
+from kineme.operations import resample, split_at_gaps
 from kineme.segmentation.from_features import segment_features
+from kineme.segmentation.parts import Part
 from kineme.segmentation.presets import DEFAULT, ActionPreset, Preset, resolve_preset
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.stages import Progress
@@ -41,7 +42,8 @@ def segment(
     """Activities, transitions and primitives of a motion, as one table.
 
     Frames and seconds are those of the motion given, whatever the rate at
-    which the preset looks at it.
+    which the preset looks at it. A gap of the motion is a transition; what lies
+    around it is analysed together.
 
     Parameters
     ----------
@@ -75,7 +77,7 @@ def segment_and_analysis(
         progress("features")
     start = time.perf_counter()
     found = end_effectors(motion, names=effectors)
-    features = motion_features(motion, preset, effectors=found)
+    features, parts = _seen_features(motion, preset, found)
     seconds = time.perf_counter() - start
     source = motion.provenance
     return segment_features(
@@ -83,6 +85,7 @@ def segment_and_analysis(
         preset,
         n_frames=motion.n_frames,
         fps=motion.fps,
+        parts=parts,
         mirror=mirror_features,
         source={"path": source.path, "format": source.format, "sha256": source.sha256},
         notes=[*source.notes, f"end effectors: {found.describe(motion.skeleton)}"],
@@ -101,8 +104,33 @@ def motion_features(
     either.
     """
     effectors = effectors or end_effectors(motion)
+    size = body_size(motion, effectors) if isinstance(preset, ActionPreset) else 1.0
+    return _search_vectors(motion, preset, effectors, size)
+
+
+def _seen_features(
+    motion: Motion, preset: Preset, effectors: EndEffectors
+) -> tuple[NDArray[np.float64], list[Part]]:
+    """Search vectors of the stretches between a motion's gaps, and which these are."""
+    if not motion.gaps:
+        features = motion_features(motion, preset, effectors=effectors)
+        return features, [Part(0, motion.n_frames, len(features))]
+    stretches = split_at_gaps(motion)
+    longest = max((part for _, part in stretches), key=lambda part: part.n_frames)
+    size = body_size(longest, effectors) if isinstance(preset, ActionPreset) else 1.0
+    rows = [_search_vectors(part, preset, effectors, size) for _, part in stretches]
+    parts = [
+        Part(start, start + part.n_frames, len(found))
+        for (start, part), found in zip(stretches, rows, strict=True)
+    ]
+    return np.concatenate(rows), parts
+
+
+def _search_vectors(
+    motion: Motion, preset: Preset, effectors: EndEffectors, size: float
+) -> NDArray[np.float64]:
     pose = pose_features(resample(motion, preset.working_fps), effectors=effectors)
     stacked = stack(pose, offsets_in_frames(preset.offsets, preset.working_fps))
     if isinstance(preset, ActionPreset):
-        stacked /= body_size(motion, effectors) * np.sqrt(len(preset.offsets))
+        stacked /= size * np.sqrt(len(preset.offsets))
     return stacked
