@@ -7,16 +7,21 @@ constant added there appears here.
 from __future__ import annotations
 
 import inspect
-import re
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass
+from dataclasses import fields
 from functools import partial, wraps
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import typer
 
-from kineme.segmentation.presets import PRESETS, ActionPreset, Preset, RegionPreset
+from kineme.segmentation.presets import (
+    PRESETS,
+    ActionPreset,
+    Preset,
+    RegionPreset,
+    constant_help,
+)
 
 PANEL = "Constants of the preset (seconds, metres; body sizes in kineme)"
 KINDS = (ActionPreset, RegionPreset)
@@ -57,7 +62,7 @@ def _parameter(name: str, hint: Any) -> inspect.Parameter:
         f"--{name.replace('_', '-')}",
         parser=partial(_parse, hint),
         metavar=_metavar(hint),
-        help=f"{_descriptions().get(name, '')} [dim]\\[{defaults}][/dim]",
+        help=f"{constant_help().get(name, '')} [dim]\\[{defaults}][/dim]",
         rich_help_panel=PANEL,
         show_default=False,
     )
@@ -123,10 +128,3 @@ def _shown(preset: Preset, name: str) -> str:
 
 def _short(value: object) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
-
-
-def _descriptions() -> dict[str, str]:
-    """What the docstrings of the presets say of each field."""
-    texts = [base.__doc__ or "" for kind in KINDS for base in kind.__mro__ if is_dataclass(base)]
-    entries = re.findall(r"^    (\w+) : (.+(?:\n        .+)*)", "\n".join(texts), re.MULTILINE)
-    return {name: " ".join(text.replace("``", "").split()) for name, text in entries}

@@ -7,7 +7,9 @@ methods. Seconds become frames of the working rate in one place,
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from dataclasses import is_dataclass
 from typing import Any
 
 from kineme.errors import ParameterError
@@ -33,6 +35,7 @@ __all__ = [
     "Preset",
     "RegionPreset",
     "Step",
+    "constant_help",
     "resolve_preset",
 ]
 
@@ -53,3 +56,11 @@ def resolve_preset(preset: str | Preset, **overrides: Any) -> Preset:
             raise ParameterError(f"no preset {preset!r}; there are {', '.join(PRESETS)}")
         preset = PRESETS[preset]
     return preset.replace(**overrides)
+
+
+def constant_help() -> dict[str, str]:
+    """What the docstrings of the presets say of each constant."""
+    kinds = (ActionPreset, RegionPreset)
+    texts = [base.__doc__ or "" for kind in kinds for base in kind.__mro__ if is_dataclass(base)]
+    entries = re.findall(r"^    (\w+) : (.+(?:\n        .+)*)", "\n".join(texts), re.MULTILINE)
+    return {name: " ".join(text.replace("``", "").split()) for name, text in entries}
