@@ -57,8 +57,12 @@ def test_a_random_walk_and_a_picture(kineme, graph: Path, tmp_path: Path) -> Non
         (["--actions", "wlak"], "no node is called 'wlak'; there are walk (9), squat (4)"),
         (["--actions", "walk*x"], "'walk*x' is not an action: give names with counts"),
         (["--duration", "-1"], "the duration must be seconds above 0, not -1"),
-        ([], "give either --actions or --duration"),
-        (["--actions", "walk", "--duration", "3"], "give either --actions or --duration"),
+        ([], "give --actions, --path or both, or --duration"),
+        (["--actions", "walk", "--duration", "3"], "--path or both, or --duration"),
+        (["--path", "0,0"], "'0,0' is not a line on the floor: give two or more points x,z"),
+        (["--path", "0,0;0,0.1"], "the line is 0.1 m long: it must have a length"),
+        (["--path", "0,0;3,0", "--actions", "walk*3"], "with --path an action has no count"),
+        (["--path", "0,0;9,0", "--actions", "squat"], "m off the line near 8.7,0.0: give a line"),
     ],
 )
 def test_what_cannot_be_played_is_one_clear_error(

@@ -6,6 +6,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import pybvh
 import pytest
 
 import kineme
@@ -179,3 +180,17 @@ def test_a_route_without_edges_or_of_other_motions_is_refused(
         synthesize(graph, [exercises], [])
     with pytest.raises(ParameterError, match="not those the graph was built on"):
         synthesize(graph, [cut(exercises, 0, 100)], [0])
+
+
+def test_another_program_reads_the_same_motion(
+    exercises: Motion, graph: MotionGraph, tmp_path: Path
+) -> None:
+    motion = synthesize(graph, [exercises], action_route(graph, [("walk", 2), ("jump", 1)]))
+    kineme.write(motion, tmp_path / "new.bvh")
+    other = pybvh.read_bvh_file(tmp_path / "new.bvh")
+    assert other.fps == pytest.approx(motion.fps, rel=1e-4)
+    order = [other.node_index[name] for name in motion.skeleton.names if name in other.joint_names]
+    own = [i for i, name in enumerate(motion.skeleton.names) if name in other.joint_names]
+    apart = other.node_positions()[:, order] / 100 - motion.positions[:, own]
+    assert len(own) > 15
+    assert np.abs(apart).max() < 1e-4

@@ -9,6 +9,7 @@ import typer
 
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Quiet
+from kineme.errors import ParameterError
 
 
 def synthesize(
@@ -18,18 +19,28 @@ def synthesize(
         str | None,
         typer.Option(
             metavar="NAME*COUNT,…",
-            help="Labels or cluster numbers in order, as in walk,run*3,jump.",
+            help="Labels or cluster numbers in order, as in walk,run*3,jump; "
+            "with --path those that may be played, without counts.",
         ),
     ] = None,
+    path: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Z;X,Z;…", help="A line on the floor to follow, metres, as in 0,0;3,0;3,3."
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float, typer.Option(help="Metres that the root may get away from that line.")
+    ] = 0.5,
     duration: Annotated[
         float | None, typer.Option(help="Seconds of a random walk, in place of actions.")
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the random walk.")] = 0,
     quiet: Quiet = False,
 ) -> None:
-    """Play primitives one after the other: given actions, or a random walk."""
-    if (actions is None) == (duration is None):
-        raise typer.BadParameter("give either --actions or --duration")
+    """Play primitives one after the other: given actions, along a line, or a random walk."""
+    if (actions is None and path is None) == (duration is None):
+        raise typer.BadParameter("give --actions, --path or both, or --duration")
     failures = Failures()
     with failures.caught(graph), progress(output.name, quiet=quiet) as stage:
         stage("reading")
@@ -37,14 +48,35 @@ def synthesize(
         from kineme.formats import write
 
         made = synthesis.read_graph(graph)
-        if actions is not None:
-            route = synthesis.action_route(made, synthesis.parse_actions(actions))
+        motions = synthesis.load_sources(made)
+        stage("searching")
+        start = None
+        wanted = synthesis.parse_actions(actions) if actions is not None else []
+        if path is not None:
+            route, start = synthesis.line_route(
+                made,
+                motions,
+                synthesis.parse_line(path),
+                actions=_without_counts(wanted),
+                tolerance=tolerance,
+            )
+        elif wanted:
+            route = synthesis.action_route(made, wanted)
         else:
             route = synthesis.random_route(made, duration or 0, seed)
-        motions = synthesis.load_sources(made)
         stage("blending")
-        motion = synthesis.synthesize(made, motions, route)
+        motion = synthesis.synthesize(made, motions, route, start=start)
         write(motion, output)
         if not quiet:
             typer.echo(f"{motion.duration:.2f} s, {motion.provenance.notes[0]}: {output}")
     failures.exit()
+
+
+def _without_counts(actions: list[tuple[str, int]]) -> list[str]:
+    for name, count in actions:
+        if count > 1:
+            raise ParameterError(
+                f"{name}*{count}: with --path an action has no count, for the line says how far "
+                f"to go; give {name}"
+            )
+    return [name for name, _ in actions]

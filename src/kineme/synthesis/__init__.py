@@ -5,6 +5,7 @@ from kineme.synthesis.building import motion_graph
 from kineme.synthesis.feet import foot_contacts, plant_feet
 from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
 from kineme.synthesis.motion_graph import Edge, MotionGraph, Node, Source
+from kineme.synthesis.paths import line_route, parse_line
 from kineme.synthesis.routes import action_route, following, parse_actions, random_route
 
 __all__ = [
@@ -16,9 +17,11 @@ __all__ = [
     "action_route",
     "following",
     "foot_contacts",
+    "line_route",
     "load_sources",
     "motion_graph",
     "parse_actions",
+    "parse_line",
     "plant_feet",
     "random_route",
     "read_graph",

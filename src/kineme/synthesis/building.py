@@ -29,6 +29,7 @@ from kineme.segmentation.presets import KINEME
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.segmenter import motion_features, segment
 from kineme.synthesis.motion_graph import Edge, MotionGraph, Node, Source
+from kineme.transfer.sharing import share_clusters
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -58,7 +59,8 @@ def motion_graph(
     Parameters
     ----------
     motions : with rotations, of one skeleton and one frame rate
-    segmentations : one for each; found by `kineme.segment` where not given
+    segmentations : one for each; found by `kineme.segment` where not given.
+        Clusters of several recordings that are alike get one number.
     threshold : largest point-cloud distance of a jump, metres
     window : seconds compared, and blended, around a jump
     prune : keep only the largest strongly connected part, which has no dead ends
@@ -75,6 +77,8 @@ def motion_graph(
             f"segments of {[s.n_frames for s in found]} frames do not belong to motions "
             f"of {[m.n_frames for m in motions]}"
         )
+    if len(found) > 1:
+        found = share_clusters(motions, found)
     nodes, natural = _nodes_of(found)
     best = {(e.tail, e.head): e for e in _jumps(motions, nodes, threshold, window)}
     best |= {(e.tail, e.head): e for e in natural}
@@ -113,19 +117,17 @@ def _check(motions: Sequence[Motion], threshold: float, window: float) -> None:
 
 
 def _nodes_of(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
-    """All primitives, clusters numbered on from recording to recording, and their successors."""
+    """All primitives, and the edges to their successors."""
     nodes: list[Node] = []
     edges: list[Edge] = []
-    clusters = 0
     for source, segmentation in enumerate(found):
         rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
         first = len(nodes)
-        for row in rows:
-            cluster = row.cluster + clusters if row.cluster >= 0 else -1
-            nodes.append(Node(source, row.start_frame, row.stop_frame, cluster, row.label))
+        nodes += [
+            Node(source, row.start_frame, row.stop_frame, row.cluster, row.label) for row in rows
+        ]
         for a, b in pairwise(range(first, len(nodes))):
             edges.append(Edge(a, b, nodes[a].stop, nodes[b].start, jump=False))
-        clusters = max([clusters, *(node.cluster + 1 for node in nodes)])
     return nodes, edges
 
 

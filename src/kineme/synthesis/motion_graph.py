@@ -44,8 +44,8 @@ class Source:
 class Node:
     """Frames [start, stop) of a source, by its number.
 
-    ``cluster`` is -1 and ``label`` empty for what has none; clusters of
-    different sources have different numbers.
+    ``cluster`` is -1 and ``label`` empty for what has none; equal clusters are
+    equal movements, whatever their source.
     """
 
     source: int

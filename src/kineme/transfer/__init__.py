@@ -5,11 +5,13 @@ Source: Vögele, Krüger and Klein 2014, section 6.1.
 
 from kineme.transfer.knowledge import KnowledgeBase, transfer_features
 from kineme.transfer.labels import THRESHOLD, name_primitives, transfer_labels
+from kineme.transfer.sharing import share_clusters
 
 __all__ = [
     "THRESHOLD",
     "KnowledgeBase",
     "name_primitives",
+    "share_clusters",
     "transfer_features",
     "transfer_labels",
 ]

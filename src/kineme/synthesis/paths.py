@@ -1,0 +1,246 @@
+"""A way through a motion graph that follows a line on the floor.
+
+Of all ways, one is looked for on which the root stays near the line while it
+goes along it: the cost of a way is the integral over time of its squared
+distance from the line, plus a little for the time itself, so that nobody
+dawdles. The search goes along the line: among the ways that have come equally
+far, to a quarter of a metre, the cheapest go on first, only one for each node
+and direction, and only so many (a beam). It is deterministic.
+
+Source: Kovar, Gleicher and Pighin 2002, section 5, who compare with the point of
+the line at equal arc length; the nearest point farther on forgives swaying.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import count
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError
+from kineme.motion import Motion
+from kineme.synthesis.blending import Placement
+from kineme.synthesis.motion_graph import MotionGraph
+
+Complex = NDArray[np.complex128]
+
+TOLERANCE = 0.5
+"""Metres that the root may get away from the line."""
+SPACING = 0.05
+"""Metres between the points that stand for the line."""
+AHEAD = 0.6
+"""Metres of the line in which the next nearest point is looked for."""
+STEP = 0.1
+"""Seconds from one compared pose to the next."""
+TIME = 0.1
+"""Cost of a second, m² s: as much as being 32 cm off for that long."""
+FAR = 0.25
+"""Metres along the line that count as equally far."""
+TURN = np.pi / 12
+"""Radians that count as the same direction."""
+WIDTH = 400
+"""Ways kept among those equally far."""
+
+
+@dataclass(frozen=True)
+class _Progress:
+    """How far along the line a way has come, what it cost, where it was worst."""
+
+    point: int = 0
+    cost: float = 0.0
+    worst: float = 0.0
+    worst_at: int = 0
+
+
+@dataclass(frozen=True)
+class _Way:
+    """A way up to a node that was entered at a frame, but not yet played."""
+
+    node: int
+    enter: int
+    at: Placement
+    progress: _Progress
+    before: _Way | None = None
+
+    def route(self) -> list[int]:
+        route, way = [self.node], self
+        while way.before is not None:
+            way = way.before
+            route.append(way.node)
+        return route[::-1]
+
+
+def parse_line(text: str) -> list[tuple[float, float]]:
+    """``0,0;2,0;2,3`` as points (x, z) in metres; ParameterError for anything else."""
+    try:
+        points = [tuple(float(number) for number in point.split(",")) for point in text.split(";")]
+    except ValueError:
+        points = []
+    if len(points) < 2 or any(len(p) != 2 or not all(map(isfinite, p)) for p in points):
+        raise ParameterError(
+            f"{text!r} is not a line on the floor: give two or more points x,z in metres, "
+            "as in 0,0;2,0;2,3"
+        )
+    return [(x, z) for x, z in points]
+
+
+def line_route(
+    graph: MotionGraph,
+    motions: Sequence[Motion],
+    line: Sequence[tuple[float, float]],
+    *,
+    actions: Collection[str] = (),
+    tolerance: float = TOLERANCE,
+) -> tuple[list[int], Placement]:
+    """The route whose root goes along a line, and where its first node is laid.
+
+    Parameters
+    ----------
+    graph : MotionGraph
+    motions : those it was built on, in order
+    line : two or more points (x, z) on the floor, metres, joined by straight lines
+    actions : names of the super-nodes that may be played; all where none is given
+    tolerance : metres that the root may get away from the line
+
+    Raises
+    ------
+    ParameterError : a line without length, an action that no node has, or no way
+        stays within the tolerance; the message says how near one comes
+    """
+    if not tolerance > 0:
+        raise ParameterError(f"the tolerance must be metres above 0, not {tolerance}")
+    points = _spaced(line)
+    floors = [m.positions[:, 0, 0] + 1j * m.positions[:, 0, 2] for m in motions]
+    found = _search(graph, floors, points, _allowed(graph, actions))
+    if found is None:
+        raise ParameterError(
+            "no way through the graph goes along this line: give recordings in which somebody "
+            "walks, or name other actions"
+        )
+    way, progress = found
+    if progress.worst > tolerance:
+        off = points[progress.worst_at]
+        raise ParameterError(
+            f"the best way is {progress.worst:.2f} m off the line near "
+            f"{off.real:.1f},{off.imag:.1f}: give a line with wider turns, recordings with more "
+            f"of them, or a tolerance of {np.ceil(progress.worst * 10) / 10:g} m"
+        )
+    route = way.route()
+    return route, _laid(graph, floors, route[0], points)
+
+
+def _search(
+    graph: MotionGraph, floors: Sequence[Complex], points: Complex, nodes: set[int]
+) -> tuple[_Way, _Progress] | None:
+    """The cheapest way to the end of the line; None where all end before it."""
+    heap: list[tuple[int, float, int, _Way]] = []
+    done: list[tuple[_Way, _Progress]] = []
+    seen: set[tuple[int, int, int]] = set()
+    taken: Counter[int] = Counter()
+    number = count()  # of equal ways the one found first goes first
+
+    def push(way: _Way) -> None:
+        bucket = way.progress.point // round(FAR / SPACING)
+        heappush(heap, (bucket, way.progress.cost, next(number), way))
+
+    for node in sorted(nodes):
+        at = _laid(graph, floors, node, points)
+        push(_Way(node, graph.nodes[node].start, at, _Progress()))
+    while heap:
+        bucket, _, _, way = heappop(heap)
+        direction = round(way.at.angle / TURN) % round(2 * np.pi / TURN)
+        if taken[bucket] == WIDTH or (bucket, way.node, direction) in seen:
+            continue
+        seen.add((bucket, way.node, direction))
+        taken[bucket] += 1
+        reached, onward = _expanded(graph, floors, points, nodes, way)
+        if reached.point == len(points) - 1:
+            done.append((way, reached))
+        else:
+            for longer in onward:
+                push(longer)
+    return min(done, key=lambda found: found[1].cost, default=None)
+
+
+def _expanded(
+    graph: MotionGraph, floors: Sequence[Complex], points: Complex, nodes: set[int], way: _Way
+) -> tuple[_Progress, list[_Way]]:
+    """How far the way comes in its last node, and the ways that are longer by one."""
+    step = max(round(STEP * graph.fps), 1)
+    node = graph.nodes[way.node]
+    edges = [graph.edges[number] for number in graph.leaving[way.node]]
+    edges = [edge for edge in edges if edge.head in nodes]
+    stop = max([node.stop, *(edge.leave for edge in edges)])
+    floor = floors[node.source][way.enter : stop : step]
+    reached = _played(way, floor, points, step / graph.fps)
+    onward = []
+    for edge in edges:
+        at = way.at.after(edge.angle, edge.shift) if edge.jump else way.at
+        went = reached[_steps(way.enter, edge.leave, step)]
+        onward.append(_Way(edge.head, edge.enter, at, went, way))
+    return reached[_steps(way.enter, node.stop, step)], onward
+
+
+def _steps(start: int, stop: int, step: int) -> int:
+    """How many poses lie in frames [start, stop)."""
+    return -(-(stop - start) // step)
+
+
+def _played(way: _Way, floor: Complex, points: Complex, seconds: float) -> list[_Progress]:
+    """The progress before each of some poses, ``seconds`` apart, and after the last."""
+    now = way.progress
+    reached = [now]
+    ahead = round(AHEAD / SPACING)
+    for place in np.exp(-1j * way.at.angle) * floor + way.at.shift:
+        if now.point < len(points) - 1:
+            apart = np.abs(points[now.point : now.point + ahead] - place)
+            near = int(apart.argmin())
+            off = float(apart[near])
+            now = _Progress(
+                now.point + near,
+                now.cost + (off**2 + TIME) * seconds,
+                *max((now.worst, now.worst_at), (off, now.point + near)),
+            )
+        reached.append(now)
+    return reached
+
+
+def _spaced(line: Sequence[tuple[float, float]]) -> Complex:
+    """Points along the line, equally far from each other."""
+    corners = np.array([complex(x, z) for x, z in line])
+    lengths = np.abs(np.diff(corners))
+    total = lengths.sum()
+    if len(corners) < 2 or not FAR < total < 1e4:
+        raise ParameterError(
+            f"the line is {total:g} m long: it must have a length from {FAR} m to 10 km"
+        )
+    at = np.concatenate([[0], np.cumsum(lengths)])
+    wanted = np.linspace(0, total, round(total / SPACING) + 1)
+    x, z = (np.interp(wanted, at, part) for part in (corners.real, corners.imag))
+    return np.asarray(x + 1j * z, np.complex128)
+
+
+def _allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
+    """The nodes that may be played: those named, and transition phases."""
+    if not actions:
+        return set(range(len(graph.nodes)))
+    named = {node for name in actions for node in graph.nodes_of(name)}
+    return named | {i for i, node in enumerate(graph.nodes) if not node.name}
+
+
+def _laid(graph: MotionGraph, floors: Sequence[Complex], node: int, points: Complex) -> Placement:
+    """Where a node begins at the line's first point and heads along it."""
+    span = graph.nodes[node]
+    floor = floors[span.source]
+    went = floor[min(span.stop, len(floor) - 1)] - floor[span.start]
+    ahead = points[min(round(max(abs(went), FAR) / SPACING), len(points) - 1)] - points[0]
+    # Placements turn by exp(-i angle).
+    angle = float(np.angle(went) - np.angle(ahead)) if abs(went) > 0 else 0.0
+    turned = Placement(angle)
+    return Placement(angle, complex(points[0]) - turned.of(complex(floor[span.start])))

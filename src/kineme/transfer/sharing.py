@@ -1,0 +1,100 @@
+"""share_clusters(): one number for one movement, over several recordings.
+
+Recording by recording, clusters are looked for in those before as label
+transfer looks for labels, with the clusters' numbers for names.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError
+from kineme.motion import Motion
+from kineme.segmentation.result import Segmentation
+from kineme.transfer.knowledge import KnowledgeBase, transfer_features
+from kineme.transfer.labels import THRESHOLD, transfer_labels
+
+
+def share_clusters(
+    motions: Sequence[Motion],
+    segmentations: Sequence[Segmentation],
+    *,
+    threshold: float = THRESHOLD,
+) -> list[Segmentation]:
+    """The same segments, in which equal cluster numbers are equal movements everywhere.
+
+    The clusters of the first recording keep their numbers. A later cluster takes
+    the number that most of its members find in the recordings before, if more
+    than half find it; of two clusters of one recording only the one of more
+    finds takes it. All others are numbered on.
+
+    Parameters
+    ----------
+    motions : Motion
+    segmentations : one for each; labels are neither used nor changed
+    threshold : body sizes, largest cost of a match; see :func:`transfer_labels`
+
+    Raises
+    ------
+    EndEffectorError : head, hands or feet were not found
+    ParameterError : other segmentations than the motions'
+    """
+    if [m.n_frames for m in motions] != [s.n_frames for s in segmentations]:
+        raise ParameterError(
+            f"segments of {[s.n_frames for s in segmentations]} frames do not belong to motions "
+            f"of {[m.n_frames for m in motions]}"
+        )
+    known: KnowledgeBase | None = None
+    shared, following = [], 0
+    for motion, found in zip(motions, segmentations, strict=True):
+        old = sorted(set(found.table.cluster.tolist()) - {-1})
+        numbers = _met_before(motion, found, known, threshold) if known else {}
+        for cluster in old:
+            if cluster not in numbers:
+                numbers[cluster] = following if known else cluster
+                following = max(following, numbers[cluster]) + 1
+        renumbered = _renumbered(found, numbers)
+        shared.append(renumbered)
+        if old:
+            named = _named_by_cluster(renumbered)
+            own = KnowledgeBase.from_recording(motion, named)
+            known = known + own if known else own
+    return shared
+
+
+def _met_before(
+    motion: Motion, found: Segmentation, known: KnowledgeBase, threshold: float
+) -> dict[int, int]:
+    """The numbers of the clusters that are found in the knowledge."""
+    bare = replace(found, table=replace(found.table, label=np.full(len(found), "")))
+    named = transfer_labels(bare, transfer_features(motion), known, threshold=threshold)
+    rows = named.primitives if len(named.primitives) else named.activities
+    finds: list[tuple[int, int, int]] = []
+    for cluster in sorted(set(rows.cluster.tolist()) - {-1}):
+        own = rows.label[rows.cluster == cluster].tolist()
+        name, count = Counter(own).most_common(1)[0]
+        if name and count > len(own) / 2:
+            finds.append((-count, cluster, int(name)))
+    numbers: dict[int, int] = {}
+    for _, cluster, number in sorted(finds):
+        if number not in numbers.values():
+            numbers[cluster] = number
+    return numbers
+
+
+def _renumbered(found: Segmentation, numbers: dict[int, int]) -> Segmentation:
+    clusters = np.array([numbers.get(c, -1) for c in found.table.cluster.tolist()], np.int64)
+    return replace(found, table=replace(found.table, cluster=clusters))
+
+
+def _named_by_cluster(found: Segmentation) -> Segmentation:
+    """Every segment of a cluster labelled with its number, all others without label."""
+    labels: NDArray[np.str_] = np.array(
+        [str(c) if c >= 0 else "" for c in found.table.cluster.tolist()]
+    )
+    return replace(found, table=replace(found.table, label=labels))

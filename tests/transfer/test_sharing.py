@@ -1,0 +1,64 @@
+"""Clusters of several recordings: equal numbers are equal movements."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.datasets import bundled_recording
+from kineme.errors import ParameterError
+from kineme.operations import cut, scale, turn
+from kineme.transfer import share_clusters
+
+
+def shuffled(found: kineme.Segmentation) -> kineme.Segmentation:
+    """The same segments with their clusters numbered the other way round."""
+    clusters = found.table.cluster
+    turned = np.where(clusters >= 0, clusters.max() - clusters, -1)
+    return replace(found, table=replace(found.table, cluster=turned))
+
+
+def test_the_same_movements_get_the_same_numbers_again() -> None:
+    motion = kineme.read(bundled_recording(), unit="cm")
+    found = kineme.segment(motion)
+    other = scale(turn(motion, 1.0), 1.1)
+    first, second, third = share_clusters(
+        [motion, other, motion], [found, shuffled(kineme.segment(other)), shuffled(found)]
+    )
+    assert first.table == found.table
+    assert (second.activities.cluster == found.activities.cluster).all()
+    assert third.table == found.table
+
+
+def test_what_was_not_there_before_is_numbered_on() -> None:
+    motion = kineme.read(bundled_recording(), unit="cm")
+    half = motion.n_frames // 2
+    parts = [cut(motion, 0, half), cut(motion, half, motion.n_frames)]
+    found = [kineme.segment(part) for part in parts]
+    first, second = share_clusters(parts, found)
+    known = set(first.table.cluster.tolist()) - {-1}
+    new = set(second.table.cluster.tolist()) - {-1} - known
+    assert new
+    assert min(new) == max(known) + 1
+    assert len(set(second.table.cluster.tolist())) == len(set(found[1].table.cluster.tolist()))
+
+
+def test_walking_is_one_cluster_in_all_takes_of_a_subject(data_dir: Path) -> None:
+    motions = [kineme.read(data_dir / "cmu86" / f"{trial}.amc") for trial in ("86_01", "86_11")]
+    first, second = share_clusters(motions, [kineme.segment(motion) for motion in motions])
+    both = set(first.table.cluster.tolist()) & set(second.table.cluster.tolist()) - {-1}
+    assert both == {0}
+    walked = second.activities.cluster == 0
+    assert walked[0] or walked[1]
+    assert walked.sum() == 2
+
+
+def test_segments_of_another_recording_are_refused() -> None:
+    motion = kineme.read(bundled_recording(), unit="cm")
+    found = kineme.segment(motion)
+    with pytest.raises(ParameterError, match="do not belong"):
+        share_clusters([cut(motion, 0, 100)], [found])
