@@ -55,6 +55,15 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
         segment_and_analysis as segment_and_analysis,
     )
     from kineme.segmentation.table import Segment as Segment, SegmentTable as SegmentTable
+    from kineme.synthesis import (
+        MotionGraph as MotionGraph,
+        motion_graph as motion_graph,
+        synthesize as synthesize,
+    )
+    from kineme.transfer import (
+        KnowledgeBase as KnowledgeBase,
+        transfer_labels as transfer_labels,
+    )
 
 _HOMES = {
     "kineme.datasets": ("bundled_recording",),
@@ -82,6 +91,8 @@ _HOMES = {
     "kineme.segmentation.result": ("Segmentation",),
     "kineme.segmentation.segmenter": ("segment", "segment_and_analysis"),
     "kineme.segmentation.table": ("Segment", "SegmentTable"),
+    "kineme.synthesis": ("MotionGraph", "motion_graph", "synthesize"),
+    "kineme.transfer": ("KnowledgeBase", "transfer_labels"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
