@@ -1,2 +1,53 @@
-/** The studio. */
+/** The studio: recordings of a folder, from the server that the page came from. */
+import { effect } from "@preact/signals";
+import { render } from "preact";
 import "../styles/index.css";
+import "./studio.css";
+import { startPlayer } from "../player";
+import { Store } from "../store";
+import { Api, pageToken } from "./api";
+import { Editor } from "./editor";
+import { commandOf } from "./keys";
+import { Session } from "./session";
+import { Front, Studio } from "./Studio";
+import { announceTab } from "./unsent";
+import { Uploads } from "./uploads";
+
+function start(): void {
+  announceTab();
+  const store = new Store();
+  const session = new Session(new Api(pageToken()), store);
+  const editor = new Editor(session);
+  const front = new Front();
+  store.edits.value = {
+    moveBorder: (level, frame, to) => editor.moveBorder(level, frame, to),
+  };
+  addEventListener("keydown", (event) => onKey(event, editor, front));
+  effect(() => {
+    if (editor.naming.value) front.tab.value = "segment";
+  });
+  effect(() => {
+    if (store.other.value) front.tab.value = "compare";
+  });
+  effect(() => {
+    document.title = `${store.recording.value?.name ?? "kineme"} · kineme studio`;
+  });
+  startPlayer(store);
+  render(
+    <Studio session={session} editor={editor} uploads={new Uploads(session)} front={front} />,
+    document.getElementById("page")!,
+  );
+  void session.start();
+}
+
+function onKey(event: KeyboardEvent, editor: Editor, front: Front): void {
+  const typing =
+    event.target instanceof Element && event.target.closest("input, select, textarea, dialog");
+  if (typing || event.defaultPrevented) return;
+  const command = commandOf(event, editor, (dialog) => (front.dialog.value = dialog));
+  if (!command) return;
+  event.preventDefault();
+  command();
+}
+
+start();

@@ -1,0 +1,124 @@
+/** The bar on top: what is open, undo and redo, whether everything is saved, and the dialogs. */
+import type { JSX } from "preact";
+import { theme, toggleTheme } from "../theme";
+import type { Session } from "./session";
+
+export type DialogName = "transfer" | "compare" | "export" | "help";
+
+interface Props {
+  session: Session;
+  show: (dialog: DialogName) => void;
+}
+
+export function Header({ session, show }: Props): JSX.Element {
+  const document = session.document.value;
+  const recording = document?.shown.value;
+  const other = theme.value === "dark" ? "light" : "dark";
+  return (
+    <>
+      <h1>kineme</h1>
+      <span class="folder quiet" title={session.state.value?.folder}>
+        {recording?.name ?? session.state.value?.folder}
+      </span>
+      <span class="spacer" />
+      <span class="group">
+        <button
+          type="button"
+          disabled={!recording?.can_undo && !session.unsent.value.length}
+          title="Undo (Ctrl+Z)"
+          onClick={() => document?.undo()}
+        >
+          ↶ Undo
+        </button>
+        <button
+          type="button"
+          disabled={!recording?.can_redo}
+          title="Redo (Ctrl+Shift+Z)"
+          onClick={() => document?.edit({ kind: "redo" })}
+        >
+          ↷ Redo
+        </button>
+      </span>
+      <SaveState session={session} />
+      <span class="group">
+        <Opener
+          name="transfer"
+          title="Labels from a knowledge base (T)"
+          disabled={!recording}
+          show={show}
+        >
+          Labels…
+        </Opener>
+        <Opener
+          name="compare"
+          title="Compare with another result (C)"
+          disabled={!recording}
+          show={show}
+        >
+          Compare…
+        </Opener>
+        <Opener
+          name="export"
+          title="Write the segments as a file (E)"
+          disabled={!recording}
+          show={show}
+        >
+          Export…
+        </Opener>
+      </span>
+      <button
+        type="button"
+        class="icon"
+        title={`Show it ${other}`}
+        aria-label={`Show it ${other}`}
+        onClick={toggleTheme}
+      >
+        ◐
+      </button>
+      <button
+        type="button"
+        class="icon"
+        title="Keys and help (?)"
+        aria-label="Keys and help"
+        onClick={() => show("help")}
+      >
+        ?
+      </button>
+    </>
+  );
+}
+
+function Opener(props: {
+  name: DialogName;
+  title: string;
+  disabled: boolean;
+  show: (dialog: DialogName) => void;
+  children: string;
+}): JSX.Element {
+  return (
+    <button
+      type="button"
+      title={props.title}
+      disabled={props.disabled}
+      onClick={() => props.show(props.name)}
+    >
+      {props.children}
+    </button>
+  );
+}
+
+/** "saved as …", or how many edits are not. */
+function SaveState({ session }: { session: Session }): JSX.Element {
+  const saved = session.document.value?.confirmed.value.saved;
+  const waiting = session.unsent.value.length;
+  const text = waiting
+    ? `saving ${waiting} ${waiting === 1 ? "edit" : "edits"}…`
+    : saved
+      ? `saved as ${saved}`
+      : "not corrected yet";
+  return (
+    <span class="save-state quiet" role="status" data-unsent={waiting} title={text}>
+      {session.document.value ? text : ""}
+    </span>
+  );
+}

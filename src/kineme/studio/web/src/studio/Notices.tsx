@@ -1,0 +1,78 @@
+/** What needs attention, across the page; and the news of the moment. */
+import type { JSX } from "preact";
+import type { Session } from "./session";
+
+export function Notices({ session }: { session: Session }): JSX.Element {
+  const { bulletin, trouble, unsent } = session;
+  const held = session.document.value?.held.value;
+  const news = bulletin.news.value;
+  return (
+    <>
+      <div class="notices" role="alert">
+        {trouble.value && (
+          <div class="notice danger" data-notice="trouble">
+            <p>
+              {trouble.value} {unsent.value.length > 0 && <Waiting edits={unsent.value} />}
+            </p>
+          </div>
+        )}
+        {held && !trouble.value && <Held session={session} reason={held} />}
+        {bulletin.problems.value.map((text) => (
+          <div class="notice danger" data-notice="problem" key={text}>
+            <p>{text}</p>
+            <button
+              type="button"
+              class="icon"
+              aria-label="Dismiss"
+              onClick={() => bulletin.dismiss(text)}
+            >
+              ×
+            </button>
+          </div>
+        ))}
+      </div>
+      <div class="news-place" role="status">
+        {news && (
+          <div class="news">
+            {news.text}
+            {news.undo && (
+              <button type="button" onClick={news.undo}>
+                Undo
+              </button>
+            )}
+          </div>
+        )}
+      </div>
+    </>
+  );
+}
+
+/** Edits that could not be made, and the choice to make or drop them. */
+function Held({ session, reason }: { session: Session; reason: string }): JSX.Element {
+  const document = session.document.value!;
+  return (
+    <div class="notice" data-notice="held">
+      <p>
+        {reason} The table below is shown with your edits on it.{" "}
+        <Waiting edits={document.unsent()} />
+      </p>
+      <button type="button" class="primary" onClick={() => document.retry()}>
+        Make them here
+      </button>
+      <button type="button" onClick={() => document.drop()}>
+        Drop them
+      </button>
+    </div>
+  );
+}
+
+function Waiting({ edits }: { edits: string[] }): JSX.Element {
+  const last = edits.slice(-3);
+  const more = edits.length - last.length;
+  return (
+    <span class="waiting">
+      Not saved yet: {more > 0 && `${more} earlier, `}
+      {last.join("; ")}.
+    </span>
+  );
+}

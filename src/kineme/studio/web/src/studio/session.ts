@@ -1,0 +1,173 @@
+/**
+ * What the studio has at hand: the folder, the open recordings, the line to the server.
+ *
+ * A recording that was opened stays with the session, shown or not, so that its
+ * edits are sent even after it was closed.
+ */
+
+import { computed, effect, signal } from "@preact/signals";
+import type { Changed, Comparison, CompareRequest, State } from "../messages";
+import type { Motion } from "../motion";
+import { loadMotion, type Opened, type Store } from "../store";
+import { type Api, explain, Refused, RETRY, Unreachable } from "./api";
+import { Document } from "./document";
+import { ServerSource } from "./serverSource";
+import { Bulletin } from "./news";
+
+export class Session {
+  readonly state = signal<State | null>(null);
+  /** Why the server cannot be worked with, in a sentence; null while it can. */
+  readonly trouble = signal<string | null>(null);
+  /** The recording that is being opened. */
+  readonly opening = signal<string | null>(null);
+  /** Only this class lays another result beside the shown one. */
+  readonly comparison = computed(() => this.store.other.value as Comparison | null);
+  readonly bulletin = new Bulletin();
+  readonly document = computed(() => this.shownAs.get(this.store.active.value!));
+  /** Edits of all recordings that the server has not confirmed. */
+  readonly unsent = computed(() => this.documents.value.flatMap((document) => document.unsent()));
+
+  private readonly documents = signal<Document[]>([]);
+  private readonly shownAs = new WeakMap<Opened, Document>();
+  private retrying = 0;
+
+  constructor(
+    readonly api: Api,
+    readonly store: Store,
+  ) {}
+
+  /** Asks for the folder, opens what was open before, and listens for changes from then on. */
+  async start(): Promise<void> {
+    if (!(await this.refresh())) return;
+    this.api.listen(
+      (change) => void this.changed(change),
+      (up) => void (up ? this.recover() : this.refresh()),
+    );
+    const { recordings } = this.state.value!;
+    const before = fromAddress().filter((id) => recordings.some((each) => each.id === id));
+    const first = before.length ? before : recordings.slice(0, 1).map((each) => each.id);
+    for (const id of first) await this.open(id, { beside: true });
+    effect(() => toAddress(this.store.opened.value));
+  }
+
+  /** The folder as it is now; whether the server told. */
+  async refresh(): Promise<boolean> {
+    try {
+      this.state.value = await this.api.state();
+      return true;
+    } catch (error) {
+      if (error instanceof Unreachable) this.lost();
+      else this.trouble.value = refusal(error);
+      return false;
+    }
+  }
+
+  /** Shows a recording, alone or beside those shown. */
+  async open(id: string, { beside = false } = {}): Promise<void> {
+    const { store } = this;
+    const index = store.opened.value.findIndex((each) => each.recording.value.id === id);
+    if (index >= 0) {
+      store.show(index);
+      if (!beside) this.closeOthers(id);
+      return;
+    }
+    this.opening.value = id;
+    try {
+      const opened = await this.fetch(id);
+      store.add(opened);
+      if (!beside) this.closeOthers(id);
+      await loadMotion(opened);
+    } catch (error) {
+      this.bulletin.problem(explain(error));
+    } finally {
+      this.opening.value = null;
+    }
+  }
+
+  close(id: string): void {
+    const index = this.store.opened.value.findIndex((each) => each.recording.value.id === id);
+    if (index >= 0) this.store.close(index);
+  }
+
+  /** Lays another result below the shown one; whether there is one. */
+  async compare(request: CompareRequest): Promise<boolean> {
+    const document = this.document.value;
+    if (!document) return false;
+    try {
+      this.store.other.value = await this.api.compare(document.id, request);
+      return true;
+    } catch (error) {
+      this.bulletin.problem(explain(error));
+      return false;
+    }
+  }
+
+  stopComparing(): void {
+    this.store.other.value = null;
+  }
+
+  /** Nobody answers: ask again every second until somebody does. */
+  lost(): void {
+    if (this.retrying) return;
+    this.trouble.value =
+      "The studio’s server does not answer. Everything confirmed is saved; what follows waits here until it is back.";
+    this.retrying = window.setInterval(() => void this.recover(), RETRY);
+  }
+
+  /** The server is there, maybe another one: what was missed is asked for, what waits is sent. */
+  private async recover(): Promise<void> {
+    if (!(await this.refresh())) return;
+    window.clearInterval(this.retrying);
+    this.retrying = 0;
+    this.trouble.value = null;
+    for (const document of this.documents.value) await document.resume();
+  }
+
+  private async fetch(id: string): Promise<Opened> {
+    const document =
+      this.documents.value.find((each) => each.id === id) ??
+      (await Document.open(id, {
+        api: this.api,
+        folder: this.state.value?.folder ?? "",
+        lost: () => this.lost(),
+        tell: (text, undo) => this.bulletin.tell(text, undo),
+      }));
+    if (!this.documents.value.includes(document))
+      this.documents.value = [...this.documents.value, document];
+    const opened = {
+      source: new ServerSource(this.api, id),
+      recording: signal(document.shown.peek()),
+      motion: signal<Motion | null>(null),
+    };
+    effect(() => void (opened.recording.value = document.shown.value));
+    this.shownAs.set(opened, document);
+    return opened;
+  }
+
+  private closeOthers(id: string): void {
+    for (const { recording } of this.store.opened.value)
+      if (recording.value.id !== id) this.close(recording.value.id);
+  }
+
+  private async changed(change: Changed): Promise<void> {
+    const document = this.documents.value.find((each) => each.id === change.recording);
+    if (document) await document.changed(change.revision);
+    else await this.refresh();
+  }
+}
+
+function refusal(error: unknown): string {
+  return error instanceof Refused && error.status === 403
+    ? "The studio was started anew, and this address is no longer valid. Open the address it printed; unsent edits come along."
+    : explain(error);
+}
+
+/** The recordings named in the address, so that a reload finds them. */
+function fromAddress(): string[] {
+  return new URLSearchParams(location.hash.slice(1)).getAll("open");
+}
+
+function toAddress(opened: Opened[]): void {
+  const open = opened.map((each) => ["open", each.recording.peek().id]);
+  history.replaceState(null, "", `${location.search}#${new URLSearchParams(open)}`);
+}

@@ -1,0 +1,61 @@
+/** Small segment tables and recordings for the tests of the studio. */
+import type { Level, Recording, Segment, Segments } from "../../src/messages";
+
+export const FPS = 10;
+
+/** A row of a level from its first frame, last frame, cluster and label. */
+export function row(level: Level, start: number, stop: number, cluster = 0, label = ""): Segment {
+  return {
+    level,
+    kind: "activity",
+    start_frame: start,
+    stop_frame: stop,
+    start_s: start / FPS,
+    stop_s: stop / FPS,
+    cluster,
+    activity: 0,
+    label,
+    score: null,
+  };
+}
+
+/** One activity of 100 frames, and primitives of 30, 30 and 40. */
+export function table(): Segments {
+  return {
+    schema: "kineme.segments/1",
+    n_frames: 100,
+    fps: FPS,
+    provenance: {},
+    timings: {},
+    segments: [
+      row("activity", 0, 100),
+      row("primitive", 0, 30, 0),
+      row("primitive", 30, 60, 1),
+      row("primitive", 60, 100, 0),
+    ],
+  };
+}
+
+export function recording(segmentation = table(), revision = 0): Recording {
+  return {
+    id: "take",
+    name: "take.bvh",
+    n_frames: 100,
+    fps: FPS,
+    motion: null,
+    matrix: { fps: 10, tile: 256, sizes: [100], band: null },
+    segmentation,
+    revision,
+    can_undo: false,
+    can_redo: false,
+    saved: "",
+    warnings: [],
+  };
+}
+
+/** First frames of the primitives. */
+export function starts(segmentation: Segments): number[] {
+  return segmentation.segments
+    .filter((segment) => segment.level === "primitive")
+    .map((segment) => segment.start_frame);
+}
