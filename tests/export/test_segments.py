@@ -233,3 +233,21 @@ def test_parquet_without_pyarrow_names_the_extra(
     monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
     with pytest.raises(MissingDependencyError, match=r"pip install 'kineme\[tables\]'"):
         write_segments(small, tmp_path / "cuts.parquet")
+
+
+def test_a_list_kept_by_hand_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "by_hand.csv"
+    path.write_text("label,start_s,stop_s,by\nsquat,4,6.5,me\nwalk,0.5,4,me\n")
+    found = read_segments(path, fps=10, n_frames=70)
+    rows = [(row.kind, row.start_frame, row.stop_frame, row.label) for row in found]
+    assert rows == [
+        ("transition", 0, 5, ""),
+        ("activity", 5, 40, "walk"),
+        ("activity", 40, 65, "squat"),
+        ("transition", 65, 70, ""),
+    ]
+    path.write_text("start_frame,stop_frame,label\n0,40,walk\n")
+    assert read_segments(path, fps=10).activities.stop_frame.tolist() == [40]
+    path.write_text("start,end,label\n0,40,walk\n")
+    with pytest.raises(ReadError, match="no header line with the columns 'start_s', 'stop_s'"):
+        read_segments(path, fps=10)

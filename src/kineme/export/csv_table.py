@@ -5,6 +5,10 @@ What does not fit into a table (frame rate, provenance, timings) goes into
 ``NAME.provenance.json`` beside ``NAME.csv``. Without that file the frame rate
 is found again from the last row, and the table keeps all it says.
 An empty score is nan. Columns are found by name; others are ignored.
+
+A list that people keep by hand, without a column ``level``, is read as well:
+``label`` with ``start_s`` and ``stop_s``, or with ``start_frame`` and
+``stop_frame``, in any order; what no row covers is a transition.
 """
 
 from __future__ import annotations
@@ -14,11 +18,13 @@ import json
 import math
 from dataclasses import astuple
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError
+from kineme.export.delimited import number, read_rows
 from kineme.export.json_table import SCHEMA, head_of, parse, with_head
+from kineme.export.labels import Labels, Span
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.table import COLUMNS, Segment
 
@@ -30,6 +36,10 @@ NUMBERS: dict[str, type[int | float]] = {
     "cluster": int,
     "activity": int,
     "score": float,
+}
+SPANS: dict[Literal["seconds", "frames"], tuple[str, str]] = {
+    "seconds": ("start_s", "stop_s"),
+    "frames": ("start_frame", "stop_frame"),
 }
 
 
@@ -44,9 +54,12 @@ def write(segmentation: Segmentation, path: Path) -> None:
             rows.writerows(map(_cells, segmentation))
 
 
-def read(path: Path) -> Segmentation:
-    """The segmentation at ``path``, with what lies beside it if it is there."""
+def read(path: Path) -> Segmentation | Labels:
+    """What is at ``path``, with what lies beside it if it is there."""
     with path.open(encoding="utf-8-sig", newline="") as file:
+        if "level" not in next(csv.reader([file.readline()]), []):
+            return _list(path)
+        file.seek(0)
         columns = _columns(csv.DictReader(file, strict=True), path)
     beside = provenance_path(path)
     if beside.is_file():
@@ -71,6 +84,18 @@ def roundest_rate(n_frames: int, seconds: float) -> float:
     """Of the frame rates at which so many frames last so long, the one with fewest digits."""
     rounded = (round(n_frames / seconds, digits) for digits in range(16))
     return next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
+
+
+def _list(path: Path) -> Labels:
+    """The labels of a list without levels."""
+    unit: Literal["seconds", "frames"] = "seconds"
+    spans = []
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        for line, row in read_rows(file, path, [(*names, "label") for names in SPANS.values()]):
+            unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
+            start, stop = (number(row[name], name, path, line) for name in SPANS[unit])
+            spans.append(Span(start, stop, row["label"]))
+    return Labels(spans, unit)
 
 
 def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:

@@ -20,8 +20,9 @@ class LabelFormat:
 
     ``holds``: the whole segmentation; the labels of both levels; or of one.
     A module of the first kind has ``write(segmentation, path)`` and
-    ``read(path)`` to a `Segmentation`; the others have ``write(rows,
-    segmentation, path)`` and ``read(path)`` to `Labels`.
+    ``read(path)`` to a `Segmentation` (or to `Labels`, from a list kept by
+    hand); the others have ``write(rows, segmentation, path)`` and
+    ``read(path)`` to `Labels`.
     """
 
     module: str
