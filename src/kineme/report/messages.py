@@ -45,6 +45,8 @@ class MotionHead(TypedDict):
     ``n_samples`` poses at ``sample_fps``; position of a joint in metres, y up:
     ``origin + step * integer``. ``heading`` is where the body looks at each
     sample: radians about y from +z towards +x; null where it is not known.
+    ``effectors`` has the joint of ``left_ankle``, ``right_ankle``, ``head``,
+    ``left_wrist``, ``right_wrist`` and ``pelvis``; it is empty without a body.
     """
 
     n_samples: int
@@ -62,9 +64,11 @@ class MatrixHead(TypedDict):
     """The pyramid of self-similarity tiles; see :mod:`kineme.report.matrix`.
 
     Level 0 has one cell per sample of ``fps`` and ``sizes[0]`` cells a side;
-    each next level halves that. Tiles are square, ``tile`` cells a side, the
-    last of a row or column cut off at the end of the recording. Tiles of level
-    0 farther than ``band`` cells from the diagonal may be missing (report only).
+    each next level halves that; the last is one tile. Tiles are square, ``tile``
+    cells a side, the last of a row or column cut off at the end of the recording.
+    A report has the tiles with row >= column only, the others being their mirror
+    images; where ``band`` is a number, tiles of the finer levels farther than so
+    many of their cells from the diagonal may be missing, too.
     """
 
     fps: float
@@ -207,6 +211,15 @@ class SetCluster(TypedDict):
     cluster: int
 
 
+class SetKind(TypedDict):
+    """The segment that starts at ``frame`` is an activity, or a transition and in no cluster."""
+
+    kind: Literal["set_kind"]
+    level: Level
+    frame: int
+    to: Kind
+
+
 class SegmentAgain(TypedDict):
     """The whole table anew, by a preset."""
 
@@ -244,6 +257,7 @@ Edit = (
     | NameSegment
     | NameCluster
     | SetCluster
+    | SetKind
     | SegmentAgain
     | Transfer
     | Undo

@@ -34,6 +34,8 @@ export interface Segments {
  * `n_samples` poses at `sample_fps`; position of a joint in metres, y up:
  * `origin + step * integer`. `heading` is where the body looks at each
  * sample: radians about y from +z towards +x; null where it is not known.
+ * `effectors` has the joint of `left_ankle`, `right_ankle`, `head`,
+ * `left_wrist`, `right_wrist` and `pelvis`; it is empty without a body.
  */
 export interface MotionHead {
   n_samples: number;
@@ -51,9 +53,11 @@ export interface MotionHead {
  * The pyramid of self-similarity tiles; see `kineme.report.matrix`.
  *
  * Level 0 has one cell per sample of `fps` and `sizes[0]` cells a side;
- * each next level halves that. Tiles are square, `tile` cells a side, the
- * last of a row or column cut off at the end of the recording. Tiles of level
- * 0 farther than `band` cells from the diagonal may be missing (report only).
+ * each next level halves that; the last is one tile. Tiles are square, `tile`
+ * cells a side, the last of a row or column cut off at the end of the recording.
+ * A report has the tiles with row >= column only, the others being their mirror
+ * images; where `band` is a number, tiles of the finer levels farther than so
+ * many of their cells from the diagonal may be missing, too.
  */
 export interface MatrixHead {
   fps: number;
@@ -182,6 +186,14 @@ export interface SetCluster {
   cluster: number;
 }
 
+/** The segment that starts at `frame` is an activity, or a transition and in no cluster. */
+export interface SetKind {
+  kind: "set_kind";
+  level: Level;
+  frame: number;
+  to: Kind;
+}
+
 /** The whole table anew, by a preset. */
 export interface SegmentAgain {
   kind: "segment";
@@ -207,7 +219,7 @@ export interface Redo {
   kind: "redo";
 }
 
-export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SegmentAgain | Transfer | Undo | Redo;
+export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | SegmentAgain | Transfer | Undo | Redo;
 
 /** An edit of the table as it was at `revision`. */
 export interface EditRequest {
