@@ -34,6 +34,7 @@ DOWNHILL = {
     "features": BASE | MOTION,
     "graph": {"errors", "_checks", "_threads", "_compiled"},
     "segmentation": BASE | MOTION | {"features", "graph"},
+    "signals": BASE | {"motion", "features", "formats", "segmentation"},
 }
 # In segmentation only this module may know what a skeleton is.
 FROM_MOTION = "kineme.segmentation.segmenter"

@@ -55,6 +55,12 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
         segment_and_analysis as segment_and_analysis,
     )
     from kineme.segmentation.table import Segment as Segment, SegmentTable as SegmentTable
+    from kineme.signals import (
+        Signals as Signals,
+        read_signals as read_signals,
+        segment_signals as segment_signals,
+    )
+    from kineme.signals.estimator import Segmenter as Segmenter
     from kineme.synthesis import (
         MotionGraph as MotionGraph,
         motion_graph as motion_graph,
@@ -91,6 +97,8 @@ _HOMES = {
     "kineme.segmentation.result": ("Segmentation",),
     "kineme.segmentation.segmenter": ("segment", "segment_and_analysis"),
     "kineme.segmentation.table": ("Segment", "SegmentTable"),
+    "kineme.signals": ("Signals", "read_signals", "segment_signals"),
+    "kineme.signals.estimator": ("Segmenter",),
     "kineme.synthesis": ("MotionGraph", "motion_graph", "synthesize"),
     "kineme.transfer": ("KnowledgeBase", "transfer_labels"),
 }

@@ -19,6 +19,7 @@ from kineme.cli.reading import (
     effector_names,
     read_options,
 )
+from kineme.cli.signals import Columns, SignalOptions, show_signals, signal_facts
 from kineme.errors import EndEffectorError
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 def info(
     files: Annotated[
         list[Path],
-        typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz."),
+        typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz, MOT."),
     ],
     joints: Annotated[bool, typer.Option("--joints", help="Show the tree of joints.")] = False,
     json: Json = False,
@@ -38,14 +39,20 @@ def info(
     unit: Unit = None,
     up: Up = None,
     effectors: Effectors = None,
+    columns: Columns = None,
 ) -> None:
-    """Tell a recording's format, length, frame rate and skeleton."""
+    """Tell a recording's format, length, frame rate and skeleton or channels."""
     reading = read_options(skeleton, fps, unit, up)
     from kineme.formats import read
 
     failures = Failures()
+    signals = SignalOptions.of(columns, fps)
     for path in files:
         with failures.caught(path):
+            if signals.mean(path):
+                facts = signal_facts(signals.read(path))
+                typer.echo(dumps(facts)) if json else show_signals(facts)
+                continue
             motion = read(path, **reading)
             facts = _facts(motion, effector_names(effectors))
             if json:

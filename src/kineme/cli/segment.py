@@ -20,6 +20,7 @@ from kineme.cli.reading import (
     effector_names,
     read_options,
 )
+from kineme.cli.signals import Columns, Emg, SignalOptions, run_signals
 from kineme.cli.targets import check_writable, targets
 from kineme.errors import ParameterError
 from kineme.segmentation.presets import DEFAULT, PRESETS, Preset, resolve_preset
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 def segment(
     files: Annotated[
         list[Path],
-        typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz."),
+        typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz, MOT."),
     ],
     preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
     output: Annotated[
@@ -59,11 +60,14 @@ def segment(
     unit: Unit = None,
     up: Up = None,
     effectors: Effectors = None,
+    columns: Columns = None,
+    emg: Emg = False,
     overrides: dict[str, Any] | None = None,
 ) -> None:
     """Cut recordings into activities, transitions and repeated primitives."""
+    overrides = overrides or {}
     try:
-        chosen = resolve_preset(preset, **(overrides or {}))
+        chosen = resolve_preset(preset, **overrides)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
     reading = read_options(skeleton, fps, unit, up)
@@ -71,10 +75,14 @@ def segment(
     pictures = targets("--plot", plot, files, ".png")
     failures = Failures()
     names = effector_names(effectors)
+    signals = SignalOptions.of(columns, fps, emg=emg)
     for path, table, picture in zip(files, tables, pictures, strict=True):
         with failures.caught(path):
             check_writable(table, picture)
-            result, analysis = run(path, reading, chosen, names, quiet=quiet)
+            if signals.mean(path):
+                result, analysis = run_signals(path, signals, preset, overrides, quiet=quiet)
+            else:
+                result, analysis = run(path, reading, chosen, names, quiet=quiet)
             write_results(result, analysis, table, picture)
             if json:
                 from kineme.export.json_table import as_object

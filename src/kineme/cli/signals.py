@@ -1,0 +1,113 @@
+"""Options for recordings without a skeleton, and how such files are segmented and told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kineme.cli.messages import progress
+
+if TYPE_CHECKING:
+    from kineme.segmentation.action_analysis import ActionAnalysis
+    from kineme.segmentation.analysis import Analysis
+    from kineme.segmentation.result import Segmentation
+    from kineme.signals import Signals
+
+PANEL = "Signals without a skeleton"
+
+Columns = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME,NAME,…",
+        help="Take these columns or analog channels as signals, in place of joints.",
+        rich_help_panel=PANEL,
+    ),
+]
+Emg = Annotated[
+    bool,
+    typer.Option("--emg", help="Muscle signals: take their envelopes.", rich_help_panel=PANEL),
+]
+
+
+@dataclass(frozen=True)
+class SignalOptions:
+    """What the user said of signals; a file is one if something was said, or by its content."""
+
+    columns: tuple[str, ...] | None
+    emg: bool
+    fps: float | None
+
+    @classmethod
+    def of(cls, columns: str | None, fps: float | None, *, emg: bool = False) -> SignalOptions:
+        """The options as they were typed."""
+        names = None
+        if columns is not None:
+            names = tuple(name.strip() for name in columns.split(",") if name.strip())
+            if not names:
+                raise typer.BadParameter("names no column", param_hint="--columns")
+        return cls(names, emg, fps)
+
+    def mean(self, path: Path) -> bool:
+        """Whether a file is to be read as signals."""
+        from kineme.signals import is_signal_file
+
+        return self.columns is not None or self.emg or is_signal_file(path)
+
+    def read(self, path: Path) -> Signals:
+        """The signals in a file."""
+        from kineme.signals import read_signals
+
+        return read_signals(path, columns=self.columns, fps=self.fps)
+
+
+def run_signals(
+    path: Path, options: SignalOptions, preset: str, overrides: dict[str, Any], *, quiet: bool
+) -> tuple[Segmentation, Analysis | ActionAnalysis]:
+    """The segments of a file of signals, and what each stage found on the way to them."""
+    with progress(path.name, quiet=quiet) as stage:
+        stage("reading")
+        from kineme.signals import segment_signals_and_analysis, signal_preset
+
+        signals = options.read(path)
+        chosen = signal_preset(preset, **overrides)
+        return segment_signals_and_analysis(signals, chosen, emg=options.emg, progress=stage)
+
+
+def signal_facts(signals: Signals) -> dict[str, Any]:
+    """What ``kineme info`` tells of signals."""
+    source = signals.provenance
+    return {
+        "path": source.path,
+        "format": source.format,
+        "sha256": source.sha256,
+        "frames": signals.n_frames,
+        "fps": signals.fps,
+        "seconds": signals.duration,
+        "channels": list(signals.names),
+        "gaps": [list(gap) for gap in signals.gaps],
+        "notes": list(source.notes),
+    }
+
+
+def show_signals(facts: dict[str, Any]) -> None:
+    """Print the facts for people."""
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    lines = {
+        "format": f"{facts['format']}, signals without a skeleton",
+        "length": f"{facts['frames']} frames at {facts['fps']:g} Hz, {facts['seconds']:.2f} s",
+        "channels": f"{len(facts['channels'])}: {', '.join(facts['channels'])}",
+        "SHA-256": facts["sha256"],
+    }
+    console = Console(highlight=False)
+    grid = Table.grid(padding=(0, 2))
+    for name, value in (*lines.items(), *(("note", note) for note in facts["notes"])):
+        grid.add_row(Text(name, style="dim"), Text(str(value)))
+    console.print(Text(str(facts["path"]), style="bold"))
+    console.print(grid)
+    console.print()

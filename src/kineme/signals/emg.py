@@ -1,0 +1,52 @@
+"""Muscle signals: what is left of an electromyogram when only its strength counts.
+
+Electrodes see a noise of both signs whose strength tells how active a muscle
+is. Rectified and low-passed it becomes the envelope that repeats itself as the
+movement does; resampling follows with that of all signals.
+
+Source: Krüger et al. 2017, section VII-B (rectified, resampled, low-passed). The
+low-pass comes before the resampling here, so that nothing folds back. Its
+cutoff and order are those usual for linear envelopes in biomechanics.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme.errors import ParameterError
+
+CUTOFF = 6.0
+"""Hertz."""
+
+_ORDER = 2  # run forwards and backwards: fourth order in all, and no delay
+
+
+def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> NDArray[np.float64]:
+    """The envelope (frames, channels) of raw muscle signals, at the same rate, never below 0.
+
+    Each channel loses its mean, is rectified, and low-passed without delay
+    (Butterworth, forwards and backwards).
+
+    Parameters
+    ----------
+    values : (frames, channels) or (frames,)
+    fps : samples per second; more than twice the cutoff
+    cutoff : hertz
+
+    Raises
+    ------
+    ParameterError : a cutoff that the sampling rate does not reach
+    """
+    from scipy.signal import butter, sosfiltfilt
+
+    if not 0 < cutoff < fps / 2:
+        raise ParameterError(
+            f"a cutoff of {cutoff:g} Hz needs signals of more than {2 * cutoff:g} Hz, not {fps:g}"
+        )
+    raw = np.asarray(values, np.float64)
+    rectified = np.abs(raw - raw.mean(axis=0))
+    sections = butter(_ORDER, cutoff, fs=fps, output="sos")
+    padding = min(len(raw) - 1, int(fps / cutoff))
+    smooth = sosfiltfilt(sections, rectified, axis=0, padlen=padding)
+    return np.asarray(np.maximum(smooth, 0.0), np.float64)
