@@ -1,0 +1,85 @@
+"""Recordings without a skeleton on the command line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kineme as package
+
+
+@pytest.fixture
+def phone(tmp_path: Path) -> Path:
+    """Ten seconds each of two movements, as a phone logs them, and the muscle that does them."""
+    t = np.arange(2000) / 100
+    rng = np.random.default_rng(0)
+    switch = t < 10
+    x = np.where(switch, np.sin(6 * t), np.sin(11 * t) ** 3) + 0.05 * rng.standard_normal(len(t))
+    y = np.where(switch, np.cos(6 * t), np.cos(11 * t)) + 0.05 * rng.standard_normal(len(t))
+    muscle = np.clip(np.sin(6 * t), 0, None) * rng.standard_normal(len(t))
+    path = tmp_path / "phone.csv"
+    values = np.column_stack([t, x, y, muscle])
+    np.savetxt(path, values, "%.5f", ",", header="time,acc_x,acc_y,biceps", comments="")
+    return path
+
+
+def test_sensors_are_segmented_as_they_are(kineme, tmp_path, phone) -> None:
+    done = kineme("segment", phone, "-o", "cuts.csv", "--plot", "cuts.png")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "2000 frames at 100 Hz, kineme" in done.stdout
+    assert "note: channels: acc_x, acc_y, biceps" in done.stdout
+    written = package.read_segments(tmp_path / "cuts.csv")
+    assert np.abs(written.cuts() - 1000).min() <= 50
+    assert (tmp_path / "cuts.png").stat().st_size > 10_000
+
+
+def test_columns_rate_and_constants_are_options(kineme, phone) -> None:
+    options = ("--columns", "acc_y, acc_x", "--fps", "50", "--preset", "krueger2017")
+    done = kineme("segment", phone, *options, "--radius", "0.3", "--json")
+    data = json.loads(done.stdout)
+    assert data["provenance"]["parameters"]["radius"] == 0.3
+    assert data["provenance"]["notes"][0].startswith("channels: acc_y, acc_x,")
+    same = package.segment_signals(
+        package.read_signals(phone, columns=["acc_y", "acc_x"], fps=50),
+        preset="krueger2017",
+        radius=0.3,
+    )
+    assert [row["stop_frame"] for row in data["segments"]] == same.table.stop_frame.tolist()
+
+
+def test_muscles_are_taken_as_envelopes(kineme, phone) -> None:
+    done = kineme("segment", phone, "--columns", "biceps", "--emg")
+    assert done.returncode == 0
+    assert "note: muscle signals: rectified and low-passed" in done.stdout
+
+
+def test_info_lists_the_channels(kineme, phone) -> None:
+    done = kineme("info", phone)
+    assert done.returncode == 0
+    assert "3: acc_x, acc_y, biceps" in done.stdout
+    assert "2000 frames at 100 Hz, 20.00 s" in done.stdout
+    facts = json.loads(kineme("info", phone, "--columns", "biceps", "--json").stdout)
+    assert facts["channels"] == ["biceps"]
+
+
+def test_what_is_missing_is_one_sentence(kineme, tmp_path, phone) -> None:
+    done = kineme("segment", phone, "--columns", "acc_q")
+    assert done.returncode == 1
+    assert done.stderr.strip().endswith("no column 'acc_q'; there are time, acc_x, acc_y, biceps")
+    (tmp_path / "bare.txt").write_text("1\n2\n3\n")
+    done = kineme("segment", "bare.txt")
+    assert done.stderr.strip() == (
+        "error: bare.txt: nothing in it tells the frame rate: give fps (--fps)"
+    )
+    done = kineme("segment", phone, "--columns", ",")
+    assert done.returncode == 2
+
+
+def test_real_forces_and_joint_angles(kineme, data_dir: Path) -> None:
+    done = kineme("segment", data_dir / "formats" / "Eb015pi.c3d", "--columns", "FZ1,FZ2", "--json")
+    assert json.loads(done.stdout)["n_frames"] == 1800
+    done = kineme("info", data_dir / "formats" / "subject01_walk_IK.mot")
+    assert "10: pelvis_tilt, pelvis_tx" in done.stdout
