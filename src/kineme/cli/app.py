@@ -17,6 +17,7 @@ from kineme.cli.label import label
 from kineme.cli.preset_options import with_preset_options
 from kineme.cli.segment import segment
 from kineme.cli.split import split
+from kineme.cli.studio import studio
 from kineme.cli.synthesize import synthesize
 from kineme.cli.transfer import transfer
 
@@ -38,6 +39,7 @@ app.command()(label)
 app.command()(transfer)
 app.command()(graph)
 app.command()(synthesize)
+app.command()(studio)
 
 
 def _show_version(wanted: bool) -> None:

@@ -1,0 +1,63 @@
+"""``kineme studio``: a page to look at recordings and correct their segments."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from kineme.cli.messages import Failures
+from kineme.errors import MissingDependencyError, ParameterError
+
+
+def studio(
+    files: Annotated[
+        list[Path] | None,
+        typer.Argument(
+            metavar="[FILES|FOLDER]",
+            help="Recordings, or a folder of them; by default the folder you are in.",
+        ),
+    ] = None,
+    port: Annotated[
+        int | None,
+        typer.Option(help="Port to listen on; 0 for any.", show_default="the first free from 8750"),
+    ] = None,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
+    ] = True,
+) -> None:
+    """See recordings and correct their segments, in the browser.
+
+    The page is served on this machine alone. Corrections are kept in NAME.segments.json beside
+    each recording, from one edit to the next. Ctrl+C ends it.
+    """
+    failures = Failures()
+    with failures.caught("studio"):
+        root, recordings = _opened(files or [Path()])
+        try:
+            import starlette  # noqa: F401
+            import uvicorn  # noqa: F401
+        except ImportError as error:
+            raise MissingDependencyError(error.name or "uvicorn", "studio") from error
+        from kineme.studio.folder import Folder
+        from kineme.studio.server import serve
+
+        def announce(address: str) -> None:
+            typer.echo(f"kineme studio: {address} (Ctrl+C ends it)")
+
+        serve(Folder(root, recordings), port=port, browser=browser, announce=announce)
+    failures.exit()
+
+
+def _opened(given: list[Path]) -> tuple[Path, list[Path] | None]:
+    """The folder, and the recordings where not all of it are wanted."""
+    for path in given:
+        if not path.exists():
+            raise ParameterError(f"{path}: there is no such file or folder")
+    if len(given) == 1 and given[0].is_dir():
+        return given[0], None
+    for path in given:
+        if path.is_dir():
+            raise ParameterError(f"{path} is a folder: give one folder, or files")
+    return given[0].parent, list(dict.fromkeys(given))

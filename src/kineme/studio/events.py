@@ -1,0 +1,59 @@
+"""News for every open page: which table has changed, which file has come."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import suppress
+
+from kineme.report.messages import Changed
+
+HEARTBEAT = 15.0  # seconds; without it nobody would notice a line that is dead
+LONGEST = 256
+"""News that wait for a page; one that takes none for so long is asleep and asks anew later."""
+
+
+class Hub:
+    """Where news come in, from any thread, and go out to the pages."""
+
+    def __init__(self) -> None:
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._pages: set[asyncio.Queue[Changed | None]] = set()
+        self._closed = False
+
+    def tell(self, recording: str, revision: int) -> None:
+        """A recording has this revision now; 0: it has just come."""
+        if self._loop is not None:
+            news: Changed = {"recording": recording, "revision": revision}
+            with suppress(RuntimeError):  # the server has ended
+                self._loop.call_soon_threadsafe(self._spread, news)
+
+    def close(self) -> None:
+        """End every stream, so that the server can."""
+        self._closed = True
+        self._spread(None)
+
+    async def stream(self) -> AsyncIterator[str]:
+        """The news as ``text/event-stream``."""
+        self._loop = asyncio.get_running_loop()
+        queue: asyncio.Queue[Changed | None] = asyncio.Queue(LONGEST)
+        self._pages.add(queue)
+        try:
+            yield ": welcome\n\n"
+            while not self._closed:
+                try:
+                    news = await asyncio.wait_for(queue.get(), HEARTBEAT)
+                except TimeoutError:
+                    yield ": still here\n\n"
+                    continue
+                if news is None:
+                    return
+                yield f"data: {json.dumps(news)}\n\n"
+        finally:
+            self._pages.discard(queue)
+
+    def _spread(self, news: Changed | None) -> None:
+        for queue in self._pages:
+            with suppress(asyncio.QueueFull):
+                queue.put_nowait(news)

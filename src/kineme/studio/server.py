@@ -1,0 +1,118 @@
+"""The server: a socket of this machine, a token, one line with the address, and a clean end."""
+
+from __future__ import annotations
+
+import logging
+import os
+import socket
+import threading
+import time
+import webbrowser
+from collections.abc import Callable
+from contextlib import suppress
+from types import FrameType
+
+import uvicorn
+
+from kineme.datasets import bundled_recording
+from kineme.errors import KinemeError, ParameterError
+from kineme.formats import read
+from kineme.segmentation.presets import DEFAULT, PRESETS
+from kineme.segmentation.segmenter import segment
+from kineme.studio.app import create_app
+from kineme.studio.events import Hub
+from kineme.studio.folder import Folder
+from kineme.studio.security import new_token
+from kineme.studio.uploads import forget_drafts
+
+HOST = "127.0.0.1"
+PORT = 8750
+TRIES = 20
+"""Ports after the first that are tried if it is in use."""
+PATIENCE = 2
+"""Seconds that requests have to end in after Ctrl+C."""
+HEAD_START = 10.0
+"""Seconds before the code of the presets that are rarely used is made ready."""
+
+
+class Server(uvicorn.Server):
+    """A server that ends the streams of news first when it is told to stop."""
+
+    def __init__(self, config: uvicorn.Config, hub: Hub):
+        super().__init__(config)
+        self._hub = hub
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        self._hub.close()
+        super().handle_exit(sig, frame)
+
+
+def serve(
+    folder: Folder, *, port: int | None, browser: bool, announce: Callable[[str], None]
+) -> None:
+    """Serve until Ctrl+C.
+
+    Parameters
+    ----------
+    port : to listen on; None for the first free one from 8750, 0 for any
+    browser : open the address there
+    announce : called with the address
+
+    Raises
+    ------
+    ParameterError : the port is in use, or not one
+    """
+    with listening(port) as opened:
+        number = opened.getsockname()[1]
+        token = new_token()
+        hub = Hub()
+        forget_drafts(folder.root)
+        app = create_app(folder, token=token, port=number, hub=hub)
+        config = uvicorn.Config(
+            app,
+            log_level=logging.ERROR,
+            access_log=False,  # addresses hold the token
+            server_header=False,
+            ws="none",
+            proxy_headers=False,
+            timeout_graceful_shutdown=PATIENCE,
+        )
+        address = f"http://{HOST}:{number}/?token={token}"
+        threading.Thread(target=make_ready, name="make ready", daemon=True).start()
+        announce(address)
+        if browser:
+            threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
+        with suppress(KeyboardInterrupt):
+            Server(config, hub).run(sockets=[opened])
+
+
+def listening(port: int | None) -> socket.socket:
+    """A socket of this machine alone that listens on the port, or on the next free one."""
+    if port is not None and not 0 <= port < 2**16:
+        raise ParameterError(f"the port is a number from 0 to 65535, not {port}")
+    for number in range(PORT, PORT + TRIES) if port is None else [port]:
+        opened = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        if os.name == "posix":  # elsewhere it would let two servers share a port
+            opened.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            opened.bind((HOST, number))
+            opened.listen(128)
+        except OSError as error:
+            opened.close()
+            reason = error.strerror
+            continue
+        return opened
+    which = f"{PORT} to {PORT + TRIES - 1} are" if port is None else f"{port} is"
+    raise ParameterError(f"port {which} not free ({reason}): name another with --port")
+
+
+def make_ready() -> None:
+    """Load or build the compiled code before it is asked for, that of the default first."""
+    try:
+        motion = read(bundled_recording())
+        for number, name in enumerate([DEFAULT, *(name for name in PRESETS if name != DEFAULT)]):
+            if number == 1:
+                time.sleep(HEAD_START)
+            segment(motion, preset=name)
+    except KinemeError:  # it will be said where it matters
+        return

@@ -1,0 +1,131 @@
+"""Where a recording's table is kept, and whether somebody else has changed it there.
+
+It is ``take.segments.json`` beside ``take.bvh``. Where that file is the table of
+another recording (``take.c3d``), of an earlier one of that name, or no table at
+all, it is left alone, and ``take.bvh.segments.json`` or a numbered name serves.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from hashlib import sha256
+from itertools import count
+from pathlib import Path
+
+from kineme._files import atomic_write
+from kineme.errors import KinemeError, ReadError, WriteError
+from kineme.export import json_table, read_segments
+from kineme.segmentation.result import Segmentation
+
+SUFFIX = ".segments.json"
+
+
+class ChangedOnDiskError(Exception):
+    """The file is not the one that was last read or written here."""
+
+
+class Kept:
+    """The file that a table is kept in, as it was last read or written here."""
+
+    def __init__(self, path: Path):
+        self.path = path
+        self._mark = _mark(path)
+        self._digest = _digest(path)
+
+    @property
+    def exists(self) -> bool:
+        """Whether the table has been saved."""
+        return self._digest is not None
+
+    def changed(self) -> bool:
+        """Whether the file is another than the one last read or written here."""
+        if _mark(self.path) == self._mark:
+            return False
+        return _digest(self.path) != self._digest
+
+    def read(self) -> Segmentation:
+        """The table in the file, which counts as seen from now on."""
+        self._mark, self._digest = _mark(self.path), _digest(self.path)
+        return read_segments(self.path, format="json")
+
+    def write(self, segmentation: Segmentation) -> None:
+        """The table in the file, on the disk; all of it, or nothing.
+
+        Raises
+        ------
+        ChangedOnDiskError : somebody else has changed the file, which stays as it is
+        WriteError : it cannot be written, or is a link to elsewhere
+        """
+        if self.path.is_symlink():
+            raise WriteError(self.path, "is a link, which could lead out of the folder: remove it")
+        text = json_table.dumps(segmentation).encode()
+        with atomic_write(self.path) as draft:
+            with draft.open("wb") as file:
+                file.write(text)
+                file.flush()
+                os.fsync(file.fileno())
+            if self.changed():
+                raise ChangedOnDiskError
+        self._mark, self._digest = _mark(self.path), sha256(text).digest()
+
+
+def saved_table(
+    recording: Path, fits: Callable[[Segmentation], bool], taken: set[Path]
+) -> tuple[Kept, Segmentation | None, list[str]]:
+    """Where the recording's table is kept, the table if it has been, and what to know about it.
+
+    Parameters
+    ----------
+    fits : whether a table is of this recording
+    taken : files that hold the tables of other recordings
+    """
+    notes: list[str] = []
+    for path in _candidates(recording):
+        kept = Kept(path)
+        if path in taken or path.is_symlink():
+            continue
+        if not kept.exists:
+            return kept, None, notes
+        try:
+            table = kept.read()
+        except KinemeError as error:
+            reason = error.reason if isinstance(error, ReadError) else str(error)
+            notes.append(f"{path.name} was left alone: it {reason}")
+            continue
+        if fits(table):
+            return kept, table, notes
+        notes.append(f"{path.name} was left alone: it is the table of another recording")
+    raise WriteError(recording, "has no name left for its table")
+
+
+def has_table(recording: Path) -> bool:
+    """Whether a table lies beside the recording, without looking into it."""
+    return any(path.is_file() for path in usual_tables(recording))
+
+
+def usual_tables(recording: Path) -> list[Path]:
+    """The two names that nearly every recording's table has."""
+    return [recording.with_name(name + SUFFIX) for name in (recording.stem, recording.name)]
+
+
+def _candidates(recording: Path) -> Iterator[Path]:
+    yield from usual_tables(recording)
+    for number in count(2):
+        yield recording.with_name(f"{recording.name}.{number}{SUFFIX}")
+
+
+def _mark(path: Path) -> tuple[int, int, int] | None:
+    """What changes when a file is written; None where there is none."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_ino, found.st_mtime_ns, found.st_size
+
+
+def _digest(path: Path) -> bytes | None:
+    try:
+        return sha256(path.read_bytes()).digest()
+    except OSError:
+        return None

@@ -1,0 +1,141 @@
+"""Files that come in: under a name of our own making, beside those that are there.
+
+The bytes go into a hidden file of the folder first; it gets its name when all
+are there, and never one that is taken.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import secrets
+import shutil
+import time
+import unicodedata
+from hashlib import sha256
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from kineme.errors import ParameterError, WriteError
+from kineme.formats import supported_formats
+from kineme.studio.folder import LABELS
+
+LIMIT = 10**9
+"""Bytes; an hour of motion takes a quarter of that as text."""
+DRAFT = re.compile(r"\.upload-[0-9a-f]{16}\.part")
+FORGOTTEN = 3600.0
+"""Seconds after which a draft belongs to a server that was killed."""
+LONGEST = 180  # bytes of a name; file systems take 255, and ours grow by a suffix
+RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
+
+
+class TooLargeError(Exception):
+    """More bytes than an upload may have, or than there is room for."""
+
+
+class Upload:
+    """A file on its way in; leaving the block takes away what was not kept.
+
+    Raises
+    ------
+    ParameterError : a name that no file the studio opens has
+    TooLargeError : the length announced is over the limit, or there is no room for it
+    WriteError : the folder cannot be written to
+    """
+
+    def __init__(self, root: Path, name: str, *, length: int | None = None, limit: int = LIMIT):
+        self.name = safe_name(name)
+        if Path(self.name).suffix.lower() not in _suffixes():
+            known = ", ".join(sorted(_suffixes()))
+            raise ParameterError(
+                f"{self.name!r} has no suffix of a recording or its labels: {known}"
+            )
+        if length is not None and length > limit:
+            raise TooLargeError(f"{self.name} has {length} bytes; at most {limit} can be uploaded")
+        if length is not None and length > shutil.disk_usage(root).free:
+            raise TooLargeError(f"there is no room for {length} bytes in {root}")
+        self._root, self._limit, self._size, self._digest = root, limit, 0, sha256()
+        self._draft = root / f".upload-{secrets.token_hex(8)}.part"
+        try:
+            self._file = self._draft.open("xb")
+        except OSError as error:
+            raise WriteError(root, f"cannot be written to: {error.strerror}") from error
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, _: type[BaseException] | None, __: BaseException | None, ___: TracebackType | None
+    ) -> None:
+        self._file.close()
+        self._draft.unlink(missing_ok=True)
+
+    def write(self, chunk: bytes) -> None:
+        """Add bytes; TooLargeError once they are more than the limit, whatever was announced."""
+        self._size += len(chunk)
+        if self._size > self._limit:
+            raise TooLargeError(f"{self.name} is larger than {self._limit} bytes")
+        self._digest.update(chunk)
+        try:
+            self._file.write(chunk)
+        except OSError as error:
+            raise TooLargeError(f"{self.name} cannot be written: {error.strerror}") from error
+
+    def keep(self) -> Path:
+        """Give the file its name; the path of the same one if it is there already."""
+        self._file.close()
+        for path in _free_names(self._root / self.name):
+            if path.is_file() and self._is_in(path):
+                return path
+            if _named(self._draft, path):
+                return path
+        raise WriteError(self._root / self.name, "every name like it is taken")
+
+    def _is_in(self, path: Path) -> bool:
+        same_size = path.stat().st_size == self._size
+        return same_size and sha256(path.read_bytes()).digest() == self._digest.digest()
+
+
+def safe_name(name: str) -> str:
+    """A file's name without folders, and without what some system would not take in it."""
+    last = re.split(r"[/\\]", unicodedata.normalize("NFC", name))[-1]
+    plain = "".join(c if c.isprintable() and c not in '<>:"|?*' else "_" for c in last).strip(" .")
+    stem, suffix = Path(plain).stem, Path(plain).suffix
+    while len((stem + suffix).encode(errors="replace")) > LONGEST and stem:
+        stem = stem[:-1]
+    return ("_" if RESERVED.fullmatch(stem) else "") + stem + suffix
+
+
+def forget_drafts(root: Path) -> None:
+    """Take away what a killed server left of uploads."""
+    for path in root.glob(".upload-*.part"):
+        if DRAFT.fullmatch(path.name) and time.time() - path.stat().st_mtime > FORGOTTEN:
+            path.unlink(missing_ok=True)
+
+
+def _suffixes() -> set[str]:
+    motions = {s for known in supported_formats() if known.read for s in known.suffixes}
+    return motions | {".asf", ".npz", *LABELS}
+
+
+def _free_names(path: Path) -> list[Path]:
+    return [path, *(path.with_stem(f"{path.stem}_{number}") for number in range(2, 1000))]
+
+
+def _named(draft: Path, path: Path) -> bool:
+    """Whether the draft now has this name; not if another file has."""
+    try:
+        os.link(draft, path)
+    except FileExistsError:
+        return False
+    except OSError:  # a file system without links
+        try:
+            with path.open("xb") as target, draft.open("rb") as source:
+                shutil.copyfileobj(source, target)
+        except FileExistsError:
+            return False
+        except OSError:
+            path.unlink(missing_ok=True)
+            raise
+    return True

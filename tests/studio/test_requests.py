@@ -1,0 +1,268 @@
+"""What the studio answers: recordings, edits with undo, comparisons, exports, news."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import shutil
+import zipfile
+from io import BytesIO
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from message_types import conforms
+
+import kineme
+from kineme.report import messages
+from kineme.segmentation.presets import PRESETS
+from kineme.studio.choices import RANGES
+from kineme.studio.events import Hub
+from kineme.transfer import KnowledgeBase
+
+
+def test_what_there_is_to_open(studio, folder: Path) -> None:
+    table = kineme.segment(kineme.read(studio.path))
+    kineme.write_segments(table, folder / "labels.csv")
+    kineme.write_segments(table, folder / "labels.eaf")
+    named = kineme.segmentation.editing.name_cluster(table, 0, "walk")
+    KnowledgeBase.from_recording(kineme.read(studio.path), named).save(folder / "base.npz")
+    kineme.write(kineme.read(studio.path), folder / "poses.csv")
+    (folder / "package.json").write_text('{"name": "other"}')
+    (folder / ".hidden.bvh").write_text("HIERARCHY")
+    state = studio.get("/api/state").json()
+    names = {
+        what: [file["name"] for file in state[what]]
+        for what in ("recordings", "knowledge_bases", "annotations")
+    }
+    assert names == {
+        "recordings": ["poses.csv", "take.bvh"],
+        "knowledge_bases": ["base.npz"],
+        "annotations": ["labels.csv", "labels.eaf"],
+    }
+    assert not any(file["corrected"] for file in state["recordings"])
+    assert state["default_preset"] == state["presets"][0]["name"]
+    assert conforms(messages.State, state)
+
+
+def test_each_preset_offers_its_own_constants_with_their_help(studio) -> None:
+    for choice in studio.get("/api/state").json()["presets"]:
+        preset = PRESETS[choice["name"]]
+        assert [p["name"] for p in choice["parameters"]] == [r.name for r in RANGES[preset.name]]
+        for offered in choice["parameters"]:
+            assert offered["help"]
+            assert offered["value"] == getattr(preset, offered["name"])
+            assert offered["minimum"] <= offered["value"] <= offered["maximum"]
+            steps = (offered["value"] - offered["minimum"]) / offered["step"]
+            assert steps == pytest.approx(round(steps), abs=1e-6)  # where a slider can stand
+
+
+def test_a_recording_is_what_segment_finds(studio) -> None:
+    found = kineme.segment(kineme.read(studio.path))
+    message = studio.recording()
+    rows = message["segmentation"]["segments"]
+    assert [row["start_frame"] for row in rows] == found.table.start_frame.tolist()
+    assert [row["cluster"] for row in rows] == found.table.cluster.tolist()
+    assert (message["revision"], message["saved"], message["can_undo"]) == (1, "", False)
+    assert not studio.table.exists()
+    data = studio.get(f"/api/recordings/{studio.id}/motion").content
+    assert len(data) > 1000
+    assert message["motion"]["n_samples"] == message["n_frames"] // 2
+    tile = studio.get(f"/api/recordings/{studio.id}/matrix/0/0/0")
+    assert tile.content.startswith(b"\x89PNG")
+    for place in ("0/1/0", "9/0/0", "0/-1/0", "0/x/0", "0/" + "9" * 5000 + "/0"):
+        assert studio.get(f"/api/recordings/{studio.id}/matrix/{place}").status_code == 404
+
+
+def test_each_edit_is_on_the_disk_and_can_be_taken_back(studio) -> None:
+    first = studio.recording()
+    before = first["segmentation"]["segments"]
+    border = first["n_frames"] // 3
+    split = studio.done(first["revision"], "split", level="activity", frame=border)
+    assert split["saved"] == "take.segments.json"
+    assert border in kineme.read_segments(studio.table).cuts("activity")
+    assert kineme.read_segments(studio.table).provenance["corrections"] == 1
+    moved = studio.done(
+        split["revision"], "move_border", level="activity", frame=border, to=border + 7
+    )
+    named = studio.done(
+        moved["revision"], "name_segment", level="activity", frame=border + 7, label="<b>hop</b>"
+    )
+    labels = kineme.read_segments(studio.table).activities.label.tolist()
+    assert "<b>hop</b>" in labels
+    state = named
+    for _ in range(3):
+        state = studio.done(state["revision"], "undo")
+    assert state["segmentation"]["segments"] == before
+    assert (state["can_undo"], state["can_redo"]) == (False, True)
+    assert kineme.read_segments(studio.table).table.start_frame.tolist() == [
+        row["start_frame"] for row in before
+    ]
+    for _ in range(3):
+        state = studio.done(state["revision"], "redo")
+    assert state["segmentation"] == named["segmentation"]
+    assert studio.recording()["segmentation"] == named["segmentation"]
+    assert studio.get("/api/state").json()["recordings"][0]["corrected"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "rest"),
+    [
+        ("split", {"level": "activity", "frame": 0}),
+        ("move_border", {"level": "activity", "frame": 1, "to": 2}),
+        ("merge", {"level": "primitive", "start_frame": 0, "stop_frame": 1}),
+        ("delete_border", {"level": "activity", "frame": 10**9}),
+        ("name_cluster", {"cluster": 99, "label": "a"}),
+        ("name_segment", {"level": "activity", "frame": 0, "label": "a\nb"}),
+        ("set_cluster", {"level": "activity", "frame": 0, "cluster": 10**9}),
+        ("segment", {"preset": "best", "parameters": {}}),
+        ("segment", {"preset": "kineme", "parameters": {"window": 1e12}}),
+        ("segment", {"preset": "kineme", "parameters": {"border_cost": 1e12}}),
+        ("transfer", {"knowledge_base": "../secret.npz"}),
+        ("undo", {}),
+        ("redo", {}),
+    ],
+)
+def test_what_cannot_be_done_is_a_sentence_and_changes_nothing(studio, kind, rest) -> None:
+    before = studio.recording()
+    answer = studio.edit(before["revision"], kind, **rest)
+    assert answer.status_code == (404 if kind == "transfer" else 400)
+    assert len(answer.json()["error"]) > 10
+    assert studio.recording() == before
+    assert not studio.table.exists()
+
+
+def test_segmenting_again_gives_what_the_package_gives(studio) -> None:
+    revision = studio.recording()["revision"]
+    motion = kineme.read(studio.path)
+    for preset, parameters in (("kineme", {"border_cost": 0.5}), ("krueger2017", {"radius": 0.5})):
+        again = studio.done(revision, "segment", preset=preset, parameters=parameters)
+        revision = again["revision"]
+        expected = kineme.segment(motion, preset=preset, **parameters)
+        rows = again["segmentation"]["segments"]
+        assert [row["start_frame"] for row in rows] == expected.table.start_frame.tolist()
+        assert again["segmentation"]["provenance"] == expected.provenance
+
+
+def test_labels_come_from_a_knowledge_base_of_the_folder(studio, folder: Path) -> None:
+    motion = kineme.read(studio.path)
+    table = kineme.segmentation.editing.set_cluster(kineme.segment(motion), "activity", 0, 0)
+    table = kineme.segmentation.editing.name_segment(table, "activity", 0, "walk")
+    KnowledgeBase.from_recording(motion, table).save(folder / "base.npz")
+    base = studio.get("/api/state").json()["knowledge_bases"][0]["id"]
+    revision = studio.recording()["revision"]
+    named = studio.done(revision, "transfer", knowledge_base=base, threshold=0.2, spread=True)
+    assert "labelled" in named["notes"][0]
+    again = studio.edit(named["revision"], "transfer", knowledge_base=base, threshold=-1.0)
+    assert again.status_code == 400
+    (folder / "base.npz").write_bytes((folder / "base.npz").read_bytes()[:-40])
+    assert studio.edit(named["revision"], "transfer", knowledge_base=base).status_code in (400, 404)
+
+
+def test_another_result_beside_the_one_shown(studio, folder: Path) -> None:
+    studio.recording()
+    compare = f"/api/recordings/{studio.id}/compare"
+    same = studio.client.post(compare, json={"preset": "kineme"}).json()
+    assert conforms(messages.Comparison, same)
+    assert same["name"] == "kineme"
+    assert same["segmentation"]["segments"] == studio.recording()["segmentation"]["segments"]
+    (folder / "said.csv").write_text("start_s,stop_s,label\n0,2,walk\n2,4,hop\n")
+    kineme.write_segments(kineme.segment(kineme.read(studio.path)), folder / "said.eaf")
+    (folder / "other.csv").write_text("start_s,stop_s,label\n0,9,walk\n")
+    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["annotations"]}
+    said = studio.client.post(compare, json={"annotation": files["said.csv"]}).json()
+    rows = said["segmentation"]["segments"]
+    assert [(row["start_frame"], row["label"]) for row in rows] == [(0, "walk"), (120, "hop")]
+    assert 0 <= said["scores"]["one_to_one"] <= 1
+    elan = studio.client.post(compare, json={"annotation": files["said.eaf"]})
+    assert elan.status_code == 200
+    long = studio.client.post(compare, json={"annotation": files["other.csv"]})
+    assert long.status_code == 400
+    assert "9.000 s" in long.json()["error"]
+    for wrong in ({}, {"preset": "kineme", "annotation": "x"}, {"annotation": "../secret.bvh"}):
+        assert studio.client.post(compare, json=wrong).status_code in (400, 404)
+
+
+def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
+    message = studio.recording()
+    formats = studio.get("/api/state").json()["export_formats"]
+    assert {"json", "elan", "ms-tcn", "motions"} <= {known["name"] for known in formats}
+    before = sorted(studio.folder.iterdir())
+    for known in formats:
+        address = f"/api/recordings/{studio.id}/export/{known['name']}?level=activity"
+        answer = studio.get(address)
+        assert answer.status_code == 200, answer.text
+        said = answer.headers["content-disposition"]
+        assert said == f"attachment; filename*=UTF-8''take{known['suffix']}"
+        assert answer.headers["content-type"] == "application/octet-stream"
+        if known["suffix"] == ".zip":
+            assert zipfile.ZipFile(BytesIO(answer.content)).testzip() is None
+            continue
+        path = tmp_path / f"taken{known['suffix']}"
+        path.write_bytes(answer.content)
+        read = kineme.read_segments(
+            path, format=known["name"], fps=message["fps"], n_frames=message["n_frames"]
+        )
+        assert read.cuts().tolist() == studio.starts()[1:]
+    assert sorted(studio.folder.iterdir()) == before
+    assert studio.get(f"/api/recordings/{studio.id}/export/exe").status_code == 400
+    assert studio.get(f"/api/recordings/{studio.id}/export/json?level=both").status_code == 400
+
+
+def test_a_body_without_hands_is_shown_whole(studio, folder: Path) -> None:
+    (folder / "stick.bvh").write_text(
+        "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
+        "End Site\n{\nOFFSET 0 90 0\n}\n}\nMOTION\nFrames: 40\nFrame Time: 0.1\n" + "0 0 0\n" * 40
+    )
+    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    message = studio.get(f"/api/recordings/{files['stick.bvh']}").json()
+    assert [row["stop_frame"] for row in message["segmentation"]["segments"]] == [40]
+    assert "not segmented" in message["warnings"][-1]
+
+
+def test_a_file_that_cannot_be_read_is_a_sentence(studio, folder: Path) -> None:
+    (folder / "bad.bvh").write_text("HIERARCHY <script>alert(1)</script>")
+    (folder / "empty.c3d").write_bytes(b"")
+    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    for name in ("bad.bvh", "empty.c3d"):
+        answer = studio.get(f"/api/recordings/{files[name]}")
+        assert answer.status_code == 400
+        assert name in answer.json()["error"]
+
+
+def test_only_files_that_were_named_are_listed(make_studio, folder: Path) -> None:
+    shutil.copy(folder / "take.bvh", folder / "other.bvh")
+    studio = make_studio([folder / "take.bvh"])
+    assert [f["name"] for f in studio.get("/api/state").json()["recordings"]] == ["take.bvh"]
+    data = (folder / "take.bvh").read_bytes() + b"\n"
+    studio.client.post("/api/recordings?name=new.bvh", content=data)
+    names = [f["name"] for f in studio.get("/api/state").json()["recordings"]]
+    assert names == ["take.bvh", "new.bvh"]
+
+
+def test_news_reach_every_page_and_end_with_the_server() -> None:
+    async def listen() -> tuple[list[list[dict[str, object]]], bool]:
+        hub = Hub()
+        pages = [hub.stream(), hub.stream()]
+        for page in pages:
+            assert (await anext(page)).startswith(":")
+        for revision in (2, 3):
+            hub.tell("take", revision)
+        heard = [[json.loads((await anext(page))[6:]) for _ in range(2)] for page in pages]
+        hub.close()
+        left = [item for page in pages for item in [line async for line in page]]
+        return heard, left == []
+
+    heard, ended = asyncio.run(listen())
+    assert heard == [[{"recording": "take", "revision": r} for r in (2, 3)]] * 2
+    assert ended
+
+
+def test_rows_of_a_message_tile_and_are_of_its_type(studio) -> None:
+    message = studio.done(1, "segment", preset="voegele2014", parameters={"min_primitive": 0.1})
+    rows = [row for row in message["segmentation"]["segments"] if row["level"] == "primitive"]
+    assert all(a["stop_frame"] == b["start_frame"] for a, b in pairwise(rows))
+    assert np.isclose(rows[-1]["stop_s"], 4.0)
+    assert conforms(messages.Edited, message)
+    assert conforms(messages.Recording, studio.recording())
