@@ -6,7 +6,7 @@ its provenance what the file did not tell and had to be inferred. One module
 per format; `register` adds more.
 """
 
-from kineme.formats import amc, arrays, bvh, c3d, mot, tables, trc
+from kineme.formats import amc, arrays, bvh, c3d, mat, mot, pose_json, sleap, tables, trc
 from kineme.formats.registry import (
     Format,
     ReadOptions,
@@ -16,6 +16,7 @@ from kineme.formats.registry import (
     write,
 )
 
+register(amc.SKELETON)
 register(amc.FORMAT)
 register(bvh.FORMAT)
 register(c3d.FORMAT)
@@ -25,5 +26,10 @@ register(tables.FORMAT)
 register(tables.PARQUET)
 register(arrays.NPZ)
 register(arrays.NPY)
+register(mat.FORMAT)
+register(sleap.FORMAT)
+register(pose_json.MEDIAPIPE)
+register(pose_json.COCO)
+register(pose_json.OPENPOSE)
 
 __all__ = ["Format", "ReadOptions", "read", "register", "supported_formats", "write"]

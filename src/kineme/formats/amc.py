@@ -238,4 +238,10 @@ def _recognises(head: bytes) -> bool:
     return _KEYWORD.search(head) is not None
 
 
+def refuse_asf(source: Source, options: ReadOptions) -> Motion:  # noqa: ARG001
+    """Nothing: a skeleton alone does not move."""
+    raise source.error("is a skeleton without a motion: give the AMC file that belongs to it")
+
+
+SKELETON = Format("ASF", (".asf",), lambda _: False, refuse_asf)
 FORMAT = Format("AMC", (".amc",), _recognises, read_amc, write_amc)

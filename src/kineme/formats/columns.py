@@ -40,7 +40,12 @@ _RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
 
 
 def columns_to_motion(
-    source: Source, name: str, columns: Mapping[str, ArrayLike], options: ReadOptions
+    source: Source,
+    name: str,
+    columns: Mapping[str, ArrayLike],
+    options: ReadOptions,
+    *,
+    limit: float = SURE,
 ) -> Motion:
     """The motion of the joints in a table's columns.
 
@@ -48,17 +53,19 @@ def columns_to_motion(
     ----------
     name : of the format
     columns : (rows,) each, numbers, by their names
+    limit : confidence from which a keypoint counts as seen
 
     Raises
     ------
     ReadError : no joints are found, columns differ in length, or nothing tells the rate
     """
     names, positions, sure = _joints(source, columns)
-    positions[sure < SURE] = np.nan
+    limit = limit if options.confidence is None else options.confidence
+    positions[sure < limit] = np.nan
     flat = all(len(axes) == 2 for axes in _axes(columns).values())
     fps, positions, notes = timed(source, columns, positions, options.fps)
-    if (sure < SURE).any():
-        notes.append(f"{int((sure < SURE).sum())} positions less sure than {SURE:g} not used")
+    if (sure < limit).any():
+        notes.append(f"{int((sure < limit).sum())} positions less sure than {limit:g} not used")
     unit, up = options.unit, options.up
     if flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")

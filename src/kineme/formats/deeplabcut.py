@@ -3,16 +3,14 @@
 Rows ``scorer``, ``individuals`` (where there are several), ``bodyparts`` and
 ``coords`` (x, y, perhaps z, likelihood), then a row per frame. Keypoints less
 likely than 0.6, DeepLabCut's own limit for plots, count as not seen. Of several
-individuals the first is read. There is no frame rate in the file: ``fps`` gives it.
+individuals ``person`` names one. There is no frame rate in the file: ``fps`` gives it.
 """
 
 from __future__ import annotations
 
-import numpy as np
-
-from kineme.formats.columns import SURE, columns_to_motion
+from kineme.formats.columns import columns_to_motion
 from kineme.formats.delimited import rows_of
-from kineme.formats.files import Source, warn
+from kineme.formats.files import Source
 from kineme.formats.registry import ReadOptions
 from kineme.motion import Motion
 
@@ -37,20 +35,27 @@ def read_deeplabcut(source: Source, lines: list[str], first: int, options: ReadO
     who = heads.get("individuals", [""] * len(parts))
     if len({len(parts), len(coords), len(who)}) > 1:
         raise source.error("the rows of names differ in length", first + 1)
-    if len(set(who)) > 1:
-        warn(f"{source.path}: {len(set(who))} individuals: the first, {who[0]!r}, is read")
+    wanted = _wanted(source, list(dict.fromkeys(who)), options.person)
     below = first + len(heads)
     values = rows_of(source, lines[len(heads) :], below, ",", 1 + len(parts))[:, 1:]
     columns = {
-        f"{part}_{coord}": _sureness(column) if coord == "likelihood" else column
+        f"{part}_{coord}": column
         for part, coord, someone, column in zip(parts, coords, who, values.T, strict=True)
-        if someone == who[0]
+        if someone == wanted
     }
-    return columns_to_motion(source, "DeepLabCut", columns, options)
+    return columns_to_motion(source, "DeepLabCut", columns, options, limit=LIKELY)
 
 
-def _sureness(
-    likelihood: np.ndarray[tuple[int], np.dtype[np.float64]],
-) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Likelihoods with DeepLabCut's limit where `columns` has its own."""
-    return likelihood - LIKELY + SURE
+def _wanted(source: Source, individuals: list[str], person: str | None) -> str:
+    """The individual to read."""
+    if person in individuals:
+        return person
+    shown = ", ".join(individuals[:8])
+    if person is not None:
+        raise source.error(f"there is no person {person!r}: choose from {shown}")
+    if len(individuals) > 1:
+        raise source.error(
+            f"{len(individuals)} individuals are in it: choose one with person= (--person), "
+            f"of {shown}"
+        )
+    return individuals[0]

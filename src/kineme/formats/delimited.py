@@ -60,6 +60,12 @@ def rows_of(
     return np.array(values).reshape(-1, len(wanted))
 
 
+def texts_of(lines: Sequence[str], separator: str, column: int) -> list[str]:
+    """The cells of one column as text, for the rows that `rows_of` gives and perhaps one more."""
+    rows = (row for row in csv.reader(lines, delimiter=separator) if any(map(str.strip, row)))
+    return [row[column].strip() if column < len(row) else "" for row in rows]
+
+
 def separator_of(line: str) -> str:
     """Tab, semicolon or comma, whichever cuts the line into most cells."""
     return max("\t;,", key=line.count)

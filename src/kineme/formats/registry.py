@@ -27,13 +27,17 @@ AnyPath = str | PathLike[str]
 class ReadOptions:
     """What the user knows better than the file; None where the file is right.
 
-    ``unit`` is a name in `UNITS` or the length of one file unit in metres.
+    ``unit`` is a name in `UNITS` or the length of one file unit in metres,
+    ``person`` the name or number of one of several, ``confidence`` that from
+    which a keypoint counts as seen.
     """
 
     skeleton: Path | None = None
     fps: float | None = None
     unit: str | float | None = None
     up: str | None = None
+    person: str | None = None
+    confidence: float | None = None
 
     def __post_init__(self) -> None:
         if self.fps is not None and not (isfinite(self.fps) and self.fps > 0):
@@ -44,6 +48,8 @@ class ReadOptions:
             raise ParameterError(f"unit is {self.unit}: give the metres in one unit, above 0")
         if self.up is not None and self.up not in AXES:
             raise ParameterError(f"up is {self.up!r}: give one of {', '.join(AXES)}")
+        if self.confidence is not None and not isfinite(self.confidence):
+            raise ParameterError(f"confidence is {self.confidence}: give a number, such as 0.5")
 
 
 @dataclass(frozen=True)
@@ -57,6 +63,8 @@ class Format:
     recognises : whether a file's first 4096 bytes look like this format
     read : from a source to a motion, or None
     write : from a motion to a path, or None
+    read_folder : from a folder of files that are one recording to a motion, None where
+        there are none of this format in it
     """
 
     name: str
@@ -64,6 +72,7 @@ class Format:
     recognises: Callable[[bytes], bool]
     read: Callable[[Source, ReadOptions], Motion] | None = None
     write: Callable[[Motion, Path], None] | None = None
+    read_folder: Callable[[Path, ReadOptions], Motion | None] | None = None
 
 
 _formats: list[Format] = []
@@ -86,34 +95,41 @@ def read(
     fps: float | None = None,
     unit: str | float | None = None,
     up: str | None = None,
+    person: str | int | None = None,
+    confidence: float | None = None,
 ) -> Motion:
     """The motion in a file: metres, y up, with what was inferred in its provenance.
 
     Parameters
     ----------
-    path : the recording
+    path : the recording; a folder where it is a file per frame, as OpenPose's
     skeleton : the ASF file of an AMC, if it is not found beside it
     fps : frames per second, in place of the file's
     unit : "m", "cm", "mm", "inch", "cmu" (1/0.45 inch) or the metres in one
         unit, in place of the file's or of what the body's height suggests
     up : the file's vertical axis, "x", "y", "z", "-x", "-y" or "-z"
+    person : which of several people in a file, by name or number
+    confidence : from which a keypoint counts as seen, in place of its format's limit
 
     Raises
     ------
     ReadError : the file is missing, damaged or of no known format
     ParameterError : an option is outside what it accepts
     """
-    options = ReadOptions(Path(skeleton) if skeleton is not None else None, fps, unit, up)
-    source = load(path)
-    if not source.data.strip():
-        raise ReadError(path, "the file is empty")
-    reader = _recognise(source).read
-    if reader is None:
-        raise ReadError(path, "this format can be written but not read")
+    options = ReadOptions(
+        skeleton=Path(skeleton) if skeleton is not None else None,
+        fps=fps,
+        unit=unit,
+        up=up,
+        person=None if person is None else str(person),
+        confidence=confidence,
+    )
     try:
         # Values too large to compute with end up as an error in Motion.
         with np.errstate(over="ignore", invalid="ignore"):
-            return reader(source, options)
+            if Path(path).is_dir():
+                return _read_folder(Path(path), options)
+            return _read_file(load(path), options)
     except MotionError as error:
         raise ReadError(path, str(error)) from error
 
@@ -133,6 +149,27 @@ def write(motion: Motion, path: AnyPath) -> None:
     suffixes = sorted(s for known in _formats if known.write for s in known.suffixes)
     raise WriteError(
         path, f"no writer for the suffix {target.suffix!r}: use one of {', '.join(suffixes)}"
+    )
+
+
+def _read_file(source: Source, options: ReadOptions) -> Motion:
+    if not source.data.strip():
+        raise source.error("the file is empty")
+    reader = _recognise(source).read
+    if reader is None:
+        raise source.error("this format can be written but not read")
+    return reader(source, options)
+
+
+def _read_folder(path: Path, options: ReadOptions) -> Motion:
+    for known in _formats:
+        motion = known.read_folder(path, options) if known.read_folder else None
+        if motion is not None:
+            return motion
+    raise ReadError(
+        path,
+        "cannot be opened: a folder without the file for each frame (*_keypoints.json) that "
+        "OpenPose leaves; give the files in it one by one",
     )
 
 

@@ -19,18 +19,23 @@ from kineme.formats.deeplabcut import is_deeplabcut, read_deeplabcut
 from kineme.formats.delimited import rows_of, separator_of
 from kineme.formats.files import MOST_EXPANSION, Source, save, unique
 from kineme.formats.gaps import unseen
+from kineme.formats.pose_tables import POSE_TABLES, PoseTable
 from kineme.formats.registry import Format, ReadOptions
 from kineme.motion import Motion
 
 
 def read_table(source: Source, options: ReadOptions) -> Motion:
-    """The motion in a CSV or TSV of joint positions."""
+    """The motion in a CSV or TSV of joint positions or keypoints."""
     lines = source.text.splitlines()
     first = next((i for i, line in enumerate(lines) if line.strip() and line[0] != "#"), 0)
     if is_deeplabcut(lines[first]):
         return read_deeplabcut(source, lines[first:], first + 1, options)
     separator = separator_of(lines[first])
     names = unique(_cells(lines[first], separator, source))
+    table = PoseTable(source, names, lines[first + 1 :], first + 2, separator)
+    for recognises, reader in POSE_TABLES:
+        if recognises(names):
+            return reader(table, options)
     used = [i for i, name in enumerate(names) if is_used(name)]
     values = rows_of(source, lines[first + 1 :], first + 2, separator, len(names), used)
     columns = {names[i]: column for i, column in zip(used, values.T, strict=True)}

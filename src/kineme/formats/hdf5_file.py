@@ -1,0 +1,116 @@
+"""HDF5 files as variables by name: groups are dicts, data sets arrays, lists of texts lists.
+
+MATLAB's files of version 7.3 are HDF5 with a header of their own; their arrays
+have their dimensions the other way round, texts are numbers, cells references.
+
+Needs h5py. A data set that claims more than the file can hold is refused.
+"""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+import numpy as np
+
+from kineme.errors import MissingDependencyError
+from kineme.formats.files import MOST_EXPANSION, Source
+
+SIGNATURE = b"\x89HDF\r\n\x1a\n"
+_DEEPEST = 30
+# What h5py raises on damaged files, depending on where the damage is.
+_DAMAGE = (
+    OSError, RuntimeError, LookupError, ValueError, TypeError, AttributeError, SystemError,
+    OverflowError, MemoryError,
+)  # fmt: skip
+
+
+def parse_hdf5(source: Source) -> dict[str, Any]:
+    """The contents of an HDF5 file by name.
+
+    Raises
+    ------
+    MissingDependencyError : h5py is not installed
+    ReadError : it is no HDF5 file, or is damaged
+    """
+    try:
+        import h5py
+    except ImportError as error:
+        raise MissingDependencyError("h5py", "hdf5") from error
+    try:
+        with h5py.File(io.BytesIO(source.data), "r") as file:
+            return _Reader(source, file).group(file, 0)
+    except _DAMAGE as error:
+        reason = " ".join(str(error).split())
+        raise source.error(f"is no whole HDF5 file: {reason[:120]}") from None
+
+
+class _Reader:
+    """Reads groups and data sets while there is room for what they claim."""
+
+    def __init__(self, source: Source, file: Any) -> None:
+        self.source, self.file = source, file
+        self.room = MOST_EXPANSION * len(source.data)
+
+    def group(self, group: Any, depth: int) -> dict[str, Any]:
+        import h5py
+
+        if depth > _DEEPEST:
+            raise ValueError("groups too deep in one another")
+        found: dict[str, Any] = {}
+        for name in group:
+            if name.startswith("#"):  # MATLAB's references
+                continue
+            link = group.get(name, getlink=True)
+            if not isinstance(link, h5py.HardLink):  # to other files, or in a circle
+                continue
+            found[name] = self.value(group[name], depth)
+        return found
+
+    def value(self, item: Any, depth: int) -> Any:
+        import h5py
+
+        if isinstance(item, h5py.Group):
+            return self.group(item, depth + 1)
+        if not isinstance(item, h5py.Dataset) or item.shape is None:
+            return None
+        self.room -= int(np.prod(item.shape, dtype=object)) * max(1, item.dtype.itemsize)
+        if self.room < 0:
+            raise ValueError("it claims to unpack to much more than it holds")
+        if item.attrs.get("MATLAB_empty", 0):
+            return np.empty((0, 0))
+        if h5py.check_ref_dtype(item.dtype) is not None:
+            return self.cells(item, depth)
+        return _plain(item)
+
+    def cells(self, item: Any, depth: int) -> list[Any]:
+        """What the references of a data set point to."""
+        if depth > _DEEPEST:
+            raise ValueError("cells too deep in one another")
+        return [self.value(self.file[ref], depth + 1) for ref in item[()].ravel() if ref]
+
+
+def _plain(item: Any) -> Any:
+    """A data set of numbers or texts; None if of anything else."""
+    import h5py
+
+    if h5py.check_string_dtype(item.dtype) is not None:
+        lines = np.atleast_1d(item.asstr(errors="replace")[()]).ravel()
+        return [str(line) for line in lines]
+    array = np.asarray(item[()])
+    if array.dtype.kind not in "iufbS":
+        return None
+    matlab = item.attrs.get("MATLAB_class", b"")
+    if matlab == b"char":
+        return "".join(map(chr, array.T.ravel(order="F").tolist()))
+    return array.T if matlab else array
+
+
+def texts(value: Any) -> list[str]:
+    """The texts in a value, whether a list of them, one, or fixed-length bytes."""
+    if isinstance(value, str):
+        return [value]
+    if isinstance(value, np.ndarray) and value.dtype.kind == "S":
+        return [text.decode("utf-8", "replace") for text in value.ravel().tolist()]
+    items = value if isinstance(value, list) else []
+    return [text for item in items for text in texts(item)]

@@ -1,0 +1,181 @@
+"""The layout of MAT files of version 5 (MATLAB 5 to 7.2, the default up to -v7).
+
+128 bytes of text with the order of the bytes, then elements: type and size, and
+that many bytes, padded to eight. An element of type 15 holds another one,
+compressed. An array has flags, dimensions and a name, and then its numbers,
+its characters, its cells or its fields. Sparse arrays, objects, tables and
+functions are passed over.
+
+Nothing is allocated that the file does not hold.
+
+Source: The MathWorks, "MAT-File Format", R2023a.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from kineme.formats.files import MOST_EXPANSION, Source
+
+Array = np.ndarray[Any, np.dtype[Any]]
+Value = Any
+"""An array of numbers, a text, a list of cells, or a dict of fields."""
+
+_HEADER = 128
+_MATRIX, _COMPRESSED = 14, 15
+_NUMBERS = {
+    1: "i1",
+    2: "u1",
+    3: "i2",
+    4: "u2",
+    5: "i4",
+    6: "u4",
+    7: "f4",
+    9: "f8",
+    12: "i8",
+    13: "u8",
+}
+_TEXTS = {16: "utf-8", 17: "utf-16", 18: "utf-32"}
+_CELL, _STRUCT, _CHAR, _NUMERIC = 1, 2, 4, range(6, 16)
+_COMPLEX = 0x08
+_DEEPEST = 30  # structures inside one another
+
+
+class _DamagedError(ValueError):
+    """What a part of the file says about itself cannot be."""
+
+
+def parse_mat(source: Source) -> dict[str, Value]:
+    """The variables of a MAT file by name.
+
+    Raises
+    ------
+    ReadError : it is no MAT file of version 5, or is damaged
+    """
+    data = source.data
+    order = {b"IM": "<", b"MI": ">"}.get(data[126:128])
+    if len(data) < _HEADER or order is None:
+        raise source.error("is no MAT file of version 5: save it with -v7 or as CSV")
+    budget = MOST_EXPANSION * len(data)
+    variables: dict[str, Value] = {}
+    try:
+        for kind, body in _elements(data[_HEADER:], order):
+            if kind == _COMPRESSED:
+                unpacked = _unpacked(body, budget)
+                budget -= len(unpacked)
+                kind, body = next(_elements(unpacked, order), (0, b""))  # noqa: PLW2901
+            if kind == _MATRIX:
+                name, value = _matrix(body, order, 0)
+                if name and value is not None:
+                    variables[name] = value
+    except (_DamagedError, zlib.error) as error:
+        raise source.error(f"is no whole MAT file: {error}") from None
+    return variables
+
+
+def _unpacked(body: bytes, budget: int) -> bytes:
+    engine = zlib.decompressobj()
+    unpacked = engine.decompress(body, max(1, budget))
+    if engine.unconsumed_tail:
+        raise _DamagedError("it claims to unpack to much more than it holds")
+    return unpacked
+
+
+def _elements(data: bytes, order: str) -> Iterator[tuple[int, bytes]]:
+    """Type and bytes of the elements, one after the other."""
+    at = 0
+    while at + 8 <= len(data):
+        first, size = np.frombuffer(data, f"{order}u4", 2, at).tolist()
+        if first >> 16:  # a small element: size and type share four bytes, the data the others
+            kind, size, start, step = first & 0xFFFF, first >> 16, at + 4, 8
+            if size > 4:
+                raise _DamagedError(f"a small element of {size} bytes")
+        else:
+            kind, start = first, at + 8
+            step = 8 + (size if kind == _COMPRESSED else -(-size // 8) * 8)
+        if start + size > len(data):
+            raise _DamagedError(
+                f"an element of {size} bytes, of which {len(data) - start} are there"
+            )
+        yield kind, data[start : start + size]
+        at += step
+
+
+def _matrix(body: bytes, order: str, depth: int) -> tuple[str, Value]:
+    """Name and value of an array; None for those that are passed over."""
+    if not body:
+        return "", np.empty((0, 0))
+    if depth > _DEEPEST:
+        raise _DamagedError("structures too deep in one another")
+    parts = _elements(body, order)
+    flags = _numbers(*_next(parts), order)
+    shape = [int(n) for n in _numbers(*_next(parts), order)]
+    name = _next(parts)[1].decode("utf-8", "replace")
+    if not len(flags) or not shape or min(shape) < 0:
+        raise _DamagedError("an array without flags or dimensions")
+    kind, is_complex = int(flags[0]) & 0xFF, int(flags[0]) >> 8 & _COMPLEX
+    if kind in _NUMERIC and not is_complex:
+        return name, _shaped(_numbers(*_next(parts), order), shape)
+    if kind == _CHAR:
+        return name, _text(*_next(parts), shape, order)
+    if kind == _CELL:
+        return name, [_matrix(part, order, depth + 1)[1] for _, part in parts]
+    if kind == _STRUCT:
+        return name, _fields(parts, shape, order, depth)
+    return name, None
+
+
+def _next(parts: Iterator[tuple[int, bytes]]) -> tuple[int, bytes]:
+    found = next(parts, None)
+    if found is None:
+        raise _DamagedError("an array breaks off")
+    return found
+
+
+def _numbers(kind: int, data: bytes, order: str) -> Array:
+    if kind not in _NUMBERS:
+        raise _DamagedError(f"numbers of the unknown type {kind}")
+    number = np.dtype(order + _NUMBERS[kind])
+    return np.frombuffer(data, number, len(data) // number.itemsize)
+
+
+def _shaped(flat: Array, shape: list[int]) -> Array:
+    count = 1
+    for n in shape:
+        count *= n
+    if count != len(flat):
+        raise _DamagedError(f"{len(flat)} numbers for an array of shape {tuple(shape)}")
+    return flat.reshape(shape, order="F")
+
+
+def _text(kind: int, data: bytes, shape: list[int], order: str) -> Value:
+    """A text; of several rows, a list of them without the blanks at their ends."""
+    if kind in _TEXTS:
+        coding = _TEXTS[kind] + ("" if kind == 16 else "-le" if order == "<" else "-be")
+        letters = list(data.decode(coding, "replace"))
+    else:
+        letters = [
+            chr(int(code)) if 0 < code < 0xD800 else " " for code in _numbers(kind, data, order)
+        ]
+    rows = shape[0]
+    if rows <= 1 or len(letters) % rows:
+        return "".join(letters)
+    return ["".join(letters[row::rows]).rstrip() for row in range(rows)]
+
+
+def _fields(parts: Iterator[tuple[int, bytes]], shape: list[int], order: str, depth: int) -> Value:
+    """The fields of a structure by name; of several structures, those of the first."""
+    width = _numbers(*_next(parts), order)
+    names = _next(parts)[1]
+    if len(width) != 1 or width[0] < 1 or 0 in shape:
+        return {}
+    step = int(width[0])
+    keys = [
+        names[i : i + step].split(b"\0")[0].decode("utf-8", "replace")
+        for i in range(0, len(names), step)
+    ]
+    return {key: _matrix(_next(parts)[1], order, depth + 1)[1] for key in keys}

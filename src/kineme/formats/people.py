@@ -1,0 +1,143 @@
+"""Which of the people in a file: pose estimators find several, and now and then one too many.
+
+Where the file tracks people, by a name or number, these are they. Where it does
+not, detections of successive frames are joined by the smallest distance between
+their keypoints, and people are numbered from 0 as they come into sight. Who is
+seen in less than a tenth of the frames of the one seen most is passed over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.formats.files import Source
+
+Floats = NDArray[np.float64]
+Rows = NDArray[np.intp]
+
+PASSING = 0.1
+"""Share of the frames of the one seen most below which somebody is passed over."""
+
+_STRIDE = 0.5  # of the body's size that someone may be away from the frame before,
+_STRAY = 0.1  # and for each frame that passed since
+_REMEMBERED = 50  # people last seen, who may come back
+
+
+@dataclass(frozen=True)
+class Detections:
+    """One row for each person found in a frame.
+
+    Parameters
+    ----------
+    frames : (rows,), ascending
+    points : (rows, keypoints, 3), NaN where not found
+    who : one per row: how the file calls this person, or None
+    """
+
+    frames: Rows
+    points: Floats
+    who: Sequence[str | None]
+
+
+def rows_of_person(source: Source, found: Detections, person: str | None) -> tuple[Rows, list[str]]:
+    """The rows of the person wanted, or of the only one; and what was done.
+
+    Raises
+    ------
+    ReadError : there are several and none was chosen, or nobody of this name
+    """
+    people = _people(found)
+    if not people:
+        raise source.error("nobody is found in any frame")
+    if person is not None:
+        if person not in people:
+            raise source.error(
+                f"there is no person {person!r}: choose from {_shown(people, found)}"
+            )
+        notes = [f"person {person} of {len(people)}"] if len(people) > 1 else []
+        return people[person], notes
+    most = max(map(len, people.values()))
+    staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * most}
+    if len(staying) > 1:
+        raise source.error(
+            f"{len(staying)} people are in it: choose one with person= (--person), "
+            f"of {_shown(staying, found)}"
+        )
+    ((name, rows),) = staying.items()
+    passing = len(people) - 1
+    notes = [f"person {name}; {passing} seen only in passing are left out"] if passing else []
+    return rows, notes
+
+
+def _people(found: Detections) -> dict[str, Rows]:
+    """For each person the rows, in order of first sight."""
+    if all(name is not None for name in found.who):
+        numbers = [str(name) for name in found.who]
+    elif len(np.unique(found.frames)) == len(found.frames):
+        numbers = ["0"] * len(found.frames)
+    else:
+        numbers = _followed(found)
+    rows: dict[str, list[int]] = {}
+    for row, number in enumerate(numbers):
+        rows.setdefault(number, []).append(row)
+    return {
+        name: np.array(which)[np.unique(found.frames[which], return_index=True)[1]]
+        for name, which in rows.items()
+    }
+
+
+def _followed(found: Detections) -> list[str]:
+    """A number for each row: that of the person nearest to it a frame before, or a new one."""
+    from scipy.optimize import linear_sum_assignment
+
+    numbers = [0] * len(found.frames)
+    last: dict[int, int] = {}  # the row of each person last seen
+    count = 0
+    starts = np.flatnonzero(np.diff(found.frames, prepend=-1))
+    for start, stop in zip(starts, [*starts[1:], len(found.frames)], strict=True):
+        known = list(last)
+        before = np.array([last[who] for who in known], np.intp)
+        cost = np.full((len(known), stop - start), np.inf)
+        for column, row in enumerate(range(start, stop)):
+            if known:
+                cost[:, column] = _strides(found, before, row)
+        possible = np.where(np.isfinite(cost), cost, 1e6)
+        pairs = zip(*linear_sum_assignment(possible), strict=True)
+        matched = {column: known[k] for k, column in pairs if cost[k, column] <= 1}
+        for column, row in enumerate(range(start, stop)):
+            if column not in matched:
+                matched[column] = count
+                count += 1
+            numbers[row] = matched[column]
+            last.pop(matched[column], None)
+            last[matched[column]] = row
+        for who in list(last)[:-_REMEMBERED]:
+            del last[who]
+    return [str(number) for number in numbers]
+
+
+def _strides(found: Detections, before: Rows, row: int) -> Floats:
+    """How far a person is from where others were last, in the ways they could have gone; or inf."""
+    now = found.points[row]
+    with np.errstate(all="ignore"):
+        away = np.linalg.norm(found.points[before] - now, axis=2)
+        seen = np.isfinite(away)
+        mean = np.where(seen, away, 0).sum(axis=1) / seen.sum(axis=1)
+        here = now[np.isfinite(now).all(axis=1)]
+        size = np.ptp(here, axis=0).max() if len(here) > 1 else 0.0
+        passed = found.frames[row] - found.frames[before]
+        strides = mean / (size * (_STRIDE + _STRAY * (passed - 1)))
+    return np.asarray(np.where(np.isfinite(strides), strides, np.inf))
+
+
+def _shown(people: dict[str, Rows], found: Detections, most: int = 8) -> str:
+    said = [
+        f"{name} ({len(rows)} frames from {found.frames[rows[0]]} on)"
+        for name, rows in people.items()
+    ]
+    more = f" and {len(said) - most} more" if len(said) > most else ""
+    return ", ".join(said[:most]) + more

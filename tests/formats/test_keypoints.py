@@ -1,0 +1,351 @@
+"""Keypoints of pose estimators: every layout, whom to take, what is not sure, what is refused."""
+
+from __future__ import annotations
+
+import json
+import tracemalloc
+from pathlib import Path
+
+import numpy as np
+import pytest
+from keypoint_samples import (
+    COCO,
+    MEDIAPIPE,
+    OPENPOSE,
+    as_json,
+    coco,
+    image_landmarks,
+    marks,
+    openpose,
+    openpose_frame,
+    pixels,
+    sleap_csv,
+    sleap_h5,
+    standing,
+    world_landmarks,
+)
+
+import kineme
+from kineme.errors import KinemeWarning, ReadError
+
+
+def read(folder: Path, name: str, content: str | bytes | list | dict, **options):
+    path = folder / name
+    data = as_json(content) if isinstance(content, list | dict) else content
+    path.write_bytes(data.encode() if isinstance(data, str) else data)
+    return kineme.read(path, **options)
+
+
+def waves(motion: kineme.Motion, wrist: str = "left_wrist") -> float:
+    """Metres that the wrist goes up and down: 0.8 in every sample."""
+    return float(np.ptp(motion.positions[:, motion.joint(wrist), 1]))
+
+
+def stands(motion: kineme.Motion) -> bool:
+    """Upright, of human height, with the left on the left; pose features can be had."""
+    at = dict(zip(motion.skeleton.names, motion.positions[0], strict=True))
+    upright = at["head"][1] - at["left_ankle"][1]
+    kineme.pose_features(motion)
+    return bool(1.0 < upright < 1.9 and at["left_hip"][0] > at["right_hip"][0])
+
+
+@pytest.mark.parametrize("count", [25, 18])
+def test_openpose_in_a_folder(tmp_path: Path, count: int) -> None:
+    for i, frame in enumerate(openpose(count)):
+        (tmp_path / f"walk_{i:012d}_keypoints.json").write_text(json.dumps(frame))
+    (tmp_path / "notes.txt").write_text("x")
+    motion = kineme.read(tmp_path, fps=25)
+    assert (motion.provenance.format, motion.n_frames, motion.fps) == ("OpenPose", 30, 25)
+    assert stands(motion)
+    assert 0.6 < waves(motion) < 1.0
+    assert (motion.positions[:, :, 2] == 0).all()
+    with pytest.raises(ReadError, match="keypoints have no frame rate: give fps="):
+        kineme.read(tmp_path)
+
+
+def test_openpose_frames_without_anybody_are_gaps(tmp_path: Path) -> None:
+    frames = openpose(frames=40)
+    for i in (3, 4):
+        frames[i]["people"] = []
+    for i in range(15, 27):
+        frames[i]["people"] = []
+    for i, frame in enumerate(frames):
+        if i != 33:  # a file that is missing
+            (tmp_path / f"{i}.json").write_text(json.dumps(frame))
+    with pytest.warns(KinemeWarning, match="frames 15 to 26"):
+        motion = kineme.read(tmp_path, fps=25)
+    assert motion.n_frames == 40
+    assert motion.gaps == ((15, 27),)
+    assert any("gaps up to 0.2 s filled" in note for note in motion.provenance.notes)
+
+
+def test_openpose_in_one_file(tmp_path: Path) -> None:
+    frames = openpose()
+    motion = read(tmp_path, "a.json", frames, fps=25)
+    numbered = read(tmp_path, "b.json", {str(i): f for i, f in enumerate(frames)}, fps=25)
+    assert np.array_equal(motion.positions, numbered.positions)
+    one = read(tmp_path, "c.json", frames[0], fps=25)
+    assert one.n_frames == 1
+    solid = [openpose_frame(p, key="pose_keypoints_3d") for p in standing(OPENPOSE[25])]
+    motion = read(tmp_path, "d.json", solid, fps=25)
+    assert stands(motion)
+    assert waves(motion) == pytest.approx(0.8, abs=0.05)
+
+
+def test_a_folder_of_anything_else(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("x")
+    with pytest.raises(ReadError, match="cannot be opened: a folder without the file for each"):
+        kineme.read(tmp_path)
+    (tmp_path / "frame_1.json").write_text("{}")
+    with pytest.raises(ReadError, match="frame_1.json: no 'people' in it"):
+        kineme.read(tmp_path, fps=30)
+    (tmp_path / "frame_1.json").write_text('{"people": [')
+    with pytest.raises(ReadError, match="frame_1.json, line 1: is no whole JSON file"):
+        kineme.read(tmp_path, fps=30)
+
+
+def test_one_of_several_people(tmp_path: Path) -> None:
+    left = pixels(standing(OPENPOSE[25]), 300)
+    right = pixels(standing(OPENPOSE[25])[::-1], 1200)
+    frames = []
+    for i, (one, other) in enumerate(zip(left, right)):
+        frames.append(openpose_frame(*([one, other] if i % 2 else [other, one])))
+    with pytest.raises(ReadError, match=r"2 people .* person= \(--person\), of 0 \(30 frames from"):
+        read(tmp_path, "a.json", frames, fps=25)
+    motions = [read(tmp_path, "a.json", frames, fps=25, person=who) for who in (0, "1")]
+    for motion in motions:  # the same person throughout
+        assert np.abs(np.diff(motion.positions[:, motion.joint("pelvis"), 0])).max() < 0.05
+    ways = [np.ptp(motion.positions[[0, -1], motion.joint("pelvis"), 0]) for motion in motions]
+    assert ways[0] == pytest.approx(ways[1])
+    with pytest.raises(ReadError, match="there is no person '7': choose from 0"):
+        read(tmp_path, "a.json", frames, fps=25, person=7)
+
+
+def test_somebody_in_passing_is_left_out(tmp_path: Path) -> None:
+    frames = openpose()
+    frames[10]["people"].append(
+        openpose_frame(pixels(standing(OPENPOSE[25], 1))[0] + 700)["people"][0]
+    )
+    motion = read(tmp_path, "a.json", frames, fps=25)
+    assert any("1 seen only in passing are left out" in n for n in motion.provenance.notes)
+    assert 0.6 < waves(motion) < 1.0
+
+
+def test_keypoints_that_are_not_sure_are_gaps(tmp_path: Path) -> None:
+    frames = openpose()
+    wrist = 3 * OPENPOSE[25].index("LWrist")
+    keypoints = frames[12]["people"][0]["pose_keypoints_2d"]
+    keypoints[wrist : wrist + 3] = [0, 0, 0.29]
+    motion = read(tmp_path, "a.json", frames, fps=25)
+    assert any("1 positions less sure than 0.3 not used" in n for n in motion.provenance.notes)
+    assert np.abs(np.diff(motion.positions[:, motion.joint("left_wrist")], axis=0)).max() < 0.5
+    trusting = read(tmp_path, "a.json", frames, fps=25, confidence=0.1)
+    assert np.abs(np.diff(trusting.positions[:, motion.joint("left_wrist")], axis=0)).max() > 1
+    with pytest.raises(ReadError, match="no marker is seen throughout"):
+        read(tmp_path, "a.json", frames, fps=25, confidence=0.95)
+
+
+@pytest.mark.parametrize("results", [False, True])
+def test_coco(tmp_path: Path, results: bool) -> None:
+    motion = read(tmp_path, "a.json", coco(results=results), fps=30)
+    assert (motion.provenance.format, motion.n_frames) == ("COCO", 30)
+    assert stands(motion)
+    assert 0.6 < waves(motion) < 1.0
+    if not results:
+        data = coco()
+        data["annotations"] = data["annotations"][4:]
+        assert read(tmp_path, "a.json", data, fps=30).n_frames == 30  # the first four: filled
+
+
+def test_coco_with_people_and_names_of_images(tmp_path: Path) -> None:
+    both = coco(results=True, idx=1) + coco(results=True, idx=4, x=1300)
+    for entry in both:
+        entry["image_id"] = f"{entry['image_id']}.jpg"
+    with pytest.raises(ReadError, match=r"2 people are in it: .* 1 \(30 frames .*, 4 \(30 frames"):
+        read(tmp_path, "a.json", both, fps=30)
+    assert stands(read(tmp_path, "a.json", both, fps=30, person=4))
+    for bad, reason in [
+        ([{**both[0], "image_id": "x"}], "has no frame number in it"),
+        ([both[0], {**both[1], "image_id": 10**9}], "these are no frame numbers"),
+        ([{**both[0], "keypoints": [1, 2]}], "2 numbers for keypoints of 3 each"),
+        ([{**both[0], "keypoints": [1, 2, 3]}], "1 keypoints, not 17"),
+    ]:
+        with pytest.raises(ReadError, match=reason):
+            read(tmp_path, "a.json", bad, fps=30)
+
+
+LAYOUTS = {
+    "list": lambda poses: [marks(pose) for pose in poses],
+    "rows": lambda poses: [[[*p, 0.9] for p in pose.tolist()] for pose in poses],
+    "keys": lambda poses: [{"frame": i, "landmarks": marks(p)} for i, p in enumerate(poses)],
+    "tasks": lambda poses: [{"landmarks": [marks(p)]} for p in poses],
+    "camel": lambda poses: {"fps": 25, "frames": [{"poseWorldLandmarks": marks(p)} for p in poses]},
+    "solutions": lambda poses: [{"pose_landmarks": {"landmark": marks(p)}} for p in poses],
+    "numbered": lambda poses: {str(i): marks(p) for i, p in enumerate(poses)},
+    "named": lambda poses: [
+        {"pose": dict(zip(map(str.upper, MEDIAPIPE), marks(p)))} for p in poses
+    ],
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_mediapipe_json(tmp_path: Path, layout: str) -> None:
+    motion = read(tmp_path, "a.json", LAYOUTS[layout](world_landmarks()), fps=25)
+    assert (motion.provenance.format, motion.n_frames) == ("MediaPipe", 30)
+    assert any("world landmarks" in note for note in motion.provenance.notes)
+    assert stands(motion)
+    assert waves(motion) == pytest.approx(0.8, abs=0.05)
+
+
+def test_mediapipe_takes_world_landmarks_where_there_are_both(tmp_path: Path) -> None:
+    frames = [
+        {"pose_landmarks": marks(image), "pose_world_landmarks": marks(world)}
+        for image, world in zip(image_landmarks(), world_landmarks())
+    ]
+    frames[4] = {"pose_landmarks": None, "pose_world_landmarks": None}
+    motion = read(tmp_path, "a.json", {"frame_rate": 50, "frames": frames})
+    assert (motion.fps, motion.n_frames) == (50, 30)
+    assert waves(motion) == pytest.approx(0.8, abs=0.05)
+
+
+def test_mediapipe_landmarks_of_the_image(tmp_path: Path) -> None:
+    frames = [{"landmarks": marks(pose)} for pose in image_landmarks()]
+    with pytest.warns(KinemeWarning, match="unknown shape, taken as square"):
+        motion = read(tmp_path, "a.json", frames, fps=25)
+    assert stands(motion)
+    wide = {"width": 2000, "height": 1000, "frames": frames}
+    ratio = np.ptp(read(tmp_path, "a.json", wide, fps=25).positions[0], axis=0)
+    assert ratio[0] / ratio[1] == pytest.approx(2 * np.divide(*np.ptp(motion.positions[0], 0)[:2]))
+
+
+def _wide(pattern: str, first: int = 0, **more: list) -> str:
+    names = [pattern.format(f=f, i=i + first, name=MEDIAPIPE[i]) for i in range(33) for f in "xyzv"]
+    lines = [",".join([*more, *names])]
+    for row, pose in enumerate(world_landmarks()):
+        cells = np.column_stack([pose, np.full(33, 0.9)]).ravel()
+        lines.append(",".join([*(str(c[row]) for c in more.values()), *map(str, cells)]))
+    return "\n".join(lines) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("pattern", "first"),
+    [
+        ("{f}{i}", 0),
+        ("{f}{i}", 1),
+        ("landmark_{i}_{f}", 0),
+        ("{f}_{i}", 0),
+        ("{name}_{f}", 0),
+        ("lm{i}.{f}", 0),
+    ],
+)
+def test_mediapipe_csv(tmp_path: Path, pattern: str, first: int) -> None:
+    text = _wide(pattern, first, time=[i / 25 for i in range(30)], **{"class": ["wave"] * 30})
+    motion = read(tmp_path, "a.csv", text)
+    assert (motion.provenance.format, motion.fps, motion.n_frames) == ("MediaPipe", 25, 30)
+    assert stands(motion)
+    assert waves(motion) == pytest.approx(0.8, abs=0.05)
+    text = _wide(pattern, first, frame=[*range(20), *range(22, 32)])
+    assert read(tmp_path, "a.csv", text, fps=25).n_frames == 32
+
+
+@pytest.mark.parametrize("names", ["number", "name"])
+def test_mediapipe_csv_with_a_row_for_each_landmark(tmp_path: Path, names: str) -> None:
+    lines = ["frame,timestamp,landmark,x,y,z,visibility"]
+    for i, pose in enumerate(world_landmarks()):
+        for k, (x, y, z) in enumerate(pose.tolist()):
+            name = k if names == "number" else f"PoseLandmark.{MEDIAPIPE[k].upper()}"
+            lines.append(f"{i},{i / 25},{name},{x},{y},{z},0.9")
+    motion = read(tmp_path, "a.csv", "\n".join(lines))
+    assert (motion.provenance.format, motion.fps, motion.n_frames) == ("MediaPipe", 25, 30)
+    assert waves(motion) == pytest.approx(0.8, abs=0.05)
+    with pytest.raises(ReadError, match="'99' is none of MediaPipe's 33 landmarks"):
+        read(tmp_path, "a.csv", "\n".join([*lines, "30,1.2,99,0,0,0,1"]))
+
+
+def test_sleap_csv(tmp_path: Path) -> None:
+    tracks = {"ann": pixels(standing(COCO)), "bob": pixels(standing(COCO), 1200)}
+    with pytest.raises(ReadError, match=r"2 people .* of ann \(30 frames from 0 on\), bob"):
+        read(tmp_path, "a.csv", sleap_csv(tracks, COCO), fps=30)
+    motion = read(tmp_path, "a.csv", sleap_csv(tracks, COCO), fps=30, person="bob")
+    assert (motion.provenance.format, motion.n_frames) == ("SLEAP", 30)
+    assert stands(motion)
+    one = read(tmp_path, "a.csv", sleap_csv({"": tracks["ann"]}, COCO), fps=30)
+    assert stands(one)
+
+
+@pytest.mark.parametrize("new", [False, True])
+def test_sleap_analysis_files(tmp_path: Path, new: bool) -> None:
+    pytest.importorskip("h5py")
+    tracks = np.stack([pixels(standing(COCO)), pixels(standing(COCO), 1200)])
+    tracks[1, 12:14] = np.nan
+    data = sleap_h5(tracks, COCO, ["ann", "bob"], new)
+    with pytest.raises(ReadError, match="2 people"):
+        read(tmp_path, "a.analysis.h5", data, fps=30)
+    motion = read(tmp_path, "a.h5", data, fps=30, person="bob")
+    assert (motion.provenance.format, motion.n_frames) == ("SLEAP", 30)
+    assert stands(motion)
+    assert 0.6 < waves(motion) < 1.0
+
+
+def test_hdf5_of_anything_else(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["df_with_missing/table"] = np.zeros(3)
+    with pytest.raises(ReadError, match="no 'tracks' and 'node_names' among df_with_missing"):
+        kineme.read(tmp_path / "a.h5", fps=30)
+    with h5py.File(tmp_path / "b.h5", "w") as file:
+        file.create_dataset("tracks", shape=(10**6, 2, 5, 10**6), dtype="f8", chunks=(1, 2, 5, 10))
+    with pytest.raises(ReadError, match="claims to unpack to much more than it holds"):
+        kineme.read(tmp_path / "b.h5", fps=30)
+
+
+def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
+    points = pixels(standing(COCO))
+    head = [
+        "scorer" + ",net" * 102,
+        "individuals" + ",ann" * 51 + ",bob" * 51,
+        "bodyparts" + "".join(f",{name}" * 3 for name in COCO) * 2,
+        "coords" + ",x,y,likelihood" * 34,
+    ]
+    rows = [
+        ",".join([str(i), *(f"{x},{y},0.9" for x, y in [*row, *(row + 700)])])
+        for i, row in enumerate(points)
+    ]
+    text = "\n".join([*head, *rows])
+    with pytest.raises(ReadError, match=r"2 individuals .*\(--person\), of ann, bob"):
+        read(tmp_path, "a.csv", text, fps=30)
+    assert stands(read(tmp_path, "a.csv", text, fps=30, person="bob"))
+    with pytest.raises(ReadError, match="no person 'eve': choose from ann, bob"):
+        read(tmp_path, "a.csv", text, fps=30, person="eve")
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        ("{", "line 1: is no whole JSON file"),
+        ("[" * 100_000, "is no whole JSON file"),
+        ("{}", "no keypoints found in it"),
+        ('[{"people": 3}]', "frame 0 has no list of 'people'"),
+        ('[{"people": [3]}]', "a person without keypoints"),
+        ('[{"people": [{}]}]', "a person without pose_keypoints_2d"),
+        ('[{"people": [{"pose_keypoints_2d": [1, 2, "a"]}]}]', "not a list of numbers"),
+        ('[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]', "a person has 1 keypoints: 25, 18"),
+        ('[{"people": []}]', "nobody is found in any frame"),
+        ('{"0": {"people": []}, "99999999999": {"people": []}}', "nobody is found|no frame num"),
+    ],
+)
+def test_bad_json(tmp_path: Path, content: str, reason: str) -> None:
+    with pytest.raises(ReadError, match=reason) as caught:
+        read(tmp_path, "a.json", content, fps=30)
+    assert "\n" not in str(caught.value)
+
+
+def test_memory_follows_the_file_and_not_its_numbers(tmp_path: Path) -> None:
+    frames = dict(zip(("0", "1", "900000000"), openpose(frames=3)))
+    (tmp_path / "a.json").write_bytes(as_json(frames))
+    tracemalloc.start()
+    with pytest.raises(ReadError, match="these are no frame numbers"):
+        kineme.read(tmp_path / "a.json", fps=30)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 2_000_000

@@ -1,0 +1,195 @@
+"""MAT files: what scipy and h5py write, what scipy reads in them, and damage."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from marker_samples import PLUG_IN_GAIT, walking, z_up_millimetres
+from scipy.io import loadmat, savemat
+
+import kineme
+from kineme.errors import ReadError
+from kineme.formats.files import Source
+from kineme.formats.mat_file import parse_mat
+
+
+def mat(compressed: bool = True, **variables: object) -> bytes:
+    file = io.BytesIO()
+    savemat(file, variables, do_compression=compressed)
+    return file.getvalue()
+
+
+def read(folder: Path, data: bytes, **options):
+    path = folder / "a.mat"
+    path.write_bytes(data)
+    return kineme.read(path, **options)
+
+
+def cells(names: list[str]) -> np.ndarray:
+    out = np.empty(len(names), object)
+    out[:] = names
+    return out
+
+
+MARKERS = walking()
+PELVIS = MARKERS[:, :4].mean(axis=1)
+
+
+def has_the_walk(motion: kineme.Motion) -> bool:
+    found = motion.positions[:, motion.joint("pelvis")]
+    return motion.fps == 100 and np.allclose(found, PELVIS, atol=1e-3)
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+def test_positions_by_variables(tmp_path: Path, compressed: bool) -> None:
+    names = cells(PLUG_IN_GAIT)
+    data = mat(compressed, positions=MARKERS, names=names, fps=100)
+    assert has_the_walk(read(tmp_path, data))
+    inside = mat(compressed, take={"positions": MARKERS, "names": names, "fps": 100})
+    assert has_the_walk(read(tmp_path, inside))
+    rows = mat(compressed, positions=MARKERS, names=np.array(PLUG_IN_GAIT), fps=100)
+    assert has_the_walk(read(tmp_path, rows))  # a matrix of characters
+
+
+def test_a_variable_for_each_marker(tmp_path: Path) -> None:
+    tracks = {name: MARKERS[:, i] for i, name in enumerate(PLUG_IN_GAIT)}
+    assert has_the_walk(read(tmp_path, mat(fps=100.0, **tracks)))
+    assert has_the_walk(read(tmp_path, mat(markers=tracks, fps=100.0, info="a take")))
+    time = np.arange(60) / 100
+    assert has_the_walk(read(tmp_path, mat(markers={**tracks, "time": time})))
+    columns = {
+        f"{n}_{a}": MARKERS[:, i, k]
+        for i, n in enumerate(PLUG_IN_GAIT)
+        for k, a in enumerate("xyz")
+    }
+    assert has_the_walk(read(tmp_path, mat(**columns, time=time)))
+
+
+def qtm(points: np.ndarray) -> dict:
+    data = np.concatenate([points, np.zeros((*points.shape[:2], 1))], axis=2)
+    labels = cells(PLUG_IN_GAIT)
+    labeled = {"Count": 18, "Labels": labels, "Data": data.transpose(1, 2, 0)}
+    return {"File": "x", "FrameRate": 100, "Trajectories": {"Labeled": labeled}}
+
+
+def test_exports_of_qtm(tmp_path: Path) -> None:
+    points = z_up_millimetres(MARKERS)
+    motion = read(tmp_path, mat(take_01=qtm(points)))
+    assert motion.provenance.format == "MAT of QTM"
+    assert has_the_walk(motion)
+    wrong = qtm(points[:, :5])
+    with pytest.raises(ReadError, match=r"18 Labels for Data of shape \(5, 4, 60\)"):
+        read(tmp_path, mat(take=wrong))
+
+
+def as_hdf5(variables: dict, folder: Path) -> bytes:
+    """As MATLAB's -v7.3 lays them out."""
+    h5py = pytest.importorskip("h5py")
+
+    def put(group, name: str, value: object) -> None:
+        if isinstance(value, dict):
+            inner = group.create_group(name)
+            inner.attrs["MATLAB_class"] = np.bytes_("struct")
+            for key, item in value.items():
+                put(inner, key, item)
+        elif isinstance(value, str):
+            group[name] = np.array([[ord(c)] for c in value], np.uint16)
+            group[name].attrs["MATLAB_class"] = np.bytes_("char")
+        elif isinstance(value, np.ndarray) and value.dtype == object:
+            refs = np.empty((1, len(value)), h5py.ref_dtype)
+            for i, item in enumerate(value):
+                put(group.file.require_group("#refs#"), f"{name}{i}", item)
+                refs[0, i] = group.file[f"#refs#/{name}{i}"].ref
+            group.create_dataset(name, data=refs, dtype=h5py.ref_dtype)
+            group[name].attrs["MATLAB_class"] = np.bytes_("cell")
+        else:
+            group[name] = np.atleast_2d(np.asarray(value, float)).T
+            group[name].attrs["MATLAB_class"] = np.bytes_("double")
+
+    with h5py.File(folder / "v73.mat", "w", userblock_size=512) as file:
+        for key, item in variables.items():
+            put(file, key, item)
+    data = bytearray((folder / "v73.mat").read_bytes())
+    data[:128] = b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM"
+    return bytes(data)
+
+
+def test_version_73(tmp_path: Path) -> None:
+    names = cells(PLUG_IN_GAIT)
+    data = as_hdf5({"positions": MARKERS, "names": names, "fps": 100}, tmp_path)
+    assert has_the_walk(read(tmp_path, data))
+    motion = read(tmp_path, as_hdf5({"take": qtm(z_up_millimetres(MARKERS))}, tmp_path))
+    assert motion.provenance.format == "MAT of QTM"
+    assert has_the_walk(motion)
+    with pytest.raises(ReadError, match="is no whole HDF5 file"):
+        read(tmp_path, data[: len(data) // 2])
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (b"MATLAB 5.0 MAT-file", "no MAT file of version 5"),
+        (mat(positions=MARKERS, fps=100)[:900], "no whole MAT file"),
+        (mat(), "no variable that can be read"),
+        (mat(positions=MARKERS), "no 'fps' in it: give fps="),
+        (mat(emg=np.arange(9.0)), "no columns JOINT_x"),
+        (mat(False, positions=np.zeros((3, 3, 3)), names=cells(["a"]), fps=1), "1 names for 3"),
+    ],
+)
+def test_bad_files(tmp_path: Path, data: bytes, reason: str) -> None:
+    with pytest.raises(ReadError, match=reason):
+        read(tmp_path, data)
+
+
+def test_archives_that_claim_too_much(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match="claims to unpack to much more than it holds"):
+        read(tmp_path, mat(True, positions=np.zeros((10**5, 3, 3)), fps=30))
+
+
+VALUES = st.one_of(
+    st.floats(allow_nan=False, width=64),
+    st.text("abcäλ ", min_size=1, max_size=9).filter(str.strip),
+    st.builds(
+        lambda n, m, kind: np.arange(n * m).reshape(n, m).astype(kind),
+        st.integers(1, 4),
+        st.integers(1, 5),
+        st.sampled_from(["i1", "u2", "i4", "f4", "f8", "u8", "i8"]),
+    ),
+)
+
+
+def same(ours: object, theirs: object) -> bool:
+    if isinstance(ours, dict):
+        return all(same(ours[key], theirs[key][0, 0]) for key in theirs.dtype.names)
+    if isinstance(ours, list):
+        return len(ours) == theirs.size and all(map(same, ours, theirs.ravel(order="F")))
+    if isinstance(ours, str):
+        return ours == "".join(theirs.ravel())
+    return ours.dtype.kind == theirs.dtype.kind and np.array_equal(ours, theirs)
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.dictionaries(
+        st.text("abc", min_size=1, max_size=5),
+        st.one_of(
+            VALUES,
+            st.lists(VALUES, min_size=1, max_size=3).map(
+                lambda items: np.array([*items, None], object)[:-1]
+            ),
+            st.dictionaries(st.text("xyz", min_size=1, max_size=40 // 2), VALUES, min_size=1),
+        ),
+    ),
+    st.booleans(),
+)
+def test_we_find_what_scipy_finds(variables: dict, compressed: bool) -> None:
+    data = mat(compressed, **variables)
+    ours, theirs = parse_mat(Source(Path("a.mat"), data)), loadmat(io.BytesIO(data))
+    assert ours.keys() == {key for key in theirs if not key.startswith("__")}
+    for name, value in ours.items():
+        assert same(value, theirs[name]), name
