@@ -123,7 +123,9 @@ class Process(Studio):
         assert self.process.stdout is not None
         self.said = self.process.stdout.readline()
         found = re.search(r"(http://127\.0\.0\.1:(\d+)/)\?token=(\S+)", self.said)
-        assert found, self.said + (self.process.stderr.read() if self.process.stderr else "")
+        if found is None:
+            self.said, errors = self.process.communicate(timeout=30)
+            raise RuntimeError(errors)
         self.address, self.port, self.token = found[1], int(found[2]), found[3]
         headers = {"x-kineme-token": self.token}
         super().__init__(httpx.Client(base_url=self.address, headers=headers, timeout=60), folder)

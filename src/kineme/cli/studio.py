@@ -40,13 +40,12 @@ def studio(
             import uvicorn  # noqa: F401
         except ImportError as error:
             raise MissingDependencyError(error.name or "uvicorn", "studio") from error
-        from kineme.studio.folder import Folder
         from kineme.studio.server import serve
 
         def announce(address: str) -> None:
             typer.echo(f"kineme studio: {address} (Ctrl+C ends it)")
 
-        serve(Folder(root, recordings), port=port, browser=browser, announce=announce)
+        serve(root, recordings, port=port, browser=browser, announce=announce)
     failures.exit()
 
 

@@ -103,12 +103,8 @@ def preset_of(name: str, parameters: dict[str, float]) -> Preset:
 def export_formats() -> list[ExportFormat]:
     """Every format that segments can be taken away in."""
     formats: list[ExportFormat] = [
-        {
-            "name": name,
-            "suffix": SUFFIXES.get(name) or known.suffixes[0],
-            "help": FORMAT_HELP[name],
-        }
-        for name, known in FORMATS.items()
+        {"name": name, "suffix": SUFFIXES.get(name) or FORMATS[name].suffixes[0], "help": text}
+        for name, text in FORMAT_HELP.items()
     ]
     formats.append({"name": CLIPS, "suffix": ".zip", "help": "A motion file per segment"})
     return formats

@@ -216,7 +216,7 @@ def segments_message(table: Segmentation) -> Segments:
 
 def _found(files: dict[str, Path], name: str, what: str) -> Path:
     if name not in files:
-        raise UnknownError(f"there is no {what} {name!r:.40}; it may have been taken away")
+        raise UnknownError(f"there is no such {what}; it may have been taken away")
     return files[name]
 
 

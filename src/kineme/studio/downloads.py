@@ -13,7 +13,7 @@ from kineme.export.split import split
 from kineme.motion import Motion
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.table import Level
-from kineme.studio.choices import SUFFIXES
+from kineme.studio.choices import FORMAT_HELP, SUFFIXES
 
 PLAIN = {"bids": ".tsv", "ms-tcn": ".txt"}
 """Suffixes of the main file, where what is taken away is several."""
@@ -34,7 +34,7 @@ def table_file(
     ------
     ParameterError : no such format
     """
-    if name not in FORMATS:
+    if name not in FORMAT_HELP:
         raise ParameterError(f"there is no format {name!r:.40}")
     known = FORMATS[name]
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:

@@ -13,7 +13,6 @@ from kineme.segmentation import editing
 from kineme.segmentation.result import Segmentation
 from kineme.studio.choices import preset_of
 from kineme.studio.takes import Take
-from kineme.transfer import THRESHOLD, KnowledgeBase
 
 BY_HAND: Mapping[str, tuple[Callable[..., Segmentation], tuple[str, ...]]] = {
     "move_border": (editing.move_border, ("level", "frame", "to")),
@@ -50,6 +49,8 @@ def edited(
         found = take.segment(preset_of(edit["preset"], edit["parameters"]))
         return found, list(found.provenance["notes"])
     if edit["kind"] == "transfer":
+        from kineme.transfer import THRESHOLD, KnowledgeBase
+
         base = KnowledgeBase.load(knowledge_base(edit["knowledge_base"]))
         threshold, spread = edit.get("threshold", THRESHOLD), edit.get("spread", False)
         named = take.labelled(table, base, threshold=threshold, spread=spread)

@@ -1,7 +1,8 @@
 """What each address answers; the list is at the end.
 
 Everything that reads, computes or writes runs in a thread of its own, so that
-the server answers others meanwhile.
+the server answers others meanwhile. What is rarely asked for is imported when
+it is.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from kineme.report.messages import (
 )
 from kineme.segmentation.presets import DEFAULT
 from kineme.segmentation.table import Level
-from kineme.studio import choices, comparison, downloads
+from kineme.studio import choices
 from kineme.studio.documents import Documents, UnknownError, segments_message
 from kineme.studio.events import Hub
 from kineme.studio.folder import file_id
@@ -166,6 +167,8 @@ class Api:
         }
 
     def _compare(self, name: str, sent: CompareRequest) -> Comparison:
+        from kineme.studio import comparison
+
         document = self._documents.get(name)
         shown = document.table
         if "preset" in sent:
@@ -179,6 +182,8 @@ class Api:
         return {"name": title, "segmentation": segments_message(other), "scores": scores}
 
     def _export(self, name: str, kind: str, level: Level | None) -> tuple[str, bytes]:
+        from kineme.studio import downloads
+
         document = self._documents.get(name)
         stem = document.path.stem
         if kind == choices.CLIPS:

@@ -8,22 +8,16 @@ import socket
 import threading
 import time
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
+from pathlib import Path
 from types import FrameType
 
 import uvicorn
 
-from kineme.datasets import bundled_recording
 from kineme.errors import KinemeError, ParameterError
-from kineme.formats import read
-from kineme.segmentation.presets import DEFAULT, PRESETS
-from kineme.segmentation.segmenter import segment
-from kineme.studio.app import create_app
 from kineme.studio.events import Hub
-from kineme.studio.folder import Folder
 from kineme.studio.security import new_token
-from kineme.studio.uploads import forget_drafts
 
 HOST = "127.0.0.1"
 PORT = 8750
@@ -48,12 +42,19 @@ class Server(uvicorn.Server):
 
 
 def serve(
-    folder: Folder, *, port: int | None, browser: bool, announce: Callable[[str], None]
+    root: Path,
+    files: Iterable[Path] | None,
+    *,
+    port: int | None,
+    browser: bool,
+    announce: Callable[[str], None],
 ) -> None:
     """Serve until Ctrl+C.
 
     Parameters
     ----------
+    root : the folder
+    files : the recordings of it to list; None for all
     port : to listen on; None for the first free one from 8750, 0 for any
     browser : open the address there
     announce : called with the address
@@ -62,14 +63,22 @@ def serve(
     ------
     ParameterError : the port is in use, or not one
     """
-    with listening(port) as opened:
+    with listening(port) as opened, suppress(KeyboardInterrupt):
         number = opened.getsockname()[1]
         token = new_token()
+        address = f"http://{HOST}:{number}/?token={token}"
+        announce(address)
+        if browser:
+            threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
+        # The browser starts meanwhile; its first request waits in the socket.
+        from kineme.studio.app import create_app
+        from kineme.studio.folder import Folder
+        from kineme.studio.uploads import forget_drafts
+
         hub = Hub()
-        forget_drafts(folder.root)
-        app = create_app(folder, token=token, port=number, hub=hub)
+        forget_drafts(root)
         config = uvicorn.Config(
-            app,
+            create_app(Folder(root, files), token=token, port=number, hub=hub),
             log_level=logging.ERROR,
             access_log=False,  # addresses hold the token
             server_header=False,
@@ -77,13 +86,8 @@ def serve(
             proxy_headers=False,
             timeout_graceful_shutdown=PATIENCE,
         )
-        address = f"http://{HOST}:{number}/?token={token}"
         threading.Thread(target=make_ready, name="make ready", daemon=True).start()
-        announce(address)
-        if browser:
-            threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
-        with suppress(KeyboardInterrupt):
-            Server(config, hub).run(sockets=[opened])
+        Server(config, hub).run(sockets=[opened])
 
 
 def listening(port: int | None) -> socket.socket:
@@ -108,6 +112,11 @@ def listening(port: int | None) -> socket.socket:
 
 def make_ready() -> None:
     """Load or build the compiled code before it is asked for, that of the default first."""
+    from kineme.datasets import bundled_recording
+    from kineme.formats import read
+    from kineme.segmentation.presets import DEFAULT, PRESETS
+    from kineme.segmentation.segmenter import segment
+
     try:
         motion = read(bundled_recording())
         for number, name in enumerate([DEFAULT, *(name for name in PRESETS if name != DEFAULT)]):

@@ -11,6 +11,7 @@ import threading
 import warnings
 from collections import OrderedDict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from kineme.errors import EndEffectorError, KinemeWarning, ReadError
 from kineme.formats import read
@@ -21,7 +22,9 @@ from kineme.report.messages import MotionHead
 from kineme.segmentation.presets import DEFAULT, PRESETS, Preset
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.segmenter import segment_and_analysis
-from kineme.transfer import KnowledgeBase, transfer_features, transfer_labels
+
+if TYPE_CHECKING:
+    from kineme.transfer import KnowledgeBase
 
 KEPT = 3
 """Motions in memory."""
@@ -82,7 +85,10 @@ class Take:
 
     def changed(self) -> bool:
         """Whether the file is another now, or gone."""
-        return mark_of(self.path) != self._mark
+        try:
+            return mark_of(self.path) != self._mark
+        except ReadError:
+            return True
 
     def display(self) -> tuple[MotionHead, bytes]:
         """What a page draws, and how to read it."""
@@ -132,6 +138,8 @@ class Take:
         spread: bool,
     ) -> Segmentation:
         """The segments with labels from a knowledge base."""
+        from kineme.transfer import transfer_features, transfer_labels
+
         features = transfer_features(self.motion)
         return transfer_labels(segmentation, features, base, threshold=threshold, spread=spread)
 

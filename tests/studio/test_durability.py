@@ -1,0 +1,251 @@
+"""What was acknowledged is on the disk: killed servers, two pages, other programs, Ctrl+C."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import threading
+import time
+from pathlib import Path
+
+import httpx2 as httpx
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import kineme
+from kineme.errors import ParameterError
+from kineme.segmentation import editing
+from kineme.studio.history import LONGEST, History
+from kineme.studio.uploads import FORGOTTEN, forget_drafts
+
+
+def test_a_killed_server_loses_nothing_it_acknowledged(start, folder: Path) -> None:
+    studio = start()
+    revision = studio.recording()["revision"]
+    acknowledged: list[int] = []
+
+    def edit() -> None:
+        nonlocal revision
+        for frame in range(3, 230):
+            try:
+                revision = studio.done(revision, "split", level="activity", frame=frame)["revision"]
+            except (httpx.TransportError, AssertionError):
+                return
+            acknowledged.append(frame)
+
+    editing_on = threading.Thread(target=edit)
+    editing_on.start()
+    while len(acknowledged) < 10:
+        time.sleep(0.01)
+    studio.end(signal.SIGKILL)
+    editing_on.join()
+    cuts = set(kineme.read_segments(folder / "take.segments.json").cuts().tolist())
+    assert set(acknowledged) <= cuts
+    assert len(cuts - set(acknowledged)) <= 1  # the one whose answer was on its way
+    again = start()
+    assert set(again.starts()) >= set(acknowledged)
+    message = again.recording()
+    assert (message["saved"], message["warnings"]) == ("take.segments.json", [])
+
+
+def test_two_pages_cannot_overwrite_each_other_unseen(studio) -> None:
+    revision = studio.recording()["revision"]
+    first = studio.done(revision, "split", level="activity", frame=50)
+    late = studio.edit(revision, "split", level="activity", frame=70)
+    assert late.status_code == 409
+    assert late.json()["segmentation"] == first["segmentation"]
+    assert f"revision {revision}" in late.json()["error"]
+    assert 70 not in studio.starts()
+    studio.done(late.json()["revision"], "split", level="activity", frame=70)
+    assert {50, 70} <= set(studio.starts())
+
+
+def test_of_many_edits_at_once_one_counts(studio) -> None:
+    revision = studio.recording()["revision"]
+    statuses: list[int] = []
+
+    def edit(frame: int) -> None:
+        statuses.append(studio.edit(revision, "split", level="activity", frame=frame).status_code)
+
+    pages = [threading.Thread(target=edit, args=[frame]) for frame in range(10, 90, 10)]
+    for page in pages:
+        page.start()
+    for page in pages:
+        page.join()
+    assert sorted(statuses) == [200] + [409] * 7
+    saved = kineme.read_segments(studio.table).cuts().tolist()
+    assert studio.starts()[1:] == saved
+
+
+def test_another_program_is_not_overwritten(studio) -> None:
+    state = studio.done(studio.recording()["revision"], "split", level="activity", frame=50)
+    theirs = editing.split(kineme.read_segments(studio.table), "activity", 120)
+    kineme.write_segments(theirs, studio.table)
+    on_disk = studio.table.read_bytes()
+    refused = studio.edit(state["revision"], "split", level="activity", frame=70)
+    assert refused.status_code == 409
+    assert "another program" in refused.json()["error"]
+    assert studio.table.read_bytes() == on_disk
+    message = studio.recording()
+    assert {50, 120} <= set(studio.starts())
+    assert message["revision"] > state["revision"]
+    mine = studio.done(message["revision"], "undo")  # what the page had is one step back
+    assert 120 not in [row["start_frame"] for row in mine["segmentation"]["segments"]]
+    studio.done(mine["revision"], "redo")
+    assert 120 in kineme.read_segments(studio.table).cuts()
+
+
+def test_a_table_that_came_or_went_meanwhile_is_seen(studio) -> None:
+    revision = studio.recording()["revision"]
+    theirs = kineme.segment(kineme.read(studio.path))
+    kineme.write_segments(editing.split(theirs, "activity", 33), studio.table)
+    assert studio.edit(revision, "split", level="activity", frame=70).status_code == 409
+    assert 33 in studio.starts()
+    studio.table.unlink()
+    revision = studio.recording()["revision"]
+    studio.done(revision, "split", level="activity", frame=70)
+    assert {33, 70} <= set(kineme.read_segments(studio.table).cuts().tolist())
+
+
+def test_tables_of_others_are_left_alone(studio, folder: Path) -> None:
+    other = kineme.segment(kineme.read(kineme.bundled_recording()))
+    kineme.write_segments(other, studio.table)
+    (folder / "take.bvh.segments.json").write_text("{}")
+    before = studio.table.read_bytes()
+    message = studio.recording()
+    assert [note.split(" ")[0] for note in message["warnings"]] == [
+        "take.segments.json",
+        "take.bvh.segments.json",
+    ]
+    saved = studio.done(message["revision"], "split", level="activity", frame=50)["saved"]
+    assert saved == "take.bvh.2.segments.json"
+    assert studio.table.read_bytes() == before
+    assert (folder / "take.bvh.segments.json").read_text() == "{}"
+
+
+def test_recordings_of_one_name_have_tables_of_their_own(studio, folder: Path) -> None:
+    kineme.write(kineme.read(studio.path), folder / "take.npz")
+    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    saved = {}
+    for name, frame in (("take.npz", 40), ("take.bvh", 60)):
+        studio.id = files[name]
+        revision = studio.recording()["revision"]
+        saved[name] = studio.done(revision, "split", level="activity", frame=frame)["saved"]
+    assert saved == {"take.npz": "take.segments.json", "take.bvh": "take.bvh.segments.json"}
+    assert 60 in kineme.read_segments(folder / "take.bvh.segments.json").cuts()
+
+
+def test_a_recording_that_is_replaced_is_opened_anew(studio) -> None:
+    state = studio.done(studio.recording()["revision"], "split", level="activity", frame=50)
+    lines = studio.path.read_text().splitlines()
+    start = next(i for i, line in enumerate(lines) if line.startswith("Frames:"))
+    lines[start] = "Frames: 120"
+    studio.path.write_text("\n".join(lines[: start + 122]) + "\n")
+    message = studio.recording()
+    assert (message["n_frames"], message["revision"]) == (120, state["revision"] + 1)
+    assert "left alone" in message["warnings"][0]
+    studio.path.unlink()
+    assert studio.get(f"/api/recordings/{studio.id}").status_code == 404
+
+
+def test_news_come_over_the_line_and_ctrl_c_ends_it_at_once(start) -> None:
+    studio = start()
+    revision = studio.recording()["revision"]
+    heard: list[dict[str, object]] = []
+    ready = threading.Event()
+
+    def listen() -> None:
+        address = f"{studio.address}api/events?token={studio.token}"
+        with httpx.Client(timeout=30) as client, client.stream("GET", address) as answer:
+            assert answer.headers["content-type"].startswith("text/event-stream")
+            for line in answer.iter_lines():
+                ready.set()
+                if line.startswith("data: "):
+                    heard.append(json.loads(line[6:]))
+
+    page = threading.Thread(target=listen)
+    page.start()
+    assert ready.wait(20)
+    studio.done(revision, "split", level="activity", frame=50)
+    studio.client.post("/api/recordings?name=other.bvh", content=b"HIERARCHY")
+    began = time.monotonic()
+    code, said, errors = studio.end(signal.SIGINT)
+    page.join(10)
+    assert not page.is_alive()
+    assert (code, said, errors) == (0, "", "")
+    assert time.monotonic() - began < 10
+    assert [news["revision"] for news in heard] == [revision + 1, 0]
+
+
+def test_a_port_in_use_is_passed_over_or_said(start) -> None:
+    first = start("--port", "0")
+    with socket.socket() as probe:
+        probe.connect(("127.0.0.1", first.port))
+    with pytest.raises(RuntimeError, match=f"port {first.port} is not free"):
+        start("--port", str(first.port))
+
+
+def test_a_refusal_reaches_the_one_who_sends_two_gigabytes(start) -> None:
+    studio = start()
+    with socket.create_connection(("127.0.0.1", studio.port), timeout=20) as line:
+        head = (
+            "POST /api/recordings?name=big.bvh HTTP/1.1\r\n"
+            f"Host: 127.0.0.1:{studio.port}\r\nX-Kineme-Token: {studio.token}\r\n"
+            f"Content-Length: {2 * 10**9}\r\n\r\n"
+        )
+        line.sendall(head.encode() + b"x" * 1000)
+        answer = line.recv(4000)
+    assert answer.startswith(b"HTTP/1.1 413 ")
+    assert [path.name for path in studio.folder.iterdir()] == ["take.bvh"]
+    assert studio.get("/api/state").status_code == 200
+
+
+def test_an_upload_that_breaks_off_leaves_nothing(start) -> None:
+    studio = start()
+    with socket.create_connection(("127.0.0.1", studio.port), timeout=20) as line:
+        head = (
+            "POST /api/recordings?name=half.bvh HTTP/1.1\r\n"
+            f"Host: 127.0.0.1:{studio.port}\r\nX-Kineme-Token: {studio.token}\r\n"
+            "Content-Length: 1000000\r\n\r\n"
+        )
+        line.sendall(head.encode() + b"x" * 1000)
+        while len(list(studio.folder.iterdir())) == 1:
+            time.sleep(0.01)
+    deadline = time.monotonic() + 20
+    while len(list(studio.folder.iterdir())) > 1 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert [path.name for path in studio.folder.iterdir()] == ["take.bvh"]
+
+
+def test_what_a_killed_server_left_of_uploads_goes(tmp_path: Path) -> None:
+    old, new, other = (tmp_path / f".upload-{c * 16}.part" for c in "abz")
+    for path in (old, new, other):
+        path.write_bytes(b"x")
+    for path in (old, other):
+        os.utime(path, (time.time() - 2 * FORGOTTEN,) * 2)
+    forget_drafts(tmp_path)
+    assert sorted(tmp_path.iterdir()) == [new, other]
+
+
+@given(st.lists(st.integers(0, 9) | st.sampled_from(["undo", "redo"]), max_size=150))
+def test_undo_and_redo_are_each_others_inverse(steps: list[int | str]) -> None:
+    history = History(-1)
+    told = [-1]
+    at = 0
+    for step in steps:
+        try:
+            if step == "undo":
+                history, at = history.undone(), at - 1
+            elif step == "redo":
+                history, at = history.redone(), at + 1
+            else:
+                history, told, at = history.then(int(step)), [*told[: at + 1], int(step)], at + 1
+        except ParameterError:
+            assert not (history.past if step == "undo" else history.future)
+        assert history.present == told[at]
+        assert len(history.past) <= LONGEST
+        if history.past:
+            assert history.undone().redone() == history
