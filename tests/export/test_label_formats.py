@@ -22,7 +22,7 @@ from kineme.segmentation.result import Segmentation
 from kineme.segmentation.table import Level
 from segmentations import segmentations
 
-LABEL_FORMATS = [name for name, known in FORMATS.items() if known.holds != "all"]
+LABEL_FORMATS = [n for n, known in FORMATS.items() if known.holds != "all" and known.writes]
 BOTH_LEVELS = [name for name, known in FORMATS.items() if known.holds == "levels"]
 TELL_THE_RATE = ("elan", "bids", "boris", "clips")
 NASTY = [

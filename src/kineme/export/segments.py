@@ -22,12 +22,13 @@ class LabelFormat:
     A module of the first kind has ``write(segmentation, path)`` and
     ``read(path)`` to a `Segmentation` (or to `Labels`, from a list kept by
     hand); the others have ``write(rows, segmentation, path)`` and
-    ``read(path)`` to `Labels`.
+    ``read(path)`` to `Labels`. ``writes``: false where there is only ``read``.
     """
 
     module: str
     suffixes: tuple[str, ...]
     holds: Literal["all", "levels", "level"]
+    writes: bool = True
 
 
 FORMATS = {
@@ -42,8 +43,9 @@ FORMATS = {
     "babel": LabelFormat("babel", (), "level"),
     "ms-tcn": LabelFormat("ms_tcn", (), "level"),
     "clips": LabelFormat("clip_list", (), "level"),
+    "c3d": LabelFormat("c3d_events", (".c3d",), "level", writes=False),
 }
-SUFFIXES = tuple(suffix for known in FORMATS.values() for suffix in known.suffixes)
+SUFFIXES = tuple(s for known in FORMATS.values() if known.writes for s in known.suffixes)
 
 
 def write_segments(
@@ -71,6 +73,8 @@ def write_segments(
     """
     name = _format_of(path, format, WriteError)
     known, module = FORMATS[name], _module(name)
+    if not known.writes:
+        raise WriteError(path, f"{name} is only read: segments go into {', '.join(SUFFIXES)}")
     if known.holds == "all":
         if level is not None:
             raise ParameterError(f"{name} always holds both levels: leave out level={level!r}")
