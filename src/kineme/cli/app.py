@@ -15,6 +15,7 @@ from kineme.cli.graph import graph
 from kineme.cli.info import info
 from kineme.cli.label import label
 from kineme.cli.preset_options import with_preset_options
+from kineme.cli.report import report
 from kineme.cli.segment import segment
 from kineme.cli.split import split
 from kineme.cli.studio import studio
@@ -30,6 +31,7 @@ app = typer.Typer(
 )
 app.command()(with_preset_options(segment))
 app.command()(with_preset_options(split))
+app.command()(with_preset_options(report))
 app.command()(convert)
 app.command()(info)
 app.command()(demo)

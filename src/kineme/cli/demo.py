@@ -28,7 +28,7 @@ def demo(
     failures = Failures()
     with failures.caught(path):
         check_writable(table, picture)
-        result, analysis = run(path, {}, KINEME, None, quiet=quiet)
+        result, analysis, _ = run(path, {}, KINEME, None, quiet=quiet)
         write_results(result, analysis, table, picture)
         if not quiet:
             from kineme.cli.tables import show_segments

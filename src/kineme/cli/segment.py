@@ -28,9 +28,11 @@ from kineme.segmentation.table import Level
 
 if TYPE_CHECKING:
     from kineme.features import Names
+    from kineme.motion import Motion
     from kineme.segmentation.action_analysis import ActionAnalysis
     from kineme.segmentation.analysis import Analysis
     from kineme.segmentation.result import Segmentation
+    from kineme.signals import Signals
 
 
 def segment(
@@ -51,6 +53,10 @@ def segment(
     plot: Annotated[
         Path | None,
         typer.Option(help="Picture: .png, .pdf or .svg; a folder; or a name with {name} in it."),
+    ] = None,
+    report: Annotated[
+        Path | None,
+        typer.Option(help="Page to look at: .html; a folder; or a name with {name} in it."),
     ] = None,
     level: Annotated[Level, typer.Option(help="Rows to print.")] = "activity",
     json: Json = False,
@@ -73,17 +79,25 @@ def segment(
     reading = read_options(skeleton, fps, unit, up)
     tables = targets("--output", output, files, ".csv")
     pictures = targets("--plot", plot, files, ".png")
+    pages = targets("--report", report, files, ".html")
     failures = Failures()
     names = effector_names(effectors)
     signals = SignalOptions.of(columns, fps, emg=emg)
-    for path, table, picture in zip(files, tables, pictures, strict=True):
+    source: Motion | Signals
+    for path, table, picture, page in zip(files, tables, pictures, pages, strict=True):
         with failures.caught(path):
-            check_writable(table, picture)
+            check_writable(table, picture, page)
             if signals.mean(path):
-                result, analysis = run_signals(path, signals, preset, overrides, quiet=quiet)
+                result, analysis, source = run_signals(
+                    path, signals, preset, overrides, quiet=quiet
+                )
             else:
-                result, analysis = run(path, reading, chosen, names, quiet=quiet)
+                result, analysis, source = run(path, reading, chosen, names, quiet=quiet)
             write_results(result, analysis, table, picture)
+            if page is not None:
+                from kineme.report.page import write_report
+
+                write_report(source, result, page, effectors=names)
             if json:
                 from kineme.export.json_table import as_object
 
@@ -102,15 +116,16 @@ def run(
     effectors: Names | None,
     *,
     quiet: bool,
-) -> tuple[Segmentation, Analysis | ActionAnalysis]:
-    """The segments of a file, and what each stage found on the way to them."""
+) -> tuple[Segmentation, Analysis | ActionAnalysis, Motion]:
+    """The segments of a file, what each stage found on the way to them, and the motion."""
     with progress(path.name, quiet=quiet) as stage:
         stage("reading")
         from kineme.formats import read
         from kineme.segmentation.segmenter import segment_and_analysis
 
         motion = read(path, **reading)
-        return segment_and_analysis(motion, preset, effectors=effectors, progress=stage)
+        found = segment_and_analysis(motion, preset, effectors=effectors, progress=stage)
+        return *found, motion
 
 
 def write_results(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -62,18 +62,27 @@ class SignalOptions:
 
         return read_signals(path, columns=self.columns, fps=self.fps)
 
+    def drawn(self, signals: Signals) -> Signals:
+        """The signals as a page compares their moments: muscles by their envelopes."""
+        if not self.emg:
+            return signals
+        from kineme.signals import emg_envelope
+
+        return replace(signals, values=emg_envelope(signals.values, signals.fps))
+
 
 def run_signals(
     path: Path, options: SignalOptions, preset: str, overrides: dict[str, Any], *, quiet: bool
-) -> tuple[Segmentation, Analysis | ActionAnalysis]:
-    """The segments of a file of signals, and what each stage found on the way to them."""
+) -> tuple[Segmentation, Analysis | ActionAnalysis, Signals]:
+    """The segments of a file of signals, what each stage found, and the signals to draw."""
     with progress(path.name, quiet=quiet) as stage:
         stage("reading")
         from kineme.signals import segment_signals_and_analysis, signal_preset
 
         signals = options.read(path)
         chosen = signal_preset(preset, **overrides)
-        return segment_signals_and_analysis(signals, chosen, emg=options.emg, progress=stage)
+        found = segment_signals_and_analysis(signals, chosen, emg=options.emg, progress=stage)
+        return *found, options.drawn(signals)
 
 
 def signal_facts(signals: Signals) -> dict[str, Any]:

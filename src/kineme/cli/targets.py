@@ -12,6 +12,7 @@ from kineme.export import SUFFIXES as TABLES
 
 NAME = "{name}"
 PICTURES = (".png", ".pdf", ".svg")
+PAGES = (".html", ".htm")
 
 
 def targets(option: str, given: Path | None, inputs: list[Path], suffix: str) -> list[Path | None]:
@@ -37,12 +38,14 @@ def targets(option: str, given: Path | None, inputs: list[Path], suffix: str) ->
     return list(paths)
 
 
-def check_writable(table: Path | None, picture: Path | None) -> None:
+def check_writable(
+    table: Path | None = None, picture: Path | None = None, page: Path | None = None
+) -> None:
     """WriteError for results that could not be written, before any work is done.
 
     Makes the folder they go to if its own parent is there.
     """
-    for path, suffixes in ((table, TABLES), (picture, PICTURES)):
+    for path, suffixes in ((table, TABLES), (picture, PICTURES), (page, PAGES)):
         if path is None:
             continue
         if path.suffix.lower() not in suffixes:

@@ -115,7 +115,7 @@ def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matri
         values = _standardised((motion.positions - middle).reshape(motion.n_frames, -1))
     for start, stop in motion.gaps:
         values[start:stop] = np.nan
-    return _pyramid(values, motion.fps)
+    return _pyramid(values, motion.fps, motion.duration)
 
 
 def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
@@ -131,7 +131,11 @@ def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
         raise ParameterError(f"a signal is frames x channels, not of shape {signal.shape}")
     if not (np.isfinite(fps) and fps > 0):
         raise ParameterError(f"the frame rate must be a positive number, not {fps}")
-    return _pyramid(_standardised(signal), fps)
+    block = max(1, int(fps / (2 * RATE)))  # frames whose mean is compared: 0.05 s
+    starts = np.arange(0, len(signal), block)
+    lengths = np.diff(starts, append=len(signal))
+    means = np.add.reduceat(signal, starts, axis=0) / lengths[:, None]
+    return _pyramid(_standardised(means), fps / block, len(signal) / fps)
 
 
 def _standardised(values: Floats) -> Floats:
@@ -150,8 +154,7 @@ def _standardised(values: Floats) -> Floats:
     return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[seen].var(axis=0).sum())))
 
 
-def _pyramid(values: Floats, fps: float) -> Matrix:
-    seconds = len(values) / fps
+def _pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
     rate = min(RATE, fps, MOST_CELLS / seconds)
     middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
     stacked = np.concatenate([_at(values, middles + offset, fps) for offset in OFFSETS], axis=1)

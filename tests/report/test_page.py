@@ -1,0 +1,165 @@
+"""The report's file: whole, small, and nothing in it can break out of its place."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.datasets import bundled_recording
+from kineme.errors import ParameterError, WriteError
+from kineme.report.display import display_motion
+from kineme.report.matrix import matrix_of_motion
+from kineme.report.page import filled, write_report
+from kineme.report.recording import footage, recording
+from kineme.segmentation.result import Segmentation
+from kineme.segmentation.table import COLUMNS
+from kineme.signals import Signals
+
+RECORDING = kineme.read(bundled_recording())
+SEGMENTS = kineme.segment(RECORDING)
+TEMPLATE = "<body><!--kineme:recording--><!--kineme:motion--><!--kineme:tiles--></body>"
+NASTY = "</script><script>alert(1)</script><!-- & \"' <b>é"
+BREAKS = "\u2028\u2029"  # ends of lines to JavaScript; labels may not hold them, file names may
+
+
+class Scripts(HTMLParser):
+    """The elements of a page, and the text of its script elements by id."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.texts: dict[str | None, str] = {}
+        self.inside: str | None = None
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.inside = dict(attrs).get("id")
+
+    def handle_data(self, data: str) -> None:
+        self.texts[self.inside] = self.texts.get(self.inside, "") + data
+
+
+def labelled(text: str) -> Segmentation:
+    columns = dict(SEGMENTS.table.columns())
+    columns["label"] = np.full(len(SEGMENTS), text)
+    return Segmentation.from_columns(
+        columns, n_frames=SEGMENTS.n_frames, fps=SEGMENTS.fps, provenance=SEGMENTS.provenance
+    )
+
+
+def content(path: Path) -> dict[str, object]:
+    return json.loads(Scripts(path.read_text(encoding="utf-8")).texts["kineme-recording"])
+
+
+def test_everything_is_in_the_page(tmp_path: Path) -> None:
+    write_report(RECORDING, SEGMENTS, tmp_path / "out.html")
+    page = Scripts((tmp_path / "out.html").read_text(encoding="utf-8"))
+    message = json.loads(page.texts["kineme-recording"])
+    head, binary = display_motion(RECORDING)
+    assert message["name"] == bundled_recording().name
+    assert message["motion"] == json.loads(json.dumps(head))
+    assert base64.b64decode(page.texts["kineme-motion"]) == binary
+    tiles = {
+        place: base64.b64decode(text)
+        for place, text in json.loads(page.texts["kineme-tiles"]).items()
+    }
+    assert tiles == matrix_of_motion(RECORDING).kept()[0]
+    assert message["segmentation"]["provenance"]["preset"] == "kineme"
+    assert [tuple(row) for row in message["segmentation"]["segments"]] == [COLUMNS] * len(SEGMENTS)
+    assert (tmp_path / "out.html").stat().st_size < 1_500_000
+    assert [path.name for path in tmp_path.iterdir()] == ["out.html"]
+
+
+def test_the_page_asks_for_nothing_from_elsewhere(tmp_path: Path) -> None:
+    write_report(RECORDING, SEGMENTS, tmp_path / "out.html")
+    text = (tmp_path / "out.html").read_text(encoding="utf-8")
+    assert "default-src 'none'" in text
+    assert not re.findall(r"<(?:script|img|iframe)[^>]*\ssrc=", text)
+    assert not re.findall(r"<link[^>]*href=(?!\"data:)", text)
+    assert "<!--kineme:" not in text
+
+
+def test_texts_stay_inside_their_element() -> None:
+    shown = footage(RECORDING)
+    message = recording(shown, labelled(NASTY), name=NASTY + BREAKS)
+    page = filled(TEMPLATE, message, shown.binary, {})
+    assert page.isascii()
+    parsed = Scripts(page)
+    assert parsed.tags == ["body", "script", "script", "script"]
+    back = json.loads(parsed.texts["kineme-recording"])
+    assert back["name"] == NASTY + BREAKS
+    assert {row["label"] for row in back["segmentation"]["segments"]} == {NASTY}
+
+
+def test_a_name_like_a_place_for_data_is_not_filled() -> None:
+    shown = footage(RECORDING)
+    message = recording(shown, SEGMENTS, name="<!--kineme:tiles-->")
+    page = Scripts(filled(TEMPLATE, message, shown.binary, {"0/0/0": b"tile"}))
+    assert json.loads(page.texts["kineme-recording"])["name"] == "<!--kineme:tiles-->"
+    assert page.tags.count("script") == 3
+
+
+@pytest.mark.parametrize("preset", ["kineme", "voegele2014", "krueger2017"])
+def test_every_preset_can_be_shown(preset: str, tmp_path: Path) -> None:
+    motion = kineme.operations.cut(RECORDING, 0, 900)
+    write_report(motion, kineme.segment(motion, preset=preset), tmp_path / "out.html")
+    assert content(tmp_path / "out.html")["segmentation"]["provenance"]["preset"] == preset
+
+
+def test_signals_are_shown_without_a_figure(tmp_path: Path) -> None:
+    times = np.arange(3000) / 100
+    values = np.column_stack([np.sin(6 * times), np.cos(6 * times)])
+    signals = Signals(values, 100.0, gaps=[(1000, 1400)])
+    segments = kineme.segment_signals(signals)
+    for name, source in (("signals", signals), ("array", values)):
+        write_report(source, segments, tmp_path / f"{name}.html", name=name)
+        message = content(tmp_path / f"{name}.html")
+        assert message["motion"] is None
+        assert message["matrix"]["sizes"] == [300, 150]
+        assert message["name"] == name
+
+
+def test_tables_with_any_provenance_are_shown(tmp_path: Path) -> None:
+    for source in ("a text", {"path": None}, {}, 7):
+        table = replace(SEGMENTS, provenance={"input": source})
+        write_report(RECORDING, table, tmp_path / "out.html")
+        assert content(tmp_path / "out.html")["name"] == "recording"
+
+
+def test_segments_of_another_recording_are_refused(tmp_path: Path) -> None:
+    shorter = kineme.operations.cut(RECORDING, 0, 900)
+    with pytest.raises(ParameterError, match="of 2898 frames at 60 Hz, the recording is of 900"):
+        write_report(shorter, SEGMENTS, tmp_path / "out.html")
+    slower = replace(RECORDING, fps=59.0)
+    with pytest.raises(ParameterError, match="the recording is of 2898 frames at 59 Hz"):
+        write_report(slower, SEGMENTS, tmp_path / "out.html")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_only_pages_are_written(tmp_path: Path) -> None:
+    with pytest.raises(WriteError, match=r"reports are written as \.html"):
+        write_report(RECORDING, SEGMENTS, tmp_path / "out.pdf")
+    with pytest.raises(WriteError, match="does not exist"):
+        write_report(RECORDING, SEGMENTS, tmp_path / "missing" / "out.html")
+
+
+def test_arrays_need_a_frame_rate() -> None:
+    with pytest.raises(ParameterError, match="give fps"):
+        footage(np.ones((5, 2)))
+
+
+def test_a_lowered_rate_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown = footage(RECORDING)
+    assert recording(shown, SEGMENTS, name="x")["warnings"] == []
+    slow = replace(shown, motion={**shown.motion, "sample_fps": 12.0})
+    (said,) = recording(slow, SEGMENTS, name="x")["warnings"]
+    assert "12 times a second" in said
