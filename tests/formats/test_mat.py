@@ -130,6 +130,21 @@ def test_version_73(tmp_path: Path) -> None:
         read(tmp_path, data[: len(data) // 2])
 
 
+def test_channels_are_signals(tmp_path: Path) -> None:
+    emg = np.sin(np.arange(500)[:, None] * (0.1, 0.2, 0.3))
+    (tmp_path / "a.mat").write_bytes(
+        mat(emg=emg, force=emg[:, 0], subject="ann", Fs=1000, x=[1, 2])
+    )
+    signals = kineme.read_signals(tmp_path / "a.mat")
+    assert signals.names == ("emg_1", "emg_2", "emg_3", "force")
+    assert signals.fps == 1000
+    assert np.array_equal(signals.values[:, :3], emg)
+    some = kineme.read_signals(tmp_path / "a.mat", columns=["force"], fps=500)
+    assert (some.names, some.fps) == (("force",), 500)
+    (tmp_path / "a.mat").write_bytes(mat(emg=emg.T, time=np.arange(500) / 200))
+    assert kineme.read_signals(tmp_path / "a.mat").fps == 200
+
+
 @pytest.mark.parametrize(
     ("data", "reason"),
     [

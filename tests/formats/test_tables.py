@@ -19,7 +19,6 @@ import kineme
 from kineme.errors import KinemeError, KinemeWarning, ReadError
 from kineme.formats.amass import smpl_skeleton
 from kineme.formats.marker_sets import TABLE, find_body, plain
-from kineme.operations import cut
 
 JOINTS = ["pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head", "left_wrist"]
 JOINTS += ["right_wrist", "nose"]
@@ -401,18 +400,6 @@ def test_real_trc(data_dir: Path, name: str) -> None:
 def test_real_mot(data_dir: Path) -> None:
     with pytest.raises(ReadError, match="pelvis_tilt, .*give the TRC of its markers"):
         kineme.read(data_dir / "formats" / "subject01_walk_IK.mot")
-
-
-def test_one_take_in_three_formats(data_dir: Path) -> None:
-    cuts = []
-    for suffix in ("amc", "bvh", "c3d"):
-        motion = kineme.read(data_dir / "cmu_formats" / f"02_01.{suffix}")
-        if suffix == "bvh":  # the conversion put a T-pose of one frame before the take
-            motion = cut(motion, 1, motion.n_frames)
-        segments = kineme.segment(motion)
-        cuts.append([row.start_s for row in segments.primitives])
-    assert len(cuts[0]) == len(cuts[1]) == len(cuts[2]) > 1
-    assert np.abs(np.subtract(cuts[1:], cuts[0])).max() < 0.2
 
 
 def test_a_walk_of_markers_has_the_size_of_a_person() -> None:

@@ -9,7 +9,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import Fps, Quiet, Skeleton, Unit, Up, read_options
+from kineme.cli.reading import (
+    Confidence,
+    Fps,
+    Person,
+    Quiet,
+    Skeleton,
+    Unit,
+    Up,
+    read_options,
+)
 from kineme.cli.targets import check_writable, targets
 
 if TYPE_CHECKING:
@@ -39,9 +48,15 @@ def graph(
     fps: Fps = None,
     unit: Unit = None,
     up: Up = None,
+    person: Person = None,
+    confidence: Confidence = None,
 ) -> None:
     """Find which primitives of recordings can be played one after the other."""
-    options = {k: v for k, v in read_options(skeleton, fps, unit, up).items() if v is not None}
+    options = {
+        k: v
+        for k, v in read_options(skeleton, fps, unit, up, person, confidence).items()
+        if v is not None
+    }
     tables = targets("--segments", segments, files, ".json")
     failures = Failures()
     with failures.caught(output), progress(output.name, quiet=quiet) as stage:

@@ -10,9 +10,11 @@ import typer
 
 from kineme.cli.messages import Failures
 from kineme.cli.reading import (
+    Confidence,
     Effectors,
     Fps,
     Json,
+    Person,
     Skeleton,
     Unit,
     Up,
@@ -38,11 +40,13 @@ def info(
     fps: Fps = None,
     unit: Unit = None,
     up: Up = None,
+    person: Person = None,
+    confidence: Confidence = None,
     effectors: Effectors = None,
     columns: Columns = None,
 ) -> None:
     """Tell a recording's format, length, frame rate and skeleton or channels."""
-    reading = read_options(skeleton, fps, unit, up)
+    reading = read_options(skeleton, fps, unit, up, person, confidence)
     from kineme.formats import read
 
     failures = Failures()

@@ -9,8 +9,10 @@ import typer
 
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import (
+    Confidence,
     Effectors,
     Fps,
+    Person,
     Quiet,
     Skeleton,
     Unit,
@@ -37,6 +39,8 @@ def label(
     fps: Fps = None,
     unit: Unit = None,
     up: Up = None,
+    person: Person = None,
+    confidence: Confidence = None,
     effectors: Effectors = None,
 ) -> None:
     """Add the labelled primitives of a recording to a knowledge base.
@@ -44,7 +48,7 @@ def label(
     Where the labels name whole activities only, the recording is cut into primitives first.
     What the knowledge base held of this recording is replaced.
     """
-    reading = read_options(skeleton, fps, unit, up)
+    reading = read_options(skeleton, fps, unit, up, person, confidence)
     names = effector_names(effectors)
     failures = Failures()
     with failures.caught(file), progress(file.name, quiet=quiet) as stage:

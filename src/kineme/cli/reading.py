@@ -31,6 +31,16 @@ Up = Annotated[
     str | None,
     typer.Option(help="Axis that points up: x, y, z, -x, -y, -z.", rich_help_panel=PANEL),
 ]
+Person = Annotated[
+    str | None,
+    typer.Option(
+        help="Which of several people in the file, by name or number.", rich_help_panel=PANEL
+    ),
+]
+Confidence = Annotated[
+    float | None,
+    typer.Option(help="From which a keypoint counts as seen, such as 0.5.", rich_help_panel=PANEL),
+]
 Effectors = Annotated[
     str | None,
     typer.Option(
@@ -45,7 +55,12 @@ Json = Annotated[bool, typer.Option("--json", help="Print JSON, one line per rec
 
 
 def read_options(
-    skeleton: Path | None, fps: float | None, unit: str | None, up: str | None
+    skeleton: Path | None,
+    fps: float | None,
+    unit: str | None,
+    up: str | None,
+    person: str | None = None,
+    confidence: float | None = None,
 ) -> dict[str, Any]:
     """Keywords for `kineme.read`, checked before any file is opened."""
     from kineme.formats import ReadOptions
@@ -54,7 +69,14 @@ def read_options(
         size = float(unit) if unit is not None else None
     except ValueError:
         size = None
-    given = {"skeleton": skeleton, "fps": fps, "unit": unit if size is None else size, "up": up}
+    given = {
+        "skeleton": skeleton,
+        "fps": fps,
+        "unit": unit if size is None else size,
+        "up": up,
+        "person": person,
+        "confidence": confidence,
+    }
     try:
         ReadOptions(**given)  # type: ignore[arg-type]
     except ParameterError as error:

@@ -9,8 +9,10 @@ import typer
 
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import (
+    Confidence,
     Effectors,
     Fps,
+    Person,
     Quiet,
     Skeleton,
     Unit,
@@ -56,6 +58,8 @@ def report(
     fps: Fps = None,
     unit: Unit = None,
     up: Up = None,
+    person: Person = None,
+    confidence: Confidence = None,
     effectors: Effectors = None,
     columns: Columns = None,
     emg: Emg = False,
@@ -70,7 +74,7 @@ def report(
         chosen = resolve_preset(preset, **overrides)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    reading = read_options(skeleton, fps, unit, up)
+    reading = read_options(skeleton, fps, unit, up, person, confidence)
     signals = SignalOptions.of(columns, fps, emg=emg)
     names = effector_names(effectors)
     pages = [page for page in targets("--output", output, files, ".html") if page is not None]
@@ -108,9 +112,6 @@ def _read(
         from kineme.export import read_segments
         from kineme.formats import read
 
-        source: Motion | Signals
-        if signals.mean(path):
-            source = signals.drawn(signals.read(path))
-        else:
-            source = read(path, **reading)
+        is_signal = signals.mean(path)
+        source = signals.drawn(signals.read(path)) if is_signal else read(path, **reading)
         return source, read_segments(table, fps=source.fps, n_frames=source.n_frames)

@@ -10,9 +10,11 @@ import typer
 
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import (
+    Confidence,
     Effectors,
     Fps,
     Json,
+    Person,
     Quiet,
     Skeleton,
     Unit,
@@ -65,6 +67,8 @@ def segment(
     fps: Fps = None,
     unit: Unit = None,
     up: Up = None,
+    person: Person = None,
+    confidence: Confidence = None,
     effectors: Effectors = None,
     columns: Columns = None,
     emg: Emg = False,
@@ -76,7 +80,7 @@ def segment(
         chosen = resolve_preset(preset, **overrides)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    reading = read_options(skeleton, fps, unit, up)
+    reading = read_options(skeleton, fps, unit, up, person, confidence)
     tables = targets("--output", output, files, ".csv")
     pictures = targets("--plot", plot, files, ".png")
     pages = targets("--report", report, files, ".html")

@@ -9,8 +9,10 @@ import typer
 
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import (
+    Confidence,
     Effectors,
     Fps,
+    Person,
     Quiet,
     Skeleton,
     Unit,
@@ -51,6 +53,8 @@ def split(
     fps: Fps = None,
     unit: Unit = None,
     up: Up = None,
+    person: Person = None,
+    confidence: Confidence = None,
     effectors: Effectors = None,
     overrides: dict[str, Any] | None = None,
 ) -> None:
@@ -62,7 +66,7 @@ def split(
         chosen = resolve_preset(preset, **(overrides or {}))
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    reading = read_options(skeleton, fps, unit, up)
+    reading = read_options(skeleton, fps, unit, up, person, confidence)
     failures = Failures()
     with failures.caught(file):
         motion, cuts = _cuts(

@@ -10,9 +10,11 @@ import typer
 
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import (
+    Confidence,
     Effectors,
     Fps,
     Json,
+    Person,
     Quiet,
     Skeleton,
     Unit,
@@ -61,12 +63,14 @@ def transfer(
     fps: Fps = None,
     unit: Unit = None,
     up: Up = None,
+    person: Person = None,
+    confidence: Confidence = None,
     effectors: Effectors = None,
 ) -> None:
     """Cut recordings, and label what is like the primitives of a knowledge base."""
     if threshold is not None and not 0 < threshold < float("inf"):
         raise typer.BadParameter(f"must be a number above 0, not {threshold}")
-    reading = read_options(skeleton, fps, unit, up)
+    reading = read_options(skeleton, fps, unit, up, person, confidence)
     names = effector_names(effectors)
     tables = targets("--output", output, files, ".csv")
     failures = Failures()

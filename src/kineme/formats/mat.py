@@ -10,6 +10,7 @@ QTM (Qualisys) exports a structure with ``FrameRate`` and
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
@@ -22,6 +23,17 @@ from kineme.formats.named_arrays import Array, arrays_to_motion
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
 from kineme.motion import Motion
+
+_RATES = (
+    "fps",
+    "fs",
+    "rate",
+    "frame_rate",
+    "framerate",
+    "samplerate",
+    "sampling_rate",
+    "frequency",
+)
 
 
 def read_mat(source: Source, options: ReadOptions) -> Motion:
@@ -56,6 +68,28 @@ def arrays_of(variables: Mapping[str, Any]) -> dict[str, Array]:
         elif words := texts(value):
             found[name] = np.array(words)
     return found
+
+
+def mat_channels(source: Source) -> tuple[dict[str, Array], float | None]:
+    """(samples,) each: the channels by name, of the length that most have; and their rate, if told.
+
+    A matrix is a channel for each column, ``NAME_1`` and so on; its longer side is time.
+    """
+    arrays = arrays_of(mat_variables(source))
+    rates = {name.lower(): array for name, array in arrays.items() if array.ndim == 0}
+    rate = next((float(rates[key]) for key in _RATES if key in rates), None)
+    found: dict[str, Array] = {}
+    for name, array in arrays.items():
+        if array.dtype.kind not in "iufb" or array.size == 0:
+            continue
+        if array.ndim == 1:
+            found[name] = array
+        elif array.ndim == 2:
+            columns = array.T if len(array) >= array.shape[1] else array
+            found |= {f"{name}_{i}": column for i, column in enumerate(columns, 1)}
+    lengths = Counter(map(len, found.values()))
+    usual = max(lengths, key=lambda n: (lengths[n], n), default=0)
+    return {name: column for name, column in found.items() if len(column) == usual}, rate
 
 
 def _labeled(variables: Mapping[str, Any]) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:

@@ -6,6 +6,7 @@ CSV, TSV, text names in the first line, or numbers only (channels 1, 2, …);
 Parquet        one channel per column
 MOT, STO       OpenSim's coordinates, forces or other channels
 C3D            the analog channels
+MAT            vectors, and columns of matrices, of the length that most have
 ============== ==================================================================
 
 The frame rate comes from the file (its own, or a column ``time``, ``time_ms``
@@ -26,6 +27,7 @@ from pathlib import Path
 from kineme.errors import FileError, ParameterError
 from kineme.formats.columns import joint_names
 from kineme.formats.files import load
+from kineme.formats.pose_tables import is_pose_table
 from kineme.signals.gaps import without_gaps
 from kineme.signals.recording import Signals
 from kineme.signals.tables import KINDS, kind_of
@@ -77,8 +79,8 @@ def read_signals(
 def is_signal_file(path: str | PathLike[str]) -> bool:
     """Whether a file holds channels without a skeleton.
 
-    Yes for MOT and STO, and for tables without coordinates of joints; no for
-    anything else, files that cannot be read among them.
+    Yes for MOT and STO, and for tables without coordinates of joints or keypoints;
+    no for anything else, files that cannot be read among them.
     """
     if Path(path).suffix.lower() not in _SUFFIXES:
         return False
@@ -88,7 +90,8 @@ def is_signal_file(path: str | PathLike[str]) -> bool:
         names = KINDS[kind].names(source)
     except FileError:
         return False
-    return kind == "MOT/STO" or not any(map(_is_body, joint_names(names)))
+    bodies = is_pose_table(names) or any(map(_is_body, joint_names(names)))
+    return kind == "MOT/STO" or not bodies
 
 
 def _is_body(joint: str) -> bool:

@@ -7,7 +7,7 @@ rest, and its columns as a `Table`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ from kineme.formats.columns import is_timing, timed
 from kineme.formats.deeplabcut import is_deeplabcut
 from kineme.formats.delimited import rows_of, separator_of
 from kineme.formats.files import MOST_EXPANSION, Source, numbers, unique
+from kineme.formats.mat import mat_channels
 
 Floats = NDArray[np.float64]
 
@@ -76,8 +77,8 @@ class Kind(NamedTuple):
 def kind_of(source: Source) -> str:
     """The name of a file's kind, by its first bytes and its suffix."""
     head, suffix = source.data[:4096], source.path.suffix.lower()
-    if suffix == ".c3d":
-        return "C3D"
+    if suffix in (".c3d", ".mat"):
+        return suffix[1:].upper()
     if head.startswith(b"PAR1"):
         return "Parquet table"
     return "MOT/STO" if b"\nendheader" in head.lower() else "table"
@@ -134,6 +135,20 @@ def _read_c3d(source: Source, columns: Sequence[str] | None) -> Table:
     wanted = _wanted(source, names, columns, names)
     at = [names.index(name) for name in wanted]
     return Table(wanted, file.analog[:, at], {}, file.analog_rate or None)
+
+
+def _mat_names(source: Source) -> list[str]:
+    return list(mat_channels(source)[0])
+
+
+def _read_mat(source: Source, columns: Sequence[str] | None) -> Table:
+    channels, rate = mat_channels(source)
+    names = list(channels)
+    wanted = _wanted(source, names, columns, names)
+    values = {name: np.asarray(channels[name], np.float64) for name in wanted}
+    table = _table(source, names, values, columns)
+    known = rate is not None and np.isfinite(rate) and rate > 0
+    return replace(table, rate=rate) if known else table
 
 
 def _parquet(source: Source) -> Any:
@@ -238,4 +253,5 @@ KINDS = {
     "MOT/STO": Kind(_text_names, _read_text),
     "Parquet table": Kind(_parquet_names, _read_parquet),
     "C3D": Kind(_c3d_names, _read_c3d),
+    "MAT": Kind(_mat_names, _read_mat),
 }
