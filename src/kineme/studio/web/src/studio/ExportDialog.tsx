@@ -11,8 +11,14 @@ interface Props {
   close: () => void;
 }
 
+const CHOICES: readonly (readonly [Level | "", string])[] = [
+  ["", "both levels, or the activities in formats of one"],
+  ["activity", "activities"],
+  ["primitive", "primitives"],
+];
+
 export function ExportDialog({ session, close }: Props): JSX.Element {
-  const level = useSignal<Level>("primitive");
+  const level = useSignal<Level | "">("");
   const busy = useSignal("");
   const write = async (format: string): Promise<void> => {
     const document = session.document.value;
@@ -29,8 +35,7 @@ export function ExportDialog({ session, close }: Props): JSX.Element {
   return (
     <Dialog title="Write the segments as a file" close={close}>
       <fieldset>
-        <legend class="quiet">Formats of one lane take</legend>
-        {(["primitive", "activity"] as const).map((each) => (
+        {CHOICES.map(([each, title]) => (
           <label class="check" key={each}>
             <input
               type="radio"
@@ -38,7 +43,7 @@ export function ExportDialog({ session, close }: Props): JSX.Element {
               checked={level.value === each}
               onChange={() => (level.value = each)}
             />
-            {each === "primitive" ? "the primitives" : "the activities"}
+            {title}
           </label>
         ))}
       </fieldset>

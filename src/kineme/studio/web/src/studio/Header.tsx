@@ -1,6 +1,7 @@
 /** The bar on top: what is open, undo and redo, whether everything is saved, and the dialogs. */
 import type { JSX } from "preact";
 import { theme, toggleTheme } from "../theme";
+import { IconButton } from "../transport/icons";
 import type { Session } from "./session";
 
 export type DialogName = "transfer" | "compare" | "export" | "help";
@@ -66,15 +67,7 @@ export function Header({ session, show }: Props): JSX.Element {
           Export…
         </Opener>
       </span>
-      <button
-        type="button"
-        class="icon"
-        title={`Show it ${other}`}
-        aria-label={`Show it ${other}`}
-        onClick={toggleTheme}
-      >
-        ◐
-      </button>
+      <IconButton icon="theme" label={`Show the page ${other}`} onClick={toggleTheme} />
       <button
         type="button"
         class="icon"

@@ -1,5 +1,6 @@
 /** The keys, and what the mouse does. */
 import type { JSX } from "preact";
+import { PAGE_KEYS } from "../keys";
 import { Dialog } from "./Dialog";
 import { STUDIO_KEYS } from "./keys";
 
@@ -8,7 +9,7 @@ export function HelpDialog({ close }: { close: () => void }): JSX.Element {
     <Dialog title="Keys" close={close}>
       <table class="keys">
         <tbody>
-          {STUDIO_KEYS.map(([keys, what]) => (
+          {[...PAGE_KEYS, ...STUDIO_KEYS].map(([keys, what]) => (
             <tr key={keys}>
               <th scope="row">
                 <kbd>{keys}</kbd>

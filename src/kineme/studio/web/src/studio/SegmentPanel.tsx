@@ -1,6 +1,6 @@
 /** The segment one works on: its times, name and cluster, and the name of the cluster. */
 import type { JSX } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { clusterColor } from "../colors";
 import type { Kind, Segment } from "../messages";
 import { durationOf } from "../segments";
@@ -109,7 +109,7 @@ interface NameProps {
 /** A name is taken with Enter or on leaving the field; Escape leaves it as it was. */
 function NameField({ title, value, names, focus, onDone, onName }: NameProps): JSX.Element {
   const input = useRef<HTMLInputElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (!focus) return;
     input.current?.focus();
     input.current?.select();

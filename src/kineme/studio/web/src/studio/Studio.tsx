@@ -1,8 +1,14 @@
 /** The page of the studio: the parts of every page, and around them what changes a result. */
 import { signal, type Signal } from "@preact/signals";
 import type { JSX } from "preact";
+import { About } from "../about/About";
+import { Clusters } from "../clusters/Clusters";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
+import { MatrixPlace } from "../matrix/MatrixPlace";
+import { Timeline } from "../timeline/Timeline";
+import { Transport } from "../transport/Transport";
+import { Viewer } from "../viewer/Viewer";
 import { CompareDialog } from "./CompareDialog";
 import { ComparePanel } from "./ComparePanel";
 import { DropZone } from "./DropZone";
@@ -33,6 +39,7 @@ interface Props {
 }
 
 export function Studio({ session, editor, uploads, front }: Props): JSX.Element {
+  const { store } = session;
   const show = (dialog: DialogName): void => void (front.dialog.value = dialog);
   const { value: dialog } = front.dialog;
   const close = (): void => {
@@ -44,11 +51,13 @@ export function Studio({ session, editor, uploads, front }: Props): JSX.Element 
       title: "Segment",
       panel: () => <SegmentPanel session={session} editor={editor} />,
     },
+    { id: "clusters", title: "Clusters", panel: () => <Clusters store={store} /> },
     {
       id: "compare",
       title: "Compare",
       panel: () => <ComparePanel session={session} choose={() => show("compare")} />,
     },
+    { id: "about", title: "About", panel: () => <About store={store} /> },
   ];
   return (
     <>
@@ -60,16 +69,36 @@ export function Studio({ session, editor, uploads, front }: Props): JSX.Element 
             <PresetPanel session={session} />
           </>
         }
-        viewer={null}
-        matrix={null}
+        viewer={<Stage session={session} />}
+        matrix={store.active.value && <MatrixPlace store={store} />}
         side={<Tabs label="About the recording" tabs={tabs} open={front.tab} />}
-        transport={<EditTools editor={editor} />}
-        timeline={null}
+        transport={
+          <>
+            <Transport store={store} />
+            <EditTools editor={editor} />
+          </>
+        }
+        timeline={store.active.value && <Timeline store={store} />}
       />
       <Notices session={session} />
       <DropZone session={session} uploads={uploads} />
       <OpenDialog session={session} name={dialog} close={close} />
     </>
+  );
+}
+
+/** The figures; before there are any, what to do. */
+function Stage({ session }: { session: Session }): JSX.Element {
+  const { store } = session;
+  if (store.active.value) return <Viewer store={store} />;
+  return (
+    <p class="empty quiet">
+      {session.opening.value ? (
+        <span class="busy" role="status" aria-label="Opening" />
+      ) : (
+        "Choose a recording on the left, or drop files here."
+      )}
+    </p>
   );
 }
 

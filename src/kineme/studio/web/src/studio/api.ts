@@ -13,6 +13,7 @@ import type {
   Edited,
   EditRequest,
   Failure,
+  Level,
   Listing,
   Recording,
   State,
@@ -38,7 +39,8 @@ export class Unreachable extends Error {
 }
 
 export class Api {
-  constructor(private readonly token: string) {}
+  /** @param token what the server printed in its address; another server has another one */
+  constructor(public token: string) {}
 
   state(): Promise<State> {
     return this.json("/api/state");
@@ -72,8 +74,12 @@ export class Api {
     return this.json(`/api/recordings/${encodeURIComponent(id)}/compare`, request);
   }
 
-  /** The segments as a file, with the name the server gives it. */
-  async exported(id: string, format: string, level: string): Promise<{ name: string; data: Blob }> {
+  /** The segments of a level, or of all that the format holds, as a file named by the server. */
+  async exported(
+    id: string,
+    format: string,
+    level: Level | "",
+  ): Promise<{ name: string; data: Blob }> {
     const path = `/api/recordings/${encodeURIComponent(id)}/export/${encodeURIComponent(format)}`;
     const answer = await this.ask(`${path}?level=${level}`);
     const name = filename(answer.headers.get("content-disposition") ?? "") || `segments.${format}`;
@@ -135,11 +141,6 @@ export class Api {
     const said = parsed(await unbroken(answer.text()));
     throw new Refused(answer.status, sentence(said, answer.status), said);
   }
-}
-
-/** The token in this page's address. */
-export function pageToken(): string {
-  return new URLSearchParams(location.search).get("token") ?? "";
 }
 
 /** What to tell a person about anything thrown by this page. */

@@ -3,13 +3,16 @@ import { effect } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
 import "./studio.css";
+import { startKeys } from "../keys";
 import { startPlayer } from "../player";
 import { Store } from "../store";
-import { Api, pageToken } from "./api";
+import { Api } from "./api";
 import { Editor } from "./editor";
 import { commandOf } from "./keys";
 import { Session } from "./session";
+import { exposeStudio } from "./snapshot";
 import { Front, Studio } from "./Studio";
+import { pageToken } from "./token";
 import { announceTab } from "./unsent";
 import { Uploads } from "./uploads";
 
@@ -33,6 +36,8 @@ function start(): void {
     document.title = `${store.recording.value?.name ?? "kineme"} · kineme studio`;
   });
   startPlayer(store);
+  exposeStudio(session);
+  startKeys(store);
   render(
     <Studio session={session} editor={editor} uploads={new Uploads(session)} front={front} />,
     document.getElementById("page")!,
@@ -41,8 +46,8 @@ function start(): void {
 }
 
 function onKey(event: KeyboardEvent, editor: Editor, front: Front): void {
-  const typing =
-    event.target instanceof Element && event.target.closest("input, select, textarea, dialog");
+  const target = event.target instanceof Element ? event.target : null;
+  const typing = target?.closest("input:not([type=range]), select, textarea, dialog");
   if (typing || event.defaultPrevented) return;
   const command = commandOf(event, editor, (dialog) => (front.dialog.value = dialog));
   if (!command) return;

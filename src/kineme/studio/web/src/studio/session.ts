@@ -12,7 +12,13 @@ import { loadMotion, type Opened, type Store } from "../store";
 import { type Api, explain, Refused, RETRY, Unreachable } from "./api";
 import { Document } from "./document";
 import { ServerSource } from "./serverSource";
+import { shareToken } from "./token";
 import { Bulletin } from "./news";
+
+const NO_ANSWER =
+  "The studio’s server does not answer. What was confirmed is saved; the rest waits here until it is back.";
+const STARTED_ANEW =
+  "The studio was started anew. Open the address it printed: then this tab goes on, too.";
 
 export class Session {
   readonly state = signal<State | null>(null);
@@ -38,6 +44,7 @@ export class Session {
 
   /** Asks for the folder, opens what was open before, and listens for changes from then on. */
   async start(): Promise<void> {
+    shareToken(this.api);
     if (!(await this.refresh())) return;
     this.api.listen(
       (change) => void this.changed(change),
@@ -45,7 +52,8 @@ export class Session {
     );
     const { recordings } = this.state.value!;
     const before = fromAddress().filter((id) => recordings.some((each) => each.id === id));
-    const first = before.length ? before : recordings.slice(0, 1).map((each) => each.id);
+    const first =
+      before.length || recordings.length > 1 ? before : recordings.map((each) => each.id);
     for (const id of first) await this.open(id, { beside: true });
     effect(() => toAddress(this.store.opened.value));
   }
@@ -57,7 +65,8 @@ export class Session {
       return true;
     } catch (error) {
       if (error instanceof Unreachable) this.lost();
-      else this.trouble.value = refusal(error);
+      else if (error instanceof Refused && error.status === 403) this.lost(STARTED_ANEW);
+      else this.bulletin.problem(explain(error));
       return false;
     }
   }
@@ -106,12 +115,10 @@ export class Session {
     this.store.other.value = null;
   }
 
-  /** Nobody answers: ask again every second until somebody does. */
-  lost(): void {
-    if (this.retrying) return;
-    this.trouble.value =
-      "The studio’s server does not answer. Everything confirmed is saved; what follows waits here until it is back.";
-    this.retrying = window.setInterval(() => void this.recover(), RETRY);
+  /** Nobody answers, or not to us: ask again every second until that has changed. */
+  lost(reason = NO_ANSWER): void {
+    this.trouble.value = reason;
+    if (!this.retrying) this.retrying = window.setInterval(() => void this.recover(), RETRY);
   }
 
   /** The server is there, maybe another one: what was missed is asked for, what waits is sent. */
@@ -154,12 +161,6 @@ export class Session {
     if (document) await document.changed(change.revision);
     else await this.refresh();
   }
-}
-
-function refusal(error: unknown): string {
-  return error instanceof Refused && error.status === 403
-    ? "The studio was started anew, and this address is no longer valid. Open the address it printed; unsent edits come along."
-    : explain(error);
 }
 
 /** The recordings named in the address, so that a reload finds them. */

@@ -1,0 +1,17 @@
+/** `window.kineme` of the studio: that of every page, with the table and what is not saved. */
+import { snapshotOf } from "../snapshot";
+import type { Session } from "./session";
+
+export function exposeStudio(session: Session): void {
+  const { store } = session;
+  Object.defineProperty(window, "kineme", {
+    get: () =>
+      Object.freeze({
+        ...snapshotOf(store),
+        recordings: store.opened.value.map((opened) => opened.recording.value.name),
+        segments: store.recording.value?.segmentation.segments ?? [],
+        selected: store.selected.value ?? null,
+        unsent: session.unsent.value,
+      }),
+  });
+}

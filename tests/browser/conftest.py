@@ -1,0 +1,80 @@
+"""A real Chromium with the studio in it; each test has a recording of its own."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from itertools import count
+from pathlib import Path
+
+import pytest
+from screen import Screen
+from studio_server import StudioServer
+
+import kineme
+
+CHROMIUM = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
+# Drawing in software, so that every machine draws the same.
+ARGUMENTS = [
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+]
+DESKTOP = {"width": 1280, "height": 720}
+NUMBERS = count(1)
+
+
+@pytest.fixture(scope="module")  # while it is open, nothing else can use an event loop
+def chromium() -> Iterator:
+    if CHROMIUM is None:
+        pytest.skip("no chromium: install it, or set KINEME_CHROMIUM to where it is")
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def server(chromium, tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioServer]:
+    """The studio's server on a folder of its own."""
+    with StudioServer(tmp_path_factory.mktemp("takes")) as running:
+        yield running
+
+
+@pytest.fixture
+def take(server: StudioServer) -> Path:
+    """The bundled recording, under a new name in the server's folder."""
+    return copy_of_bundled(server.folder)
+
+
+@pytest.fixture
+def new_tab(chromium) -> Iterator[Callable]:
+    """Opens an address in a tab; the test fails if a page of it fails."""
+    context = chromium.new_context(viewport=DESKTOP, accept_downloads=True)
+    context.set_default_timeout(30_000)
+    errors: list[str] = []
+
+    def tab(address: str):
+        page = context.new_page()
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.goto(address)
+        return page
+
+    yield tab
+    context.close()
+    assert errors == []
+
+
+@pytest.fixture
+def page(new_tab, server: StudioServer, take: Path):
+    """A tab with the take open and drawn."""
+    tab = new_tab(server.address_of(take))
+    Screen(tab).opened()
+    return tab
+
+
+def copy_of_bundled(folder: Path) -> Path:
+    return Path(shutil.copy(kineme.bundled_recording(), folder / f"take_{next(NUMBERS)}.bvh"))

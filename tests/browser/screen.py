@@ -1,0 +1,82 @@
+"""The studio in a tab, as a person uses it: what it shows, and where to put the pointer."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+GUTTER, RULER, GAP = 78, 22, 4  # pixels of the timeline, as in its lanes.ts
+SHARES = {"activity": 1.0, "primitive": 1.2, "label": 0.7}
+PATIENCE = 30.0  # seconds
+PLACES = {"figure": ".place-viewer", "lanes": ".place-timeline", "matrix": ".place-matrix"}
+
+
+class Screen:
+    def __init__(self, page: Any):
+        self.page = page
+
+    @property
+    def state(self) -> dict[str, Any]:
+        """What the page says it shows."""
+        return self.page.evaluate("window.kineme")
+
+    def wait(self, condition: str) -> None:
+        """Until a condition on its state ``k`` holds.
+
+        Asked from outside: the page's policy bars what Playwright would do inside.
+        """
+        deadline = time.monotonic() + PATIENCE
+        question = f"(() => {{ const k = window.kineme; return {condition}; }})()"
+        while not self.page.evaluate(question):
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"not within {PATIENCE} s: {condition}")
+            self.page.wait_for_timeout(20)
+
+    def opened(self) -> Screen:
+        """The same, once a recording is there and drawn."""
+        self.wait("k?.hasMotion && k.drawn > 2")
+        return self
+
+    def lane(self, level: str) -> list[dict[str, Any]]:
+        return [row for row in self.state["segments"] if row["level"] == level]
+
+    def starts(self, level: str = "primitive") -> list[int]:
+        return [row["start_frame"] for row in self.lane(level)]
+
+    def labels(self, level: str = "primitive") -> list[str]:
+        return [row["label"] for row in self.lane(level)]
+
+    def pixels(self) -> dict[str, bytes]:
+        """What figure, lanes and matrix look like."""
+        return {name: self.page.locator(place).screenshot() for name, place in PLACES.items()}
+
+    def point(self, seconds: float, level: str) -> tuple[float, float]:
+        """Where a moment is on a lane, while all of the recording is shown."""
+        box = self.page.locator(".lanes canvas").bounding_box()
+        duration = self.lane(level)[-1]["stop_s"]
+        room = (box["height"] - RULER - GAP * len(SHARES)) / sum(SHARES.values())
+        top = RULER
+        for name, share in SHARES.items():
+            height = min(room * share, 44 * share)
+            if name == level:
+                break
+            top += height + GAP
+        x = box["x"] + GUTTER + seconds / duration * (box["width"] - GUTTER)
+        return x, box["y"] + top + height / 2
+
+    def click(self, segment: dict[str, Any]) -> None:
+        """The middle of a segment."""
+        middle = (segment["start_s"] + segment["stop_s"]) / 2
+        self.page.mouse.click(*self.point(middle, segment["level"]))
+
+    def drag_border(self, segment: dict[str, Any], seconds: float) -> None:
+        """The start of a segment, to another moment."""
+        mouse = self.page.mouse
+        mouse.move(*self.point(segment["start_s"], segment["level"]))
+        mouse.down()
+        mouse.move(*self.point(seconds, segment["level"]), steps=4)
+        mouse.up()
+
+    def saved(self) -> None:
+        """Until the server has confirmed everything."""
+        self.wait("k.unsent.length === 0 && k.saved !== ''")

@@ -1,0 +1,176 @@
+"""Correcting a result in the studio: every edit can be seen, undone, and found on the disk."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from screen import Screen
+
+import kineme
+from kineme.datasets import bundled_truth
+from kineme.transfer import KnowledgeBase
+
+
+def saved_table(take: Path) -> kineme.Segmentation:
+    return kineme.read_segments(take.with_suffix(".segments.json"))
+
+
+def test_a_border_is_dragged_and_brought_back(page, take):
+    screen = Screen(page)
+    before, after = screen.lane("primitive")[2:4]
+    screen.drag_border(after, before["start_s"] + 0.4 * (before["stop_s"] - before["start_s"]))
+    screen.wait(f"!k.segments.some((row) => row.start_frame === {after['start_frame']})")
+    screen.saved()
+    moved = screen.lane("primitive")[3]["start_frame"]
+    assert before["start_frame"] < moved < after["start_frame"]
+    assert saved_table(take).primitives.start_frame.tolist() == screen.starts()
+    page.keyboard.press("Control+z")
+    screen.wait(f"k.segments.some((row) => row.start_frame === {after['start_frame']})")
+    screen.saved()
+    assert saved_table(take).primitives.start_frame.tolist() == screen.starts()
+    page.keyboard.press("Control+Shift+z")
+    screen.wait(f"k.segments.some((row) => row.start_frame === {moved})")
+
+
+def test_the_keyboard_alone_is_enough(page, take):
+    screen = Screen(page)
+    untouched = screen.starts()
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("Shift+ArrowRight")
+    start = screen.state["selected"]["start_frame"]
+    page.keyboard.press("Alt+ArrowRight")
+    page.keyboard.press("Alt+Shift+ArrowRight")
+    screen.wait(f"k.segments.some((row) => row.start_frame === {start + 11})")
+    assert screen.state["selected"]["start_frame"] == start + 11
+    for _ in range(12):
+        page.keyboard.press("ArrowRight")
+    page.keyboard.press("s")
+    screen.wait(f"k.segments.some((row) => row.start_frame === {start + 23})")
+    page.keyboard.press("Delete")
+    screen.wait(f"!k.segments.some((row) => row.start_frame === {start + 23})")
+    page.keyboard.press("m")
+    screen.wait(f"k.segments.filter((row) => row.level === 'primitive').length < {len(untouched)}")
+    page.keyboard.press("n")
+    page.keyboard.type("both steps")
+    page.keyboard.press("Enter")
+    screen.wait("k.segments.some((row) => row.label === 'both steps')")
+    screen.saved()
+    assert "both steps" in saved_table(take).primitives.label.tolist()
+    for _ in range(6):
+        page.keyboard.press("Control+z")
+    screen.wait("k.unsent.length === 0")
+    assert screen.starts() == untouched
+    assert set(screen.labels()) == {""}
+
+
+def test_a_cluster_is_named_exported_and_found_again(page, take, tmp_path):
+    screen = Screen(page)
+    chosen = screen.lane("primitive")[9]
+    screen.click(chosen)
+    page.keyboard.press("Shift+N")
+    page.keyboard.type("squat & <jump>")
+    page.keyboard.press("Enter")
+    screen.wait("k.segments.some((row) => row.label !== '')")
+    screen.saved()
+    page.keyboard.press("e")
+    for name in ("json", "csv", "elan"):
+        with page.expect_download() as download:
+            page.locator(f"[data-format={name}]").click()
+        path = tmp_path / download.value.suggested_filename
+        download.value.save_as(path)
+        segments = kineme.read_segments(path)
+        clusters = [row.label for row in segments.primitives if row.label]
+        members = [row for row in screen.lane("primitive") if row["cluster"] == chosen["cluster"]]
+        assert clusters == ["squat & <jump>"] * len(members)
+    page.reload()
+    screen.opened()
+    assert screen.labels().count("squat & <jump>") == len(members)
+    assert saved_table(take).primitives.label.tolist() == screen.labels()
+
+
+def test_other_parameters_give_another_result_at_once_and_undo_brings_names_back(page):
+    screen = Screen(page)
+    page.keyboard.press("n")
+    page.keyboard.type("mine")
+    page.keyboard.press("Enter")
+    screen.saved()
+    before = screen.state["segments"]
+    page.get_by_label("Preset", exact=True).select_option("voegele2014")
+    screen.wait("!k.segments.some((row) => row.label === 'mine')")
+    screen.wait("k.unsent.length === 0")
+    page.get_by_role("slider").first.press("ArrowRight")
+    screen.wait("k.unsent.length > 0")
+    screen.wait("k.unsent.length === 0")
+    page.locator("body").click(position={"x": 600, "y": 510})
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Control+z")
+    screen.wait("k.segments.some((row) => row.label === 'mine')")
+    screen.wait("k.unsent.length === 0")
+    assert screen.state["segments"] == before
+    assert page.get_by_label("Preset", exact=True).input_value() == "kineme"
+
+
+def test_kind_and_cluster_of_a_segment_can_be_set(page, take):
+    screen = Screen(page)
+    chosen = screen.lane("primitive")[4]
+    screen.click(chosen)
+    page.get_by_label("Cluster of the segment").select_option("3")
+    screen.wait("k.selected.cluster === 3")
+    page.get_by_label("Kind").select_option("transition")
+    screen.wait("k.selected.kind === 'transition'")
+    screen.saved()
+    row = saved_table(take).primitives[4]
+    assert (row.kind, row.cluster) == ("transition", -1)
+
+
+def test_labels_come_from_a_knowledge_base(page, server, take):
+    screen = Screen(page)
+    page.keyboard.press("t")
+    assert page.get_by_text("There is no knowledge base").is_visible()
+    page.keyboard.press("Escape")
+    labels = kineme.read_segments(bundled_truth())
+    base = server.folder / "moves.npz"
+    KnowledgeBase.from_recording(kineme.read(take), labels).save(base)
+    page.reload()
+    screen.opened()
+    page.keyboard.press("t")
+    page.get_by_role("button", name="Transfer labels").click()
+    screen.wait("k.segments.some((row) => row.label === 'squat')")
+    base.unlink()
+
+
+def test_a_result_is_compared_with_an_annotation(page, server, take):
+    screen = Screen(page)
+    truth = server.folder / "truth.csv"
+    kineme.write_segments(kineme.read_segments(bundled_truth()), truth)
+    page.reload()
+    screen.opened()
+    lanes = screen.pixels()["lanes"]
+    page.keyboard.press("c")
+    page.get_by_role("button", name="truth.csv").click()
+    scores = page.locator(".scores")
+    scores.wait_for()
+    assert scores.locator("tr").count() > 2
+    page.wait_for_timeout(200)
+    assert screen.pixels()["lanes"] != lanes
+    page.get_by_role("button", name="Stop comparing").click()
+    assert scores.count() == 0
+    truth.unlink()
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 720), (1024, 768)])
+@pytest.mark.parametrize("scheme", ["dark", "light"])
+def test_everything_fits_on_small_screens(page, width, height, scheme):
+    page.emulate_media(color_scheme=scheme)
+    page.set_viewport_size({"width": width, "height": height})
+    page.wait_for_timeout(200)
+    size = page.evaluate(
+        "[document.documentElement.scrollWidth, document.documentElement.scrollHeight]"
+    )
+    assert size == [width, height]
+    for name in ("Undo", "Export…", "Split", "Delete border"):
+        box = page.get_by_role("button", name=name).bounding_box()
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= width
+        assert box["y"] + box["height"] <= height

@@ -1,0 +1,126 @@
+"""Looking at a recording in the studio: figure, lanes and matrix tell the same."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from screen import Screen
+
+import kineme
+
+
+def test_a_click_on_a_primitive_moves_everything_there(page):
+    screen = Screen(page)
+    before = screen.pixels()
+    chosen = screen.lane("primitive")[9]
+    screen.click(chosen)
+    screen.wait("k.selected")
+    state = screen.state
+    assert state["selected"] == chosen
+    assert state["playhead"] == pytest.approx(chosen["start_s"])
+    assert state["cluster"] == chosen["cluster"]
+    page.wait_for_timeout(300)
+    after = screen.pixels()
+    assert {name for name in before if before[name] != after[name]} == {"figure", "lanes", "matrix"}
+    assert f"{chosen['start_s']:.2f}" in page.locator(".segment-panel").inner_text()
+
+
+def test_playing_moves_playhead_and_figure_until_it_is_stopped(page):
+    screen = Screen(page)
+    page.keyboard.press("Space")
+    screen.wait("k.playhead > 0.4")
+    first = screen.pixels()
+    page.wait_for_timeout(400)
+    assert screen.pixels()["figure"] != first["figure"]
+    page.keyboard.press("Space")
+    screen.wait("!k.playing")
+    stopped = screen.state["playhead"]
+    page.wait_for_timeout(200)
+    assert screen.state["playhead"] == stopped
+
+
+def test_arrow_keys_step_by_a_frame_and_by_a_segment(page):
+    screen = Screen(page)
+    fps = 60
+    page.keyboard.press("ArrowRight")
+    screen.wait("k.playhead > 0")
+    assert screen.state["playhead"] == pytest.approx(1 / fps)
+    page.keyboard.press("Shift+ArrowRight")
+    screen.wait("k.selected")
+    assert screen.state["selected"] == screen.lane("primitive")[1]
+
+
+def test_all_members_of_a_cluster_play_in_step(page):
+    screen = Screen(page)
+    screen.click(screen.lane("primitive")[9])
+    screen.wait("k.selected")
+    alone = screen.pixels()["figure"]
+    page.get_by_role("button", name="In step").click()
+    screen.wait("k.inStep")
+    page.wait_for_timeout(300)
+    assert screen.pixels()["figure"] != alone
+
+
+def test_two_recordings_stand_side_by_side(new_tab, server, take):
+    second = Path(shutil.copy(take, take.with_stem(f"{take.stem}_too")))
+    page = new_tab(server.address_of(take))
+    screen = Screen(page)
+    screen.opened()
+    page.get_by_role("button", name=f"Show {second.name} beside the others").click()
+    screen.wait("k.recordings.length === 2 && k.hasMotion")
+    assert screen.state["recordings"] == [take.name, second.name]
+    page.reload()
+    screen.wait("k?.recordings?.length === 2 && k.hasMotion")
+    page.get_by_role("button", name=f"Close {second.name}").click()
+    screen.wait("k.recordings.length === 1")
+
+
+def test_labels_and_names_are_text_and_nothing_else(new_tab, server, take):
+    evil = "<img src=x onerror=document.title='caught'>"
+    table = kineme.segment(kineme.read(take))
+    named = take.rename(take.with_name("<b>bold<b> &amp; 'quoted'.bvh"))
+    columns = {**table.table.columns(), "label": [evil] * len(table)}
+    labelled = kineme.Segmentation.from_columns(
+        columns, n_frames=table.n_frames, fps=table.fps, provenance=table.provenance
+    )
+    kineme.write_segments(labelled, named.with_suffix(".segments.json"))
+    page = new_tab(server.address_of(named))
+    screen = Screen(page)
+    screen.opened()
+    screen.click(screen.lane("primitive")[3])
+    page.wait_for_timeout(300)
+    assert screen.state["selected"]["label"] == evil
+    assert page.locator(".recording .name", has_text=named.name).count() == 1
+    assert page.locator("img, b:text('bold')").count() == 0
+    assert page.title().startswith(named.name)
+
+
+def test_a_file_that_is_no_recording_is_refused_in_words(new_tab, server):
+    broken = server.folder / "broken.bvh"
+    broken.write_text("HIERARCHY\nnothing of the kind\n")
+    page = new_tab(server.address_of(broken))
+    notice = page.locator("[data-notice=problem]")
+    notice.wait_for()
+    assert "broken.bvh" in notice.inner_text()
+    assert page.get_by_text("Choose a recording on the left").is_visible()
+    broken.unlink()
+
+
+def test_a_dropped_file_is_taken_into_the_folder_and_opened(new_tab, server, take):
+    page = new_tab(server.address)
+    page.get_by_role("button", name=take.name, exact=True).wait_for()
+    transfer = page.evaluate_handle(
+        """([name, text]) => {
+            const transfer = new DataTransfer();
+            transfer.items.add(new File([text], name));
+            return transfer;
+        }""",
+        [f"dropped_{take.name}", take.read_text() + "\n"],
+    )
+    for event in ("dragover", "drop"):
+        page.dispatch_event("body", event, {"dataTransfer": transfer})
+    screen = Screen(page)
+    screen.wait(f"k.name === 'dropped_{take.name}' && k.hasMotion")
+    assert (server.folder / f"dropped_{take.name}").read_text().strip() == take.read_text().strip()

@@ -1,0 +1,131 @@
+"""Nothing is lost: when the server is killed, when the tab goes, when two tabs edit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from screen import Screen
+from studio_server import StudioServer
+
+import kineme
+
+
+@pytest.fixture
+def mortal(chromium, take: Path, tmp_path: Path) -> Iterator[StudioServer]:
+    """A server that may be killed, on a folder with one take."""
+    take.rename(tmp_path / "take.bvh")
+    with StudioServer(tmp_path) as running:
+        yield running
+
+
+def name_segment(page, label: str) -> None:
+    page.keyboard.press("n")
+    page.keyboard.type(label)
+    page.keyboard.press("Enter")
+
+
+def saved_table(server: StudioServer) -> kineme.Segmentation:
+    return kineme.read_segments(server.folder / "take.segments.json")
+
+
+def test_a_killed_server_loses_nothing(new_tab, mortal):
+    page = new_tab(mortal.address)
+    screen = Screen(page)
+    screen.opened()
+    name_segment(page, "before")
+    screen.saved()
+    mortal.kill()
+    page.keyboard.press("Shift+ArrowRight")
+    name_segment(page, "while it was gone")
+    page.keyboard.press("Shift+ArrowRight")
+    border = screen.state["selected"]["start_frame"]
+    page.keyboard.press("Alt+Shift+ArrowRight")
+    notice = page.locator("[data-notice=trouble]")
+    notice.wait_for()
+    assert "while it was gone" in notice.inner_text()
+    assert screen.labels()[:2] == ["before", "while it was gone"]
+    assert saved_table(mortal).primitives.label.tolist()[:2] == ["before", ""]
+
+    mortal.start()  # has a new token, which the tab learns from the one that is opened now
+    page.get_by_text("started anew").wait_for()
+    new_tab(mortal.address)
+    screen.wait("k.unsent.length === 0")
+    notice.wait_for(state="detached")
+    table = saved_table(mortal)
+    assert table.primitives.label.tolist()[:2] == ["before", "while it was gone"]
+    assert table.primitives.start_frame[2] == border + 10
+    page.reload()
+    screen.opened()
+    assert screen.labels()[:2] == ["before", "while it was gone"]
+
+
+def test_edits_outlive_the_tab_that_could_not_send_them(new_tab, mortal):
+    page = new_tab(mortal.address)
+    screen = Screen(page)
+    screen.opened()
+    mortal.kill()
+    name_segment(page, "kept")
+    page.locator("[data-notice=trouble]").wait_for()
+    page.close()
+    mortal.start()
+    second = Screen(new_tab(mortal.address))
+    second.wait("k?.hasMotion && k.segments.some((row) => row.label === 'kept')")
+    second.saved()
+    assert saved_table(mortal).primitives.label.tolist()[0] == "kept"
+
+
+def test_a_second_tab_sees_what_the_first_one_does(new_tab, server, take):
+    first, second = (Screen(new_tab(server.address_of(take))) for _ in range(2))
+    for screen in (first, second):
+        screen.opened()
+    name_segment(first.page, "from the first")
+    second.wait("k.segments.some((row) => row.label === 'from the first')")
+    name_segment(second.page, "from the second")
+    first.wait("k.segments.some((row) => row.label === 'from the second')")
+    first.page.keyboard.press("Control+z")
+    second.wait("k.segments.some((row) => row.label === 'from the first')")
+
+
+def test_an_edit_of_an_old_table_waits_until_its_author_has_seen_the_new_one(new_tab, server, take):
+    first = Screen(new_tab(server.address_of(take)))
+    late = new_tab("about:blank")
+    late.route("**/api/events*", lambda route: route.abort())  # it hears nothing
+    late.goto(server.address_of(take))
+    second = Screen(late)
+    for screen in (first, second):
+        screen.opened()
+    border = first.starts()[4]
+    name_segment(first.page, "first")
+    first.saved()
+    second.click(second.lane("primitive")[4])
+    late.keyboard.press("Delete")
+    notice = late.locator("[data-notice=held]")
+    notice.wait_for()
+    assert "deleted" in notice.inner_text()
+    path = take.with_suffix(".segments.json")
+    assert border in kineme.read_segments(path).cuts("primitive")
+    assert second.labels()[0] == "first"  # the new table, with the edit on it
+    assert border not in second.starts()
+    late.get_by_role("button", name="Make them here").click()
+    second.wait("k.unsent.length === 0")
+    saved = kineme.read_segments(path)
+    assert border not in saved.cuts("primitive")
+    assert saved.primitives.label[0] == "first"
+
+
+def test_a_table_that_another_program_wrote_is_not_overwritten_unseen(page, take):
+    screen = Screen(page)
+    name_segment(page, "mine")
+    screen.saved()
+    path = take.with_suffix(".segments.json")
+    path.write_text(path.read_text().replace("mine", "theirs"))
+    page.keyboard.press("Shift+ArrowRight")
+    name_segment(page, "mine, too")
+    notice = page.locator("[data-notice=held]")
+    notice.wait_for()
+    assert kineme.read_segments(path).primitives.label.tolist()[:2] == ["theirs", ""]
+    page.get_by_role("button", name="Drop them").click()
+    notice.wait_for(state="detached")
+    assert screen.labels()[:2] == ["theirs", ""]

@@ -1,0 +1,41 @@
+"""The studio is quick enough to work with; exact figures are in docs/speed.md."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from screen import Screen
+
+import kineme
+
+FIRST_PICTURE = 3.0  # seconds: twice the aim, for machines that do other things as well
+RATE = 20  # pictures per second, of an aim of 30
+
+
+@pytest.fixture
+def two_minutes(server) -> Path:
+    """The bundled recording over and over, for two minutes."""
+    path = server.folder / "two_minutes.bvh"
+    path.write_text(repeated(kineme.bundled_recording().read_text(), 120 * 60))
+    return path
+
+
+def repeated(bvh: str, n_frames: int) -> str:
+    """A recording with so many frames, from the start again where it ends."""
+    head, motion = bvh.split("MOTION\n")
+    _, frame_time, *frames = motion.strip().split("\n")
+    lines = [frames[i % len(frames)] for i in range(n_frames)]
+    return "\n".join([head + "MOTION", f"Frames: {n_frames}", frame_time, *lines, ""])
+
+
+def test_two_minutes_are_there_soon_and_play_smoothly(new_tab, server, two_minutes):
+    Screen(new_tab(server.address_of(two_minutes))).opened()  # segments it
+    page = new_tab(server.address_of(two_minutes))
+    screen = Screen(page)
+    screen.opened()
+    first_picture = page.evaluate("performance.now()") / 1000
+    assert first_picture < FIRST_PICTURE
+    page.keyboard.press("Space")
+    page.wait_for_timeout(2500)
+    assert screen.state["rate"] > RATE
