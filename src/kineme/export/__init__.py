@@ -24,6 +24,7 @@ Those of other programs hold labels, see :mod:`kineme.export.labels`:
 ``babel``    by name       one level; labels may overlap
 ``ms-tcn``   by name       one level, as one label per frame
 ``clips``    by name       one level, frame rate
+``c3d``      ``.c3d``      events, read only
 ============ ============= ===================================================
 """
 

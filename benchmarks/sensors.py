@@ -1,0 +1,118 @@
+"""Segments from body-worn sensors instead of a skeleton, scored against the annotations.
+
+    python benchmarks/sensors.py [--data ../shared/data]
+
+The sensors are made from the five trials of subject 86: an accelerometer (with
+gravity and noise of 0.3 m/s²) and a gyroscope (noise of 0.05 rad/s) at the
+forearms, shanks and head, 100 Hz, in the sensor's own axes. ``pose`` takes the
+fifteen numbers of a pose without telling that they are a body. Then the
+accelerometer that walks, jogs and runs (change points 3800 and 6800).
+
+``--units`` prints how the scores hang on the one constant that signals have of
+their own.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import Signals, read_signals, segment_signals
+from kineme import _rotations as rot
+from kineme.evaluation import evaluate_segmentation
+from kineme.evaluation.tables import markdown, shown
+from kineme.evaluation.trials import Trial, find_folder, load_trials
+from kineme.features import end_effectors, pose_features
+from kineme.motion import Motion, world_rotations
+from kineme.operations import resample
+from kineme.segmentation.presets import PRESETS
+from kineme.signals import channels
+
+Floats = NDArray[np.float64]
+FPS = 100.0
+GRAVITY = np.array([0.0, 9.81, 0.0])
+EVERYWHERE, RIGHT = (0, 1, 2, 3, 4), (1, 4)  # ankles, head, wrists: of features.PARTS
+
+
+def sensors(motion: Motion, places: Iterable[int], *, gyroscopes: bool = True) -> Signals:
+    """Accelerometers, and gyroscopes, fixed to the bones that end in these end effectors."""
+    from scipy.signal import savgol_filter
+
+    rng = np.random.default_rng(0)
+    ends = end_effectors(motion).indices
+    worn = resample(motion, FPS)
+    turned = world_rotations(worn)
+    columns: list[Floats] = []
+    for place in places:
+        joint = ends[place]
+        bone = turned[:, worn.skeleton.parents[joint]]
+        back = bone * np.array([1.0, -1.0, -1.0, -1.0])
+        path = worn.positions[:, joint]
+        pull = savgol_filter(path, 11, 3, deriv=2, delta=1 / FPS, axis=0) + GRAVITY
+        columns.append(rot.rotate(back, pull) + 0.3 * rng.standard_normal(pull.shape))
+        if gyroscopes:
+            step = rot.multiply(back[:-1], bone[1:])
+            rate = 2 * FPS * step[:, 1:] * np.sign(step[:, :1])
+            rate = np.concatenate([rate, rate[-1:]])
+            columns.append(rate + 0.05 * rng.standard_normal(rate.shape))
+    return Signals(np.hstack(columns), FPS)
+
+
+def pose(motion: Motion) -> Signals:
+    """The fifteen numbers of a pose, as if they were any."""
+    return Signals(pose_features(resample(motion, 30.0)), 30.0)
+
+
+KINDS: dict[str, Callable[[Motion], Signals]] = {
+    "pose": pose,
+    "5 accelerometers": lambda motion: sensors(motion, EVERYWHERE, gyroscopes=False),
+    "5 accelerometers and gyroscopes": lambda motion: sensors(motion, EVERYWHERE),
+    "2 of each, right wrist and ankle": lambda motion: sensors(motion, RIGHT),
+}
+
+
+def scores(recordings: Iterable[tuple[Trial, Signals]], preset: str) -> tuple[float, float]:
+    """Border F1 within 0.25 s and frames in the right class, means of the trials."""
+    found = [
+        evaluate_segmentation(trial.truth, segment_signals(signals, preset=preset))
+        for trial, signals in recordings
+    ]
+    return tuple(float(np.mean([f[key] for f in found])) for key in ("border_f1", "one_to_one"))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Segments from body-worn sensors.")
+    default = os.environ.get("KINEME_DATA", "../shared/data")
+    parser.add_argument("--data", type=Path, default=default)
+    parser.add_argument("--units", action="store_true", help="other values of RECURS_AT")
+    options = parser.parse_args()
+    trials = load_trials(find_folder(options.data))
+    worn = {kind: [(t, make(t.motion)) for t in trials] for kind, make in KINDS.items()}
+    if options.units:
+        values = (0.1, 0.13, 0.16, 0.18, 0.2, 0.22, 0.25, 0.3)
+        rows = []
+        for kind, recordings in worn.items():
+            cells = []
+            for channels.RECURS_AT in values:
+                cells.append(" / ".join(map(shown, scores(recordings, "kineme"))))
+            rows.append([kind, *cells])
+        print(markdown(["border F1 / frames", *map(str, values)], rows))
+        return
+    rows = [
+        [kind, *(" / ".join(map(shown, scores(recordings, name))) for name in PRESETS)]
+        for kind, recordings in worn.items()
+    ]
+    print(markdown(["border F1 / frames in the right class", *PRESETS], rows))
+    for path in sorted((options.data / "timeseries").glob("WalkJogRun*.txt")):
+        found = segment_signals(read_signals(path, fps=FPS))
+        borders = ", ".join(map(str, found.cuts().tolist()))
+        print(f"{path.stem}: {borders} of {found.n_frames} frames")
+
+
+if __name__ == "__main__":
+    main()
