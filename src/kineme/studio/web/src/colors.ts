@@ -26,13 +26,24 @@ export function clusterColor(cluster: number): string {
   const mixed = channelsOf(color).map((channel) =>
     halfToEven((1 - share) * channel + share * grey),
   );
-  return "#" + mixed.map((c) => c.toString(16).padStart(2, "0").toUpperCase()).join("");
+  return hex(mixed);
 }
 
 /** Black or white, whichever is easier to read on a colour. */
 export function inkOn(color: string): "#000000" | "#FFFFFF" {
   const l = luminance(color);
   return 1.05 / (l + 0.05) >= (l + 0.05) / 0.05 ? "#FFFFFF" : "#000000";
+}
+
+/** A colour that shows on the page: the darkest ones lighter where the page is dark, and vice versa. */
+export function onPage(color: string, theme: "dark" | "light"): string {
+  const l = luminance(color);
+  const dark = theme === "dark";
+  const share = dark ? Math.max(0, 0.45 - 3 * l) : Math.max(0, 0.6 * (l - 0.55));
+  const mixed = channelsOf(color).map((c) =>
+    Math.round((1 - share) * c + share * (dark ? 255 : 0)),
+  );
+  return hex(mixed);
 }
 
 /** Relative luminance from 0 (black) to 1 (white), as WCAG defines it. */
@@ -48,6 +59,10 @@ export function luminance(color: string): number {
 export function channelsOf(color: string): [number, number, number] {
   const at = (i: number): number => parseInt(color.slice(i, i + 2), 16);
   return [at(1), at(3), at(5)];
+}
+
+function hex(channels: readonly number[]): string {
+  return "#" + channels.map((c) => c.toString(16).padStart(2, "0").toUpperCase()).join("");
 }
 
 /** Python's way of rounding, so that both sides agree to the last digit. */

@@ -1,9 +1,10 @@
 /** The state of a page: what is open, where the playhead stands, what is selected. */
-import { computed, signal, type ReadonlySignal, type Signal } from "@preact/signals";
+import { batch, computed, signal, type ReadonlySignal, type Signal } from "@preact/signals";
 import type { Level, Recording, Segment, Segments } from "./messages";
 import { unpackMotion, type Motion } from "./motion";
 import { clustersOf, durationOf, indexAt, laneOf, segmentAt, type Cluster } from "./segments";
 import type { Source } from "./source";
+import { following, panned, zoomed } from "./view";
 
 /** A recording on the page; the table inside `recording` changes with each edit. */
 export interface Opened {
@@ -45,7 +46,7 @@ export class Store {
   readonly speed = signal(1);
   readonly loop = signal<Span | null>(null);
   readonly selection = signal<Selection | null>(null);
-  /** The cluster whose members and curves are shown. */
+  /** The number of the cluster that is looked at. */
   readonly cluster = signal<number | null>(null);
   /** The cluster under the pointer. */
   readonly hovered = signal<number | null>(null);
@@ -53,6 +54,8 @@ export class Store {
   readonly inStep = signal(false);
   readonly follow = signal(true);
   readonly trails = signal(true);
+  /** The stretch of time that the timeline and the matrix show; null: all of it. */
+  readonly zoom = signal<Span | null>(null);
   readonly other = signal<OtherResult | null>(null);
   readonly edits = signal<EditHooks | null>(null);
 
@@ -64,10 +67,17 @@ export class Store {
   );
   readonly fps = computed(() => this.recording.value?.fps ?? 1);
   readonly duration = computed(() => (this.recording.value?.n_frames ?? 0) / this.fps.value);
+  readonly range: ReadonlySignal<Span> = computed(
+    () => this.zoom.value ?? { start_s: 0, stop_s: Math.max(this.duration.value, 1e-3) },
+  );
   readonly frame = computed(() => this.frameAt(this.playhead.value));
   readonly activities = computed(() => this.lane("activity"));
   readonly primitives = computed(() => this.lane("primitive"));
   readonly clusters: ReadonlySignal<Cluster[]> = computed(() => clustersOf(this.primitives.value));
+  /** The cluster whose members and curves are shown. */
+  readonly shownCluster = computed(() =>
+    this.clusters.value.find((cluster) => cluster.id === this.cluster.value),
+  );
   /** The primitive under the playhead. */
   readonly present = computed(() => segmentAt(this.primitives.value, this.frame.value));
   readonly selected: ReadonlySignal<Segment | undefined> = computed(() => {
@@ -84,7 +94,25 @@ export class Store {
   }
 
   seek(seconds: number): void {
-    this.playhead.value = Math.min(Math.max(seconds, 0), this.duration.value);
+    const playhead = Math.min(Math.max(seconds, 0), this.duration.value);
+    batch(() => {
+      this.playhead.value = playhead;
+      if (this.zoom.value)
+        this.zoom.value = following(this.zoom.value, playhead, this.duration.value);
+    });
+  }
+
+  /** Shows more (`factor` > 1) or less time, around a moment that stays where it is. */
+  zoomBy(factor: number, around: number = this.playhead.value): void {
+    const total = this.duration.value;
+    if (total <= 0) return;
+    const range = zoomed(this.range.value, factor, around, total);
+    this.zoom.value = range.stop_s - range.start_s >= total - 1e-9 ? null : range;
+  }
+
+  /** Shows earlier or later times. */
+  panBy(seconds: number): void {
+    if (this.zoom.value) this.zoom.value = panned(this.zoom.value, seconds, this.duration.value);
   }
 
   /** Stops and goes some frames on, or back. */
@@ -95,10 +123,12 @@ export class Store {
 
   /** Selects a segment and brings everything there; a loop follows. */
   select(segment: Segment, options: { seek?: boolean } = {}): void {
-    this.selection.value = { level: segment.level, start_frame: segment.start_frame };
-    if (segment.cluster >= 0) this.cluster.value = segment.cluster;
-    if (this.loop.value) this.loop.value = { start_s: segment.start_s, stop_s: segment.stop_s };
-    if (options.seek ?? true) this.seek(segment.start_s);
+    batch(() => {
+      this.selection.value = { level: segment.level, start_frame: segment.start_frame };
+      if (segment.cluster >= 0) this.cluster.value = segment.cluster;
+      if (this.loop.value) this.loop.value = { start_s: segment.start_s, stop_s: segment.stop_s };
+      if (options.seek ?? true) this.seek(segment.start_s);
+    });
   }
 
   /** Selects the next primitive or the one before. */
@@ -138,12 +168,15 @@ export class Store {
 
   /** Makes a recording of the page the current one. */
   show(index: number): void {
-    this.selection.value = null;
-    this.loop.value = null;
-    this.cluster.value = null;
-    this.other.value = null;
-    this.inStep.value = false;
-    this.current.value = index;
+    batch(() => {
+      this.selection.value = null;
+      this.loop.value = null;
+      this.cluster.value = null;
+      this.other.value = null;
+      this.inStep.value = false;
+      this.zoom.value = null;
+      this.current.value = index;
+    });
     this.seek(this.playhead.value);
   }
 

@@ -18,8 +18,18 @@ export function toggleTheme(): void {
   chosen.value = theme.value === "dark" ? "light" : "dark";
 }
 
-/** The value of a variable of the style sheet, for canvases; follows the theme. */
+/** A colour of the style sheet for canvases, `#rrggbb` (or `rgba(…)`); follows the theme. */
 export function cssColor(name: string): string {
-  void theme.value; // whoever asks is told when it changes
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  const key = `${theme.value} ${name}`; // whoever asks is told when the theme changes
+  let color = colors.get(key);
+  if (color === undefined) {
+    const style = getComputedStyle(document.documentElement);
+    pen.fillStyle = style.getPropertyValue(`--${name}`).trim();
+    color = String(pen.fillStyle); // spelled out, however short the style sheet has it
+    colors.set(key, color);
+  }
+  return color;
 }
+
+const colors = new Map<string, string>();
+const pen = new OffscreenCanvas(1, 1).getContext("2d")!;

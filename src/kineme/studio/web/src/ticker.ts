@@ -1,6 +1,7 @@
 /** One clock for everything that is drawn: at most one picture per refresh of the screen. */
+import { effect } from "@preact/signals";
 
-/** Called before each picture with the seconds since the last one (at most 0.1). */
+/** Called before each picture with the seconds since the last one (at most 0.5). */
 export type Task = (seconds: number) => void;
 
 export class Ticker {
@@ -22,15 +23,14 @@ export class Ticker {
     if (this.pending === 0) this.pending = requestAnimationFrame((now) => this.run(now));
   }
 
-  /** Pictures per second over the last second; 0 when nothing has been drawn. */
+  /** Pictures drawn within the last second. */
   rate(now: number = performance.now()): number {
-    const recent = this.times.filter((time) => now - time <= 1000);
-    return recent.length < 2 ? 0 : (1000 * (recent.length - 1)) / (recent.at(-1)! - recent[0]!);
+    return this.times.filter((time) => now - time <= 1000).length;
   }
 
   private run(now: number): void {
     this.pending = 0;
-    const seconds = Math.min(Math.max((now - this.last) / 1000, 0), 0.1);
+    const seconds = Math.min(Math.max((now - this.last) / 1000, 0), 0.5);
     this.last = now;
     this.times.push(now);
     if (this.times.length > 240) this.times.splice(0, 120);
@@ -40,3 +40,25 @@ export class Ticker {
 }
 
 export const ticker = new Ticker();
+
+/**
+ * Draws before the next picture whenever a signal that `watch` reads has changed.
+ * Call the result to stop it.
+ */
+export function painter(watch: () => void, draw: Task): () => void {
+  let dirty = true;
+  const stopDrawing = ticker.add((seconds) => {
+    if (!dirty) return;
+    dirty = false;
+    draw(seconds);
+  });
+  const stopWatching = effect(() => {
+    watch();
+    dirty = true;
+    ticker.request();
+  });
+  return () => {
+    stopWatching();
+    stopDrawing();
+  };
+}

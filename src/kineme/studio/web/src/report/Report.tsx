@@ -1,17 +1,42 @@
 /** The page of a report. */
 import type { JSX } from "preact";
+import { About } from "../about/About";
+import { Clusters } from "../clusters/Clusters";
 import { Layout } from "../layout/Layout";
+import { Tabs } from "../layout/Tabs";
+import { MatrixPlace } from "../matrix/MatrixPlace";
 import type { Store } from "../store";
+import { theme, toggleTheme } from "../theme";
+import { Timeline } from "../timeline/Timeline";
+import { IconButton } from "../transport/icons";
+import { Transport } from "../transport/Transport";
+import { Viewer } from "../viewer/Viewer";
 
 export function Report({ store }: { store: Store }): JSX.Element {
+  const tabs = [
+    { id: "clusters", title: "Clusters", panel: () => <Clusters store={store} /> },
+    { id: "about", title: "About", panel: () => <About store={store} /> },
+  ];
   return (
     <Layout
-      header={<h1>{store.recording.value?.name}</h1>}
-      viewer={null}
-      matrix={null}
-      side={null}
-      transport={null}
-      timeline={null}
+      header={<Header store={store} />}
+      viewer={<Viewer store={store} />}
+      matrix={<MatrixPlace store={store} />}
+      side={<Tabs label="About the recording" tabs={tabs} />}
+      transport={<Transport store={store} />}
+      timeline={<Timeline store={store} />}
     />
+  );
+}
+
+function Header({ store }: { store: Store }): JSX.Element {
+  const other = theme.value === "dark" ? "light" : "dark";
+  return (
+    <>
+      <h1>{store.recording.value?.name}</h1>
+      <span class="quiet">kineme report</span>
+      <span class="spacer" />
+      <IconButton icon="theme" label={`Show the page ${other}`} onClick={toggleTheme} />
+    </>
   );
 }

@@ -1,9 +1,11 @@
 /** The report: one recording out of the page itself. */
 import { render } from "preact";
 import "../styles/index.css";
+import { startKeys } from "../keys";
+import { startPlayer } from "../player";
+import { exposeSnapshot } from "../snapshot";
 import { EmbeddedSource } from "../source";
 import { loadMotion, openRecording, Store } from "../store";
-import { startPlayer } from "../player";
 import { Report } from "./Report";
 
 async function start(): Promise<void> {
@@ -11,7 +13,9 @@ async function start(): Promise<void> {
   const opened = await openRecording(new EmbeddedSource());
   store.add(opened);
   document.title = `${opened.recording.value.name} · kineme report`;
+  exposeSnapshot(store);
   startPlayer(store);
+  startKeys(store);
   render(<Report store={store} />, document.getElementById("page")!);
   await loadMotion(opened);
 }

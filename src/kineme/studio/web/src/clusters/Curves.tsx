@@ -1,0 +1,125 @@
+/** All members of a cluster laid over each other, from their beginning to their end. */
+import { computed, useSignal } from "@preact/signals";
+import { useMemo } from "preact/hooks";
+import type { JSX } from "preact";
+import { Canvas } from "../canvas/Canvas";
+import { Line } from "../canvas/Line";
+import { clusterColor } from "../colors";
+import type { Segment } from "../messages";
+import type { Store } from "../store";
+import { AXES, curveOf, liveliest, someOf, spreadOf, type Axis, type Track } from "./curves";
+import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
+
+const MOST = 150; // curves drawn, and members that the mean is of
+const FEW = 12; // members looked at to choose a joint
+
+export function Curves({ store }: { store: Store }): JSX.Element {
+  const chosen = useSignal<Partial<Track>>({});
+  const shown = useMemo(() => computed(() => contentOf(store, chosen.value)), [store]);
+  const member = useMemo(
+    () => computed(() => (shown.value ? memberAt(store, shown.value) : -1)),
+    [store],
+  );
+  const content = shown.value;
+  if (!content) return <Missing store={store} />;
+  const { motion, track, members, color } = content;
+  const total = store.shownCluster.value?.members.length ?? 0;
+  return (
+    <div class="curves">
+      <div class="curve-choice">
+        <span class="swatch" style={{ background: color }} />
+        <select
+          aria-label="Joint"
+          value={track.joint}
+          onChange={(event) =>
+            (chosen.value = { ...track, joint: Number(event.currentTarget.value) })
+          }
+        >
+          {motion.head.joints.map((name, joint) => (
+            <option key={joint} value={joint}>
+              {name}
+            </option>
+          ))}
+        </select>
+        <select
+          aria-label="Axis"
+          value={track.axis}
+          onChange={(event) =>
+            (chosen.value = { ...track, axis: event.currentTarget.value as Axis })
+          }
+        >
+          {AXES.map((axis) => (
+            <option key={axis} value={axis}>
+              {axis}
+            </option>
+          ))}
+        </select>
+        <span class="quiet">metres</span>
+      </div>
+      <div class="curve-room">
+        <Canvas
+          label={`Curves of ${members.length} members, with mean and deviation. Click one to go to its member.`}
+          watch={() => void [shown.value, member.value]}
+          draw={(pen, width, height) => {
+            const now = shown.value;
+            if (now) drawCurves(pen, { ...now, selected: member.value }, width, height);
+          }}
+          onClick={(event) => {
+            const { left, top, width, height } = event.currentTarget.getBoundingClientRect();
+            const [x, y] = [event.clientX - left, event.clientY - top];
+            const nearest = members[nearestCurve(content.curves, x, y, width, height)];
+            if (nearest) store.select(nearest);
+          }}
+        />
+        <Now store={store} members={members} />
+      </div>
+      <p class="quiet note">
+        {members.length < total ? `${members.length} of ${total}` : members.length} members, mean ±
+        deviation, seen from the pelvis
+      </p>
+    </div>
+  );
+}
+
+type Content = NonNullable<ReturnType<typeof contentOf>>;
+
+function contentOf(store: Store, chosen: Partial<Track>) {
+  const motion = store.active.value?.motion.value;
+  const cluster = store.shownCluster.value ?? store.clusters.value[0];
+  if (!motion || !cluster) return null;
+  const members = someOf(cluster.members, MOST);
+  const track = { ...liveliest(motion, someOf(members, FEW)), ...chosen };
+  const curves = members.map((member) => curveOf(motion, member, track));
+  const color = clusterColor(cluster.id);
+  return { motion, track, members, curves, spread: spreadOf(curves), color };
+}
+
+/** The member under the playhead, else the selected one. */
+function memberAt(store: Store, { members }: Content): number {
+  const at = store.frame.value;
+  const present = members.findIndex((each) => each.start_frame <= at && at < each.stop_frame);
+  if (present >= 0) return present;
+  const selected = store.selected.value;
+  return members.findIndex((each) => each.start_frame === selected?.start_frame);
+}
+
+/** How far the present repetition is; apart from the canvas, so that playing redraws no curves. */
+function Now({ store, members }: { store: Store; members: readonly Segment[] }): JSX.Element {
+  const at = store.playhead.value;
+  const present = members.find((each) => each.start_s <= at && at < each.stop_s);
+  const share = present ? (at - present.start_s) / (present.stop_s - present.start_s) : -1;
+  return (
+    <div class="curve-now" style={{ left: `${LEFT}px`, right: `${RIGHT}px` }}>
+      {share >= 0 && <Line share={share} />}
+    </div>
+  );
+}
+
+function Missing({ store }: { store: Store }): JSX.Element {
+  const bodiless = store.recording.value?.motion === null;
+  return (
+    <p class="empty quiet">
+      {bodiless ? "Curves need a skeleton; this recording has none." : "No cluster to show."}
+    </p>
+  );
+}

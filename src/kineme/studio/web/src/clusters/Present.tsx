@@ -1,0 +1,41 @@
+/** The primitive under the playhead, and the way to the others of its cluster. */
+import type { JSX } from "preact";
+import { clusterColor } from "../colors";
+import { durationOf, nameOf } from "../segments";
+import type { Store } from "../store";
+import { IconButton } from "../transport/icons";
+import { clock } from "../view";
+
+export function Present({ store }: { store: Store }): JSX.Element | null {
+  const segment = store.present.value;
+  if (!segment) return null;
+  const cluster = store.clusters.value.find((each) => each.id === segment.cluster);
+  const members = cluster?.members ?? [];
+  const at = members.indexOf(segment);
+  const go = (by: number): void => {
+    const next = members[(at + by + members.length) % members.length];
+    if (next) store.select(next);
+  };
+  return (
+    <section class="present" aria-label="At the playhead">
+      <p class="present-name">
+        <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
+        <b>{nameOf(segment)}</b>
+        <span class="spacer" />
+        {at >= 0 && (
+          <>
+            <span class="quiet number">
+              {at + 1} of {members.length}
+            </span>
+            <IconButton icon="back" label="Member before" onClick={() => go(-1)} />
+            <IconButton icon="on" label="Next member" onClick={() => go(1)} />
+          </>
+        )}
+      </p>
+      <p class="quiet number">
+        {clock(segment.start_s, 2)} to {clock(segment.stop_s, 2)} · {durationOf(segment).toFixed(2)}{" "}
+        s{segment.score !== null && ` · score ${segment.score.toFixed(2)}`}
+      </p>
+    </section>
+  );
+}

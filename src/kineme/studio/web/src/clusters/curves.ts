@@ -1,0 +1,81 @@
+/** What the members of a cluster have in common: their curves over normalised time. Pure. */
+import type { Segment } from "../messages";
+import { headingAt, poseAt, rootOf, type Motion } from "../motion";
+
+export const AXES = ["forward", "up", "left"] as const;
+export type Axis = (typeof AXES)[number];
+
+/** Samples of a curve, from the first to the last moment of a member. */
+export const SAMPLES = 61;
+
+/** A point of the body followed along one axis of the body's own frame. */
+export interface Track {
+  joint: number;
+  axis: Axis;
+}
+
+/** The track of a member: metres from the root, at `SAMPLES` moments from its start to its end. */
+export function curveOf(motion: Motion, segment: Segment, { joint, axis }: Track): Float32Array {
+  const curve = new Float32Array(SAMPLES);
+  const pose = new Float32Array(motion.head.joints.length * 3);
+  const root = 3 * rootOf(motion.head);
+  const length = segment.stop_s - segment.start_s;
+  for (let i = 0; i < SAMPLES; i++) {
+    const seconds = segment.start_s + (length * i) / (SAMPLES - 1);
+    poseAt(motion, seconds, pose);
+    const x = pose[3 * joint]! - pose[root]!;
+    const y = pose[3 * joint + 1]! - pose[root + 1]!;
+    const z = pose[3 * joint + 2]! - pose[root + 2]!;
+    curve[i] = along(axis, x, y, z, headingAt(motion, seconds));
+  }
+  return curve;
+}
+
+/** A direction of the world seen from a body that looks to `heading`. */
+export function along(axis: Axis, x: number, y: number, z: number, heading: number): number {
+  if (axis === "up") return y;
+  const [sin, cos] = [Math.sin(heading), Math.cos(heading)];
+  return axis === "forward" ? x * sin + z * cos : x * cos - z * sin;
+}
+
+export interface Spread {
+  mean: Float32Array;
+  deviation: Float32Array;
+}
+
+/** Mean and standard deviation at each moment; what is missing (NaN) does not count. */
+export function spreadOf(curves: readonly Float32Array[]): Spread {
+  const mean = new Float32Array(SAMPLES);
+  const deviation = new Float32Array(SAMPLES);
+  for (let i = 0; i < SAMPLES; i++) {
+    const values = curves.map((curve) => curve[i]!).filter((value) => !Number.isNaN(value));
+    const middle = values.reduce((sum, value) => sum + value, 0) / values.length;
+    const squares = values.reduce((sum, value) => sum + (value - middle) ** 2, 0);
+    mean[i] = middle;
+    deviation[i] = Math.sqrt(squares / values.length);
+  }
+  return { mean, deviation };
+}
+
+/** The track on which hands, feet and head move most in these members. */
+export function liveliest(motion: Motion, members: readonly Segment[]): Track {
+  const { effectors } = motion.head;
+  const parts = Object.keys(effectors).filter((part) => part !== "pelvis");
+  const joints = parts.length ? parts.map((part) => effectors[part]!) : motion.head.joints.keys();
+  let best: Track = { joint: 0, axis: "up" };
+  let most = -1;
+  for (const joint of joints) {
+    for (const axis of AXES) {
+      const { mean } = spreadOf(members.map((member) => curveOf(motion, member, { joint, axis })));
+      const way = Math.max(...mean) - Math.min(...mean);
+      if (way > most) [best, most] = [{ joint, axis }, way];
+    }
+  }
+  return best;
+}
+
+/** At most `n` of the members, evenly chosen. */
+export function someOf<T>(all: readonly T[], n: number): T[] {
+  if (all.length <= n) return [...all];
+  return Array.from({ length: n }, (_, i) => all[Math.floor((i * all.length) / n)]!);
+}

@@ -1,0 +1,60 @@
+/** `window.kineme`: a read-only picture of the state, for tests and for the curious. */
+import type { Selection, Span, Store } from "./store";
+import { ticker } from "./ticker";
+
+export interface Snapshot {
+  readonly name: string;
+  readonly playhead: number;
+  readonly frame: number;
+  readonly duration: number;
+  readonly playing: boolean;
+  readonly speed: number;
+  readonly loop: Span | null;
+  readonly selection: Selection | null;
+  readonly cluster: number | null;
+  readonly inStep: boolean;
+  readonly range: Span;
+  readonly revision: number;
+  readonly saved: string;
+  readonly n_segments: number;
+  readonly hasMotion: boolean;
+  readonly other: string | null;
+  /** Pictures drawn within the last second, and in all. */
+  readonly rate: number;
+  readonly drawn: number;
+}
+
+declare global {
+  interface Window {
+    readonly kineme: Snapshot;
+  }
+}
+
+export function exposeSnapshot(store: Store): void {
+  Object.defineProperty(window, "kineme", { get: () => snapshotOf(store), configurable: true });
+}
+
+/** What the page shows at this moment. */
+export function snapshotOf(store: Store): Snapshot {
+  const recording = store.recording.value;
+  return Object.freeze({
+    name: recording?.name ?? "",
+    playhead: store.playhead.value,
+    frame: store.frame.value,
+    duration: store.duration.value,
+    playing: store.playing.value,
+    speed: store.speed.value,
+    loop: store.loop.value,
+    selection: store.selection.value,
+    cluster: store.cluster.value,
+    inStep: store.inStep.value,
+    range: store.range.value,
+    revision: recording?.revision ?? 0,
+    saved: recording?.saved ?? "",
+    n_segments: recording?.segmentation.segments.length ?? 0,
+    hasMotion: Boolean(store.active.value?.motion.value),
+    other: store.other.value?.name ?? null,
+    rate: ticker.rate(),
+    drawn: ticker.drawn,
+  });
+}

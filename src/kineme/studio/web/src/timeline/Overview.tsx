@@ -1,0 +1,57 @@
+/** The whole recording in a strip, and the part that the lanes show; drag to move it. */
+import { useRef } from "preact/hooks";
+import type { JSX } from "preact";
+import { Canvas } from "../canvas/Canvas";
+import { clusterColor } from "../colors";
+import { cssColor } from "../theme";
+import type { Store } from "../store";
+import { toPixel } from "../view";
+
+export function Overview({ store }: { store: Store }): JSX.Element {
+  const dragging = useRef(false);
+  const moveTo = (event: PointerEvent): void => {
+    const { left, width } = (event.currentTarget as Element).getBoundingClientRect();
+    const { start_s, stop_s } = store.range.value;
+    const at = ((event.clientX - left) / width) * store.duration.value;
+    store.panBy(at - (start_s + stop_s) / 2);
+  };
+  return (
+    <div class="overview">
+      <Canvas
+        label="The whole recording; drag to choose what the lanes show."
+        watch={() => void [store.activities.value, store.range.value, store.duration.value]}
+        draw={(pen, width, height) => draw(pen, width, height, store)}
+        onPointerDown={(event) => {
+          event.currentTarget.setPointerCapture(event.pointerId);
+          dragging.current = true;
+          moveTo(event);
+        }}
+        onPointerMove={(event) => dragging.current && moveTo(event)}
+        onPointerUp={() => (dragging.current = false)}
+        onPointerCancel={() => (dragging.current = false)}
+      />
+    </div>
+  );
+}
+
+function draw(pen: CanvasRenderingContext2D, width: number, height: number, store: Store): void {
+  const whole = { start_s: 0, stop_s: store.duration.value };
+  pen.fillStyle = cssColor("lane");
+  pen.fillRect(0, 0, width, height);
+  for (const { start_s, stop_s, cluster } of store.activities.value) {
+    if (cluster < 0) continue;
+    const left = toPixel(whole, width, start_s);
+    pen.fillStyle = clusterColor(cluster);
+    pen.fillRect(left, 2, Math.max(toPixel(whole, width, stop_s) - left, 0.5), height - 4);
+  }
+  const { start_s, stop_s } = store.range.value;
+  const left = toPixel(whole, width, start_s);
+  const right = toPixel(whole, width, stop_s);
+  pen.globalAlpha = 0.6;
+  pen.fillStyle = cssColor("page");
+  pen.fillRect(0, 0, left, height);
+  pen.fillRect(right, 0, width - right, height);
+  pen.globalAlpha = 1;
+  pen.strokeStyle = cssColor("quiet");
+  pen.strokeRect(left + 0.5, 0.5, Math.max(right - left - 1, 2), height - 1);
+}

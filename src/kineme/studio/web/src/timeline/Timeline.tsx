@@ -1,0 +1,79 @@
+/** The lanes: activities, primitives, labels, and another result below them. */
+import { useSignal } from "@preact/signals";
+import { useMemo, useRef } from "preact/hooks";
+import type { JSX } from "preact";
+import { Canvas } from "../canvas/Canvas";
+import { Line } from "../canvas/Line";
+import { durationOf, nameOf } from "../segments";
+import type { Store } from "../store";
+import { clock, toPixel } from "../view";
+import { drawLanes, type Drag } from "./drawing";
+import { Gestures } from "./gestures";
+import { GUTTER, layOut, type Lane } from "./lanes";
+import { Overview } from "./Overview";
+
+export function Timeline({ store }: { store: Store }): JSX.Element {
+  const drag = useSignal<Drag | null>(null);
+  const lanes = useRef<Lane[]>([]);
+  const gestures = useMemo(
+    () =>
+      new Gestures(
+        store,
+        () => lanes.current,
+        (next) => void (drag.value = next),
+      ),
+    [store],
+  );
+  const given = (): Parameters<typeof layOut>[0] => ({
+    activities: store.activities.value,
+    primitives: store.primitives.value,
+    other: store.other.value,
+  });
+  return (
+    <div class="timeline">
+      <div class="lanes">
+        <Canvas
+          label="Segments over time. Click one to go there; use the wheel to zoom, drag to pan."
+          watch={() => {
+            void [given(), store.range.value, store.selected.value, store.hovered.value];
+            void [store.loop.value, drag.value];
+          }}
+          draw={(pen, width, height) => {
+            lanes.current = layOut(given(), height);
+            drawLanes(pen, lanes.current, store, drag.value, width);
+          }}
+          onPointerDown={(event) => gestures.down(event)}
+          onPointerMove={(event) => gestures.move(event)}
+          onPointerUp={(event) => gestures.up(event)}
+          onPointerCancel={() => gestures.cancel()}
+          onPointerLeave={() => gestures.leave()}
+          onWheelZoom={(event) => gestures.wheel(event)}
+        />
+        <Playhead store={store} />
+      </div>
+      <Overview store={store} />
+      <Spoken store={store} />
+    </div>
+  );
+}
+
+/** The line of the present moment; apart from the canvas, so that playing redraws no lanes. */
+function Playhead({ store }: { store: Store }): JSX.Element {
+  const share = toPixel(store.range.value, 1, store.playhead.value);
+  return (
+    <div class="playhead-room" style={{ left: `${GUTTER}px` }}>
+      <Line share={share} handle />
+    </div>
+  );
+}
+
+/** What is selected, for those who do not see it. */
+function Spoken({ store }: { store: Store }): JSX.Element {
+  const segment = store.selected.value;
+  return (
+    <p class="unseen" role="status">
+      {segment &&
+        `${segment.level} ${nameOf(segment)}, from ${clock(segment.start_s, 2)}, ${durationOf(segment).toFixed(2)} seconds`}
+    </p>
+  );
+}

@@ -1,0 +1,134 @@
+/** What the pointer does on the lanes: scrub, select, pan, drag a border. */
+import { indexAt } from "../segments";
+import type { Store } from "../store";
+import { toSeconds } from "../view";
+import type { Drag } from "./drawing";
+import { borderNear, GUTTER, laneAt, roomFor, RULER, type Lane } from "./lanes";
+
+const CLICK = 4; // pixels a click may wander before it is a drag
+const GRIP = 5; // pixels to either side of a border
+const FINGER = 12;
+
+/** A place on the canvas, and how far a border may be from it. */
+interface Spot {
+  x: number;
+  y: number;
+  width: number;
+  grip: number;
+}
+
+type Doing =
+  | { what: "scrub" }
+  | { what: "press"; x: number; y: number; last: number }
+  | { what: "pan"; last: number }
+  | { what: "border"; lane: Lane; drag: Drag };
+
+export class Gestures {
+  private doing: Doing | null = null;
+
+  constructor(
+    private readonly store: Store,
+    private readonly lanes: () => readonly Lane[],
+    private readonly onDrag: (drag: Drag | null) => void,
+  ) {}
+
+  down(event: PointerEvent): void {
+    if (event.button !== 0) return;
+    const spot = spotOf(event);
+    (event.currentTarget as Element).setPointerCapture(event.pointerId);
+    const border = this.borderAt(spot);
+    if (spot.y < RULER) {
+      this.doing = { what: "scrub" };
+      this.store.seek(this.secondsAt(spot));
+    } else if (border) this.doing = { what: "border", ...border };
+    else this.doing = { what: "press", x: spot.x, y: spot.y, last: spot.x };
+  }
+
+  move(event: PointerEvent): void {
+    const spot = spotOf(event);
+    if (this.doing?.what === "press" && Math.abs(spot.x - this.doing.x) > CLICK)
+      this.doing = { what: "pan", last: this.doing.last };
+    const { doing } = this;
+    if (doing?.what === "scrub") this.store.seek(this.secondsAt(spot));
+    else if (doing?.what === "pan") {
+      this.store.panBy(this.secondsAt({ ...spot, x: doing.last }) - this.secondsAt(spot));
+      doing.last = spot.x;
+    } else if (doing?.what === "border") {
+      const [low, high] = roomFor(doing.lane.segments, doing.drag.frame);
+      const to = Math.round(this.secondsAt(spot) * this.store.fps.value);
+      doing.drag = { ...doing.drag, to: Math.min(Math.max(to, low), high) };
+      this.onDrag(doing.drag);
+      this.store.seek(doing.drag.to / this.store.fps.value);
+    } else if (!doing) this.hover(event, spot);
+  }
+
+  up(event: PointerEvent): void {
+    const { doing } = this;
+    this.doing = null;
+    if (doing?.what === "press") this.click(spotOf(event));
+    if (doing?.what !== "border") return;
+    this.onDrag(null);
+    const { frame, to } = doing.drag;
+    if (to !== frame && doing.lane.level)
+      this.store.edits.value?.moveBorder(doing.lane.level, frame, to);
+  }
+
+  cancel(): void {
+    this.doing = null;
+    this.onDrag(null);
+  }
+
+  leave(): void {
+    this.store.hovered.value = null;
+  }
+
+  wheel(event: WheelEvent): void {
+    const spot = spotOf(event);
+    const { start_s, stop_s } = this.store.range.value;
+    const sideways = event.shiftKey ? event.deltaY : event.deltaX;
+    if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY))
+      this.store.panBy((sideways / (spot.width - GUTTER)) * (stop_s - start_s));
+    else this.store.zoomBy(Math.exp(0.0015 * event.deltaY), this.secondsAt(spot));
+  }
+
+  private click(spot: Spot): void {
+    const segment = this.segmentAt(spot);
+    if (segment && laneAt(this.lanes(), spot.y)?.level) this.store.select(segment);
+    else this.store.seek(segment?.start_s ?? this.secondsAt(spot));
+  }
+
+  private hover(event: PointerEvent, spot: Spot): void {
+    const segment = this.segmentAt(spot);
+    this.store.hovered.value = segment && segment.cluster >= 0 ? segment.cluster : null;
+    const cursor = spot.y < RULER || this.borderAt(spot) ? "ew-resize" : segment ? "pointer" : "";
+    (event.currentTarget as HTMLElement).style.cursor = cursor;
+  }
+
+  private segmentAt(spot: Spot): Lane["segments"][number] | undefined {
+    const lane = laneAt(this.lanes(), spot.y);
+    if (!lane || spot.x < GUTTER) return undefined;
+    const seconds = this.secondsAt(spot);
+    const segment = lane.segments[indexAt(lane.segments, this.store.frameAt(seconds))];
+    return segment && seconds < segment.stop_s && seconds >= segment.start_s ? segment : undefined;
+  }
+
+  private borderAt(spot: Spot): { lane: Lane; drag: Drag } | null {
+    const lane = laneAt(this.lanes(), spot.y);
+    if (!this.store.edits.value || !lane?.level || spot.x < GUTTER) return null;
+    const { start_s, stop_s } = this.store.range.value;
+    const reach = (spot.grip / (spot.width - GUTTER)) * (stop_s - start_s);
+    const frame = borderNear(lane.segments, this.secondsAt(spot), reach, this.store.fps.value);
+    return frame === null ? null : { lane, drag: { lane: lane.id, frame, to: frame } };
+  }
+
+  private secondsAt({ x, width }: Spot): number {
+    return toSeconds(this.store.range.value, width - GUTTER, x - GUTTER);
+  }
+}
+
+function spotOf(event: PointerEvent | WheelEvent): Spot {
+  const box = (event.currentTarget ?? event.target) as HTMLElement;
+  const { left, top, width } = box.getBoundingClientRect();
+  const grip = "pointerType" in event && event.pointerType === "touch" ? FINGER : GRIP;
+  return { x: event.clientX - left, y: event.clientY - top, width, grip };
+}

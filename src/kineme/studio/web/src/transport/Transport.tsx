@@ -1,0 +1,94 @@
+/** Play, step, loop, speed, and where in the recording we are. */
+import type { JSX } from "preact";
+import { useCalm } from "../canvas/calm";
+import { togglePlay } from "../player";
+import type { Store } from "../store";
+import { clock } from "../view";
+import { IconButton } from "./icons";
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
+
+export function Transport({ store }: { store: Store }): JSX.Element {
+  const { playing, loop, speed } = store;
+  return (
+    <div class="transport" role="toolbar" aria-label="Playing">
+      <div class="group">
+        <IconButton
+          icon="before"
+          label="Segment before"
+          keys="Shift + ←"
+          onClick={() => store.stepSegment(-1)}
+        />
+        <IconButton icon="back" label="One frame back" keys="←" onClick={() => store.step(-1)} />
+        <IconButton
+          icon={playing.value ? "pause" : "play"}
+          label={playing.value ? "Pause" : "Play"}
+          keys="Space"
+          onClick={() => togglePlay(store)}
+        />
+        <IconButton icon="on" label="One frame on" keys="→" onClick={() => store.step(1)} />
+        <IconButton
+          icon="after"
+          label="Segment after"
+          keys="Shift + →"
+          onClick={() => store.stepSegment(1)}
+        />
+      </div>
+      <IconButton
+        icon="loop"
+        label="Loop the segment"
+        keys="L"
+        pressed={loop.value !== null}
+        onClick={() => store.toggleLoop()}
+      />
+      <select
+        aria-label="Speed"
+        value={String(speed.value)}
+        onChange={(event) => (speed.value = Number(event.currentTarget.value))}
+      >
+        {SPEEDS.map((each) => (
+          <option key={each} value={String(each)}>
+            {each}×
+          </option>
+        ))}
+      </select>
+      <Moment store={store} />
+      <div class="group">
+        <IconButton icon="minus" label="Zoom out" keys="−" onClick={() => store.zoomBy(1 / 0.7)} />
+        <IconButton
+          icon="fit"
+          label="Show all"
+          keys="0"
+          onClick={() => (store.zoom.value = null)}
+        />
+        <IconButton icon="plus" label="Zoom in" keys="+" onClick={() => store.zoomBy(0.7)} />
+      </div>
+    </div>
+  );
+}
+
+/** Time and frame, and a slider over the whole recording. */
+function Moment({ store }: { store: Store }): JSX.Element {
+  const { duration } = store;
+  const playhead = useCalm(store.playhead, store.playing);
+  const frame = store.frameAt(playhead.value);
+  return (
+    <>
+      <output class="moment number">
+        <b>{clock(playhead.value, 2)}</b> <span class="quiet">/ {clock(duration.value, 2)}</span>
+        <span class="quiet moment-frame">frame {frame}</span>
+      </output>
+      <input
+        type="range"
+        class="scrub"
+        aria-label="Playhead"
+        aria-valuetext={clock(playhead.value, 2)}
+        min={0}
+        max={duration.value}
+        step={0.01}
+        value={playhead.value}
+        onInput={(event) => store.seek(Number(event.currentTarget.value))}
+      />
+    </>
+  );
+}

@@ -1,0 +1,63 @@
+/** The figures in 3-D: drag to orbit, wheel to zoom, right button or two fingers to pan. */
+import { useEffect, useRef } from "preact/hooks";
+import type { JSX } from "preact";
+import { clusterColor } from "../colors";
+import { nameOf } from "../segments";
+import type { Store } from "../store";
+import { MOST_MEMBERS } from "./cast";
+import { direct, turnByKey } from "./direct";
+import { Director } from "./director";
+import { ViewerButtons } from "./ViewerButtons";
+
+export function Viewer({ store }: { store: Store }): JSX.Element {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const director = useRef<Director | null>(null);
+  useEffect(() => {
+    const element = canvas.current!;
+    const made = new Director(store, element);
+    director.current = made;
+    const stop = direct(store, made, element);
+    return () => {
+      stop();
+      made.dispose();
+    };
+  }, [store]);
+  return (
+    <div class="viewer">
+      <canvas
+        ref={canvas}
+        tabIndex={0}
+        role="img"
+        aria-label="Figure in 3-D. Drag or press alt and an arrow key to look from another side."
+        onKeyDown={(event) => turnByKey(event, director.current)}
+      />
+      <Caption store={store} />
+      <ViewerButtons store={store} onFrame={() => director.current?.frame()} />
+    </div>
+  );
+}
+
+/** What is played: the primitive under the playhead, and whose members stand on the stage. */
+function Caption({ store }: { store: Store }): JSX.Element {
+  const present = store.present.value;
+  const shown = store.shownCluster.value;
+  const stepping = store.inStep.value && shown;
+  const n = shown?.members.length ?? 0;
+  const count = n > MOST_MEMBERS ? `the first ${MOST_MEMBERS} of ${n} members` : `${n} members`;
+  return (
+    <div class="caption">
+      {present && (
+        <p>
+          <span class="swatch" style={{ background: clusterColor(present.cluster) }} />{" "}
+          {nameOf(present)}
+        </p>
+      )}
+      {stepping && <p class="quiet">{count} in step</p>}
+      {!stepping && store.opened.value.length > 1 && (
+        <p class="quiet">
+          {store.opened.value.map((each) => each.recording.value.name).join(" · ")}
+        </p>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,55 @@
+/** What the viewer shows besides the figure, and the way back to a good view. */
+import type { Signal } from "@preact/signals";
+import type { JSX } from "preact";
+import type { Store } from "../store";
+
+export function ViewerButtons({
+  store,
+  onFrame,
+}: {
+  store: Store;
+  onFrame: () => void;
+}): JSX.Element {
+  const cluster = store.shownCluster.value;
+  return (
+    <div class="viewer-buttons">
+      <Toggle on={store.follow} title="The camera follows the figure">
+        Follow
+      </Toggle>
+      <Toggle on={store.trails} title="The last paths of hands and feet">
+        Trails
+      </Toggle>
+      <Toggle
+        on={store.inStep}
+        title="All members of the selected cluster, playing in step"
+        disabled={!cluster || !store.active.value?.motion.value}
+      >
+        In step
+      </Toggle>
+      <button type="button" onClick={onFrame} title="Put the camera where everything is seen">
+        Reset view
+      </button>
+    </div>
+  );
+}
+
+interface ToggleProps {
+  on: Signal<boolean>;
+  title: string;
+  disabled?: boolean;
+  children: string;
+}
+
+function Toggle({ on, title, disabled = false, children }: ToggleProps): JSX.Element {
+  return (
+    <button
+      type="button"
+      aria-pressed={on.value}
+      title={title}
+      disabled={disabled}
+      onClick={() => (on.value = !on.value)}
+    >
+      {children}
+    </button>
+  );
+}
