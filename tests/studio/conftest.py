@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-import os
-import re
 import shutil
-import signal
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import httpx2 as httpx
 import pytest
 from starlette.testclient import TestClient
+from studio_clients import PORT, TOKEN, Process, Studio
 
 from kineme.datasets import bundled_recording
 from kineme.studio.app import create_app
 from kineme.studio.events import Hub
-from kineme.studio.folder import Folder, file_id
+from kineme.studio.folder import Folder
 
-TOKEN, PORT = "the token", 8750
 FRAMES = 240
-
-Answer = httpx.Response
 
 
 @pytest.fixture(scope="session")
@@ -46,39 +38,6 @@ def folder(tmp_path: Path, short_recording: Path) -> Path:
     place.mkdir()
     shutil.copy(short_recording, place / "take.bvh")
     return place
-
-
-class Studio:
-    """A client of a studio, and the recording in its folder."""
-
-    def __init__(self, client: httpx.Client, folder: Path):
-        self.client, self.folder = client, folder
-        self.path = folder / "take.bvh"
-        self.table = folder / "take.segments.json"
-        self.id = file_id(self.path)
-
-    def get(self, address: str, **options: Any) -> Answer:
-        return self.client.get(address, **options)
-
-    def recording(self) -> dict[str, Any]:
-        answer = self.get(f"/api/recordings/{self.id}")
-        assert answer.status_code == 200, answer.text
-        message: dict[str, Any] = answer.json()
-        return message
-
-    def edit(self, revision: int, kind: str, **rest: Any) -> Answer:
-        sent = {"revision": revision, "edit": {"kind": kind, **rest}}
-        return self.client.post(f"/api/recordings/{self.id}/edits", json=sent)
-
-    def done(self, revision: int, kind: str, **rest: Any) -> dict[str, Any]:
-        answer = self.edit(revision, kind, **rest)
-        assert answer.status_code == 200, answer.text
-        message: dict[str, Any] = answer.json()
-        return message
-
-    def starts(self, level: str = "activity") -> list[int]:
-        rows = self.recording()["segmentation"]["segments"]
-        return [row["start_frame"] for row in rows if row["level"] == level]
 
 
 @pytest.fixture
@@ -105,37 +64,6 @@ def make_studio(folder: Path) -> Iterator[Callable[..., Studio]]:
 @pytest.fixture
 def studio(make_studio: Callable[..., Studio]) -> Studio:
     return make_studio()
-
-
-class Process(Studio):
-    """``kineme studio`` on a free port."""
-
-    def __init__(self, folder: Path, *arguments: str):
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "kineme.cli", "studio", str(folder), "--no-browser"]
-            + (["--port", "0"] if "--port" not in arguments else [])
-            + list(arguments),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            env={**os.environ, "PYTHONUNBUFFERED": "1"},
-        )
-        assert self.process.stdout is not None
-        self.said = self.process.stdout.readline()
-        found = re.search(r"(http://127\.0\.0\.1:(\d+)/)\?token=(\S+)", self.said)
-        if found is None:
-            self.said, errors = self.process.communicate(timeout=30)
-            raise RuntimeError(errors)
-        self.address, self.port, self.token = found[1], int(found[2]), found[3]
-        headers = {"x-kineme-token": self.token}
-        super().__init__(httpx.Client(base_url=self.address, headers=headers, timeout=60), folder)
-
-    def end(self, how: int = signal.SIGINT) -> tuple[int, str, str]:
-        """End it; exit code and what else it said."""
-        self.process.send_signal(how)
-        rest, errors = self.process.communicate(timeout=30)
-        self.client.close()
-        return self.process.returncode, rest, errors
 
 
 @pytest.fixture

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from studio_clients import PORT, TOKEN
 
-from conftest import PORT, TOKEN
 from kineme.errors import ParameterError
 from kineme.report.messages import EditRequest
 from kineme.studio.security import HEADERS

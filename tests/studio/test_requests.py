@@ -191,7 +191,7 @@ def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
     formats = studio.get("/api/state").json()["export_formats"]
     modules = {name: import_module(f"kineme.export.{f.module}") for name, f in FORMATS.items()}
     writers = {name for name, module in modules.items() if hasattr(module, "write")}
-    assert {known["name"] for known in formats} == writers | {"motions"}
+    assert {known["name"] for known in formats} == writers | {"motions", "report"}
     before = sorted(studio.folder.iterdir())
     for known in formats:
         address = f"/api/recordings/{studio.id}/export/{known['name']}?level=activity"
@@ -202,6 +202,10 @@ def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
         assert answer.headers["content-type"] == "application/octet-stream"
         if known["suffix"] == ".zip":
             assert zipfile.ZipFile(BytesIO(answer.content)).testzip() is None
+            continue
+        if known["name"] == "report":
+            assert answer.content.startswith(b"<!doctype html>")
+            assert b"take.bvh" in answer.content
             continue
         path = tmp_path / f"taken{known['suffix']}"
         path.write_bytes(answer.content)
@@ -223,6 +227,26 @@ def test_a_body_without_hands_is_shown_whole(studio, folder: Path) -> None:
     message = studio.get(f"/api/recordings/{files['stick.bvh']}").json()
     assert [row["stop_frame"] for row in message["segmentation"]["segments"]] == [40]
     assert "not segmented" in message["warnings"][-1]
+
+
+def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> None:
+    seconds = np.arange(0, 20, 0.02)
+    waves = np.column_stack([np.sin(6 * seconds), np.cos(6 * seconds), np.sin(12 * seconds)])
+    rows = np.column_stack([seconds, waves])
+    header = "time,acc_1,acc_2,gyro_1"
+    np.savetxt(folder / "imu.csv", rows, delimiter=",", header=header, comments="")
+    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    studio.id = files["imu.csv"]
+    message = studio.recording()
+    assert (message["motion"], message["n_frames"], message["fps"]) == (None, 1000, 50.0)
+    assert studio.get(f"/api/recordings/{studio.id}/motion").content == b""
+    assert studio.get(f"/api/recordings/{studio.id}/matrix/0/0/0").status_code == 200
+    again = studio.done(message["revision"], "segment", preset="kineme", parameters={"phase": 0.5})
+    studio.done(again["revision"], "split", level="activity", frame=500)
+    assert 500 in kineme.read_segments(folder / "imu.segments.json").cuts()
+    clips = studio.get(f"/api/recordings/{studio.id}/export/motions")
+    assert clips.status_code == 400
+    assert "holds signals" in clips.json()["error"]
 
 
 def test_a_file_that_cannot_be_read_is_a_sentence(studio, folder: Path) -> None:

@@ -48,8 +48,8 @@ PRESET_HELP = {
     "voegele2014": "As published in 2014; to compare with.",
     "krueger2017": "As published in 2017; to compare with.",
 }
-CLIPS = "motions"
-"""What can be taken away besides the formats of :mod:`kineme.export`: motion files."""
+CLIPS, REPORT = "motions", "report"
+"""What can be taken away besides the formats of :mod:`kineme.export`: motion files, a page."""
 FORMAT_HELP = {
     "csv": "The table, for spreadsheets",
     "json": "Everything in one file",
@@ -106,8 +106,11 @@ def export_formats() -> list[ExportFormat]:
         {"name": name, "suffix": SUFFIXES.get(name) or FORMATS[name].suffixes[0], "help": text}
         for name, text in FORMAT_HELP.items()
     ]
-    formats.append({"name": CLIPS, "suffix": ".zip", "help": "A motion file per segment"})
-    return formats
+    return [
+        *formats,
+        {"name": CLIPS, "suffix": ".zip", "help": "A motion file per segment"},
+        {"name": REPORT, "suffix": ".html", "help": "A page that shows it all, without a server"},
+    ]
 
 
 def _parameters(preset: Preset) -> list[Parameter]:

@@ -20,7 +20,7 @@ from kineme.studio.edits import edited
 from kineme.studio.folder import Folder
 from kineme.studio.history import History
 from kineme.studio.storage import ChangedOnDiskError, saved_table
-from kineme.studio.takes import Motions, Take
+from kineme.studio.takes import Sources, Take
 
 Listener = Callable[[str, int], None]
 
@@ -51,16 +51,16 @@ class Document:
     ReadError : the recording cannot be read
     """
 
-    def __init__(self, name: str, path: Path, motions: Motions, taken: set[Path], revision: int):
+    def __init__(self, name: str, path: Path, sources: Sources, taken: set[Path], revision: int):
         self.id, self.path, self.revision = name, path, revision
-        self.take = Take(path, motions)
+        self.take = Take(path, sources)
         self._taken = taken
         self._lock = threading.RLock()
         self._kept, table, self._notes = saved_table(path, self.take.fits, taken)
         if table is None:
             table, notes = self.take.first_table()
             self._notes = [*self._notes, *notes]
-        elif _digest(table) not in ("", self.take.source.sha256):
+        elif _digest(table) not in ("", self.take.provenance.sha256):
             self._notes = [*self._notes, f"{path.name} has changed since its table was made"]
         self._history = History(table)
 
@@ -77,23 +77,20 @@ class Document:
 
     def recording(self) -> tuple[Recording, bool]:
         """All that a page shows, and whether the table was read anew from the disk for it."""
+        from kineme.report.recording import recording
+
         with self._lock:
             anew = self._kept.changed() and self._read_anew()
-            head, _ = self.take.display()
             state = self._edited([])
+            shown = recording(self.take.footage(), self._history.present, name=self.path.name)
             message: Recording = {
+                **shown,
                 "id": self.id,
-                "name": self.path.name,
-                "n_frames": self.take.n_frames,
-                "fps": self.take.fps,
-                "motion": head,
-                "matrix": self.take.matrix().head(),
-                "segmentation": state["segmentation"],
                 "revision": state["revision"],
                 "can_undo": state["can_undo"],
                 "can_redo": state["can_redo"],
                 "saved": state["saved"],
-                "warnings": [*self.take.warnings, *self._notes],
+                "warnings": [*self.take.warnings, *self._notes, *shown["warnings"]],
             }
             return message, anew
 
@@ -159,7 +156,7 @@ class Documents:
     def __init__(self, folder: Folder, changed: Listener):
         self.folder = folder
         self._changed = changed
-        self._motions = Motions()
+        self._sources = Sources()
         self._open: dict[str, Document] = {}
         self._lock = threading.Lock()
         self._opening: dict[str, threading.Lock] = {}
@@ -183,7 +180,7 @@ class Documents:
             if known is None or known.take.changed():
                 taken = {other.kept_at for other in self._open.values() if other.path != path}
                 revision = 1 if known is None else known.revision + 1
-                self._open[name] = Document(name, path, self._motions, taken, revision)
+                self._open[name] = Document(name, path, self._sources, taken, revision)
             return self._open[name]
 
     def recording(self, name: str) -> Recording:

@@ -11,6 +11,8 @@ from kineme.errors import ParameterError
 from kineme.export import FORMATS, write_segments
 from kineme.export.split import split
 from kineme.motion import Motion
+from kineme.report.page import write_report
+from kineme.report.recording import Source
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.table import Level
 from kineme.studio.choices import FORMAT_HELP, SUFFIXES
@@ -57,6 +59,15 @@ def motion_files(
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
         split(motion, segmentation, Path(folder) / stem, level=level or "activity")
         return _one_file(Path(folder), stem)
+
+
+def report_file(source: Source, segmentation: Segmentation, recording: Path) -> tuple[str, bytes]:
+    """Name and bytes of a page that shows the recording and its segments."""
+    with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
+        write_report(
+            source, segmentation, Path(folder) / f"{recording.stem}.html", name=recording.name
+        )
+        return _one_file(Path(folder), recording.stem)
 
 
 def _one_file(folder: Path, stem: str) -> tuple[str, bytes]:

@@ -81,7 +81,7 @@ class Api:
 
     async def motion(self, request: Request) -> Response:
         def work() -> bytes:
-            return self._documents.get(request.path_params["id"]).take.display()[1]
+            return self._documents.get(request.path_params["id"]).take.footage().binary
 
         return Response(await run_in_threadpool(work), media_type="application/octet-stream")
 
@@ -89,7 +89,7 @@ class Api:
         place = [_number(request.path_params[name]) for name in ("level", "row", "column")]
 
         def work() -> bytes | None:
-            return self._documents.get(request.path_params["id"]).take.matrix().tile(*place)
+            return self._documents.get(request.path_params["id"]).take.footage().matrix.tile(*place)
 
         found = await run_in_threadpool(work)
         if found is None:
@@ -188,6 +188,8 @@ class Api:
         stem = document.path.stem
         if kind == choices.CLIPS:
             return downloads.motion_files(document.take.motion, document.table, stem, level)
+        if kind == choices.REPORT:
+            return downloads.report_file(document.take.source, document.table, document.path)
         return downloads.table_file(document.table, stem, kind, level)
 
 

@@ -114,11 +114,13 @@ def make_ready() -> None:
     """Load or build the compiled code before it is asked for, that of the default first."""
     from kineme.datasets import bundled_recording
     from kineme.formats import read
+    from kineme.report.recording import footage
     from kineme.segmentation.presets import DEFAULT, PRESETS
     from kineme.segmentation.segmenter import segment
 
     try:
         motion = read(bundled_recording())
+        footage(motion)
         for number, name in enumerate([DEFAULT, *(name for name in PRESETS if name != DEFAULT)]):
             if number == 1:
                 time.sleep(HEAD_START)

@@ -1,8 +1,7 @@
 """A recording as the studio holds it: read once, and what was computed from it kept.
 
-What is small stays (what a page draws, features); motions themselves, which of
-an hour take most of a gigabyte, are kept for the recordings used last and read
-again when needed.
+What a page draws stays; motions themselves, which of an hour take most of a
+gigabyte, are kept for the recordings used last and read again when needed.
 """
 
 from __future__ import annotations
@@ -13,33 +12,32 @@ from collections import OrderedDict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kineme.errors import EndEffectorError, KinemeWarning, ReadError
+from kineme.errors import EndEffectorError, KinemeWarning, ParameterError, ReadError
 from kineme.formats import read
 from kineme.motion import Motion
-from kineme.report.display import display_motion
-from kineme.report.matrix import Matrix, matrix_of_motion
-from kineme.report.messages import MotionHead
 from kineme.segmentation.presets import DEFAULT, PRESETS, Preset
 from kineme.segmentation.result import Segmentation
-from kineme.segmentation.segmenter import segment_and_analysis
 
 if TYPE_CHECKING:
+    from kineme.report.recording import Footage
+    from kineme.signals import Signals
     from kineme.transfer import KnowledgeBase
 
 KEPT = 3
-"""Motions in memory."""
+"""Recordings in memory."""
 Mark = tuple[int, int]
+Known = tuple["Motion | Signals", list[str]]
 
 
-class Motions:
-    """The motions of the files used last, with the warnings their reading gave."""
+class Sources:
+    """What the files used last hold, motion or signals, with the warnings their reading gave."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._known: OrderedDict[tuple[Path, Mark], tuple[Motion, list[str]]] = OrderedDict()
+        self._known: OrderedDict[tuple[Path, Mark], Known] = OrderedDict()
 
-    def read(self, path: Path) -> tuple[Motion, list[str]]:
-        """The motion in a file, and the warnings.
+    def read(self, path: Path) -> Known:
+        """The recording in a file, and the warnings.
 
         One at a time: catching warnings is for the whole process.
         """
@@ -48,9 +46,9 @@ class Motions:
             if key not in self._known:
                 with warnings.catch_warnings(record=True) as caught:
                     warnings.simplefilter("always")
-                    motion = read(path)
+                    found = _read(path)
                 said = [str(w.message) for w in caught if issubclass(w.category, KinemeWarning)]
-                self._known[key] = motion, said
+                self._known[key] = found, said
             self._known.move_to_end(key)
             while len(self._known) > KEPT:
                 self._known.popitem(last=False)
@@ -65,23 +63,30 @@ class Take:
     ReadError : the file cannot be read, or is another now
     """
 
-    def __init__(self, path: Path, motions: Motions):
+    def __init__(self, path: Path, sources: Sources):
         self.path = path
-        self._motions = motions
+        self._sources = sources
         self._mark = mark_of(path)
-        motion, self.warnings = motions.read(path)
-        self.n_frames, self.fps = motion.n_frames, motion.fps
-        self.source = motion.provenance
+        found, self.warnings = sources.read(path)
+        self.n_frames, self.fps = found.n_frames, found.fps
+        self.provenance = found.provenance
         self._lock = threading.Lock()
-        self._display: tuple[MotionHead, bytes] | None = None
-        self._matrix: Matrix | None = None
+        self._footage: Footage | None = None
+
+    @property
+    def source(self) -> Motion | Signals:
+        """The recording, read again if need be."""
+        if self.changed():
+            raise ReadError(self.path, "has changed since it was opened: open it again")
+        return self._sources.read(self.path)[0]
 
     @property
     def motion(self) -> Motion:
-        """The motion, read again if need be."""
-        if self.changed():
-            raise ReadError(self.path, "has changed since it was opened: open it again")
-        return self._motions.read(self.path)[0]
+        """The same where it is the motion of a body; ParameterError otherwise."""
+        found = self.source
+        if not isinstance(found, Motion):
+            raise ParameterError(f"{self.path.name} holds signals: this needs the motion of a body")
+        return found
 
     def changed(self) -> bool:
         """Whether the file is another now, or gone."""
@@ -90,23 +95,25 @@ class Take:
         except ReadError:
             return True
 
-    def display(self) -> tuple[MotionHead, bytes]:
-        """What a page draws, and how to read it."""
-        with self._lock:
-            if self._display is None:
-                self._display = display_motion(self.motion)
-            return self._display
+    def footage(self) -> Footage:
+        """All that a page draws but the segments."""
+        from kineme.report.recording import footage
 
-    def matrix(self) -> Matrix:
-        """How alike its moments look."""
         with self._lock:
-            if self._matrix is None:
-                self._matrix = matrix_of_motion(self.motion)
-            return self._matrix
+            if self._footage is None:
+                self._footage = footage(self.source)
+            return self._footage
 
     def segment(self, preset: Preset) -> Segmentation:
         """The segments by a preset."""
-        return segment_and_analysis(self.motion, preset)[0]
+        found = self.source
+        if isinstance(found, Motion):
+            from kineme.segmentation.segmenter import segment_and_analysis
+
+            return segment_and_analysis(found, preset)[0]
+        from kineme.signals import segment_signals_and_analysis, signal_preset
+
+        return segment_signals_and_analysis(found, signal_preset(preset))[0]
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
         """The segments by the default preset, or one for all; and what to know about them."""
@@ -119,7 +126,7 @@ class Take:
                 "start_frame": [0],
                 "stop_frame": [self.n_frames],
             }
-            source = self.source
+            source = self.provenance
             provenance = {
                 "input": {"path": source.path, "format": source.format, "sha256": source.sha256},
                 "notes": [*source.notes],
@@ -151,7 +158,14 @@ class Take:
         if not isinstance(said, dict) or not said.get("sha256"):
             return True
         name = Path(str(said.get("path") or "")).name
-        return said["sha256"] == self.source.sha256 or name == self.path.name
+        return said["sha256"] == self.provenance.sha256 or name == self.path.name
+
+
+def _read(path: Path) -> Motion | Signals:
+    """What a file holds; a table of channels without a body is signals."""
+    from kineme.signals import is_signal_file, read_signals
+
+    return read_signals(path) if is_signal_file(path) else read(path)
 
 
 def mark_of(path: Path) -> Mark:
