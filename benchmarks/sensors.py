@@ -5,8 +5,8 @@
 The sensors are made from the five trials of subject 86: an accelerometer (with
 gravity and noise of 0.3 m/s²) and a gyroscope (noise of 0.05 rad/s) at the
 forearms, shanks and head, 100 Hz, in the sensor's own axes. ``pose`` takes the
-fifteen numbers of a pose without telling that they are a body. Then the
-accelerometer that walks, jogs and runs (change points 3800 and 6800).
+fifteen numbers of a pose without telling that they are a body. Then the same from
+synthetic recordings, and the accelerometer that walks, jogs and runs (change points 3800 and 6800).
 
 ``--units`` prints how the scores hang on the one constant that signals have of
 their own.
@@ -24,9 +24,10 @@ from numpy.typing import NDArray
 
 from kineme import Signals, read_signals, segment_signals
 from kineme import _rotations as rot
-from kineme.evaluation import evaluate_segmentation
+from kineme.datasets import random_recording
+from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
 from kineme.evaluation.tables import markdown, shown
-from kineme.evaluation.trials import Trial, find_folder, load_trials
+from kineme.evaluation.trials import find_folder, load_trials
 from kineme.features import end_effectors, pose_features
 from kineme.motion import Motion, world_rotations
 from kineme.operations import resample
@@ -34,6 +35,9 @@ from kineme.segmentation.presets import PRESETS
 from kineme.signals import channels
 
 Floats = NDArray[np.float64]
+Recording = tuple[Annotation, Signals]
+UNITS = (0.13, 0.16, 0.2, 0.25, 0.3)
+SYNTHETIC = range(100, 108)  # seeds
 FPS = 100.0
 GRAVITY = np.array([0.0, 9.81, 0.0])
 EVERYWHERE, RIGHT = (0, 1, 2, 3, 4), (1, 4)  # ankles, head, wrists: of features.PARTS
@@ -76,13 +80,22 @@ KINDS: dict[str, Callable[[Motion], Signals]] = {
 }
 
 
-def scores(recordings: Iterable[tuple[Trial, Signals]], preset: str) -> tuple[float, float]:
-    """Border F1 within 0.25 s and frames in the right class, means of the trials."""
+def scores(recordings: Iterable[Recording], preset: str) -> str:
+    """Border F1 within 0.25 s / frames in the right class, means over the recordings."""
     found = [
-        evaluate_segmentation(trial.truth, segment_signals(signals, preset=preset))
-        for trial, signals in recordings
+        evaluate_segmentation(truth, segment_signals(signals, preset=preset))
+        for truth, signals in recordings
     ]
-    return tuple(float(np.mean([f[key] for f in found])) for key in ("border_f1", "one_to_one"))
+    means = (np.mean([f[key] for f in found]) for key in ("border_f1", "one_to_one"))
+    return " / ".join(shown(float(mean)) for mean in means)
+
+
+def synthetic(make: Callable[[Motion], Signals]) -> list[Recording]:
+    """Recordings that no constant was chosen on."""
+    made = [random_recording(seed) for seed in SYNTHETIC]
+    truths = [labelling_of(one.truth.activities, fps=one.truth.fps) for one in made]
+    signals = [make(one.motion) for one in made]
+    return list(zip(map(Annotation.from_labelling, truths), signals, strict=True))
 
 
 def main() -> None:
@@ -92,26 +105,32 @@ def main() -> None:
     parser.add_argument("--units", action="store_true", help="other values of RECURS_AT")
     options = parser.parse_args()
     trials = load_trials(find_folder(options.data))
-    worn = {kind: [(t, make(t.motion)) for t in trials] for kind, make in KINDS.items()}
-    if options.units:
-        values = (0.1, 0.13, 0.16, 0.18, 0.2, 0.22, 0.25, 0.3)
-        rows = []
-        for kind, recordings in worn.items():
-            cells = []
-            for channels.RECURS_AT in values:
-                cells.append(" / ".join(map(shown, scores(recordings, "kineme"))))
-            rows.append([kind, *cells])
-        print(markdown(["border F1 / frames", *map(str, values)], rows))
-        return
-    rows = [
-        [kind, *(" / ".join(map(shown, scores(recordings, name))) for name in PRESETS)]
-        for kind, recordings in worn.items()
-    ]
-    print(markdown(["border F1 / frames in the right class", *PRESETS], rows))
+    for title, sets in (
+        (
+            "subject 86",
+            {kind: [(t.truth, f(t.motion)) for t in trials] for kind, f in KINDS.items()},
+        ),
+        ("synthetic", {kind: synthetic(f) for kind, f in KINDS.items()}),
+    ):
+        print(table(title, sets, units=options.units))
     for path in sorted((options.data / "timeseries").glob("WalkJogRun*.txt")):
         found = segment_signals(read_signals(path, fps=FPS))
         borders = ", ".join(map(str, found.cuts().tolist()))
         print(f"{path.stem}: {borders} of {found.n_frames} frames")
+
+
+def table(title: str, sets: dict[str, list[Recording]], *, units: bool) -> str:
+    """A row per set of sensors, a column per preset or per value of the unit."""
+    if not units:
+        rows = [[kind, *(scores(found, name) for name in PRESETS)] for kind, found in sets.items()]
+        return markdown([title, *PRESETS], rows)
+    rows = []
+    for kind, found in sets.items():
+        cells = []
+        for channels.RECURS_AT in UNITS:
+            cells.append(scores(found, "kineme"))
+        rows.append([kind, *cells])
+    return markdown([title, *map(str, UNITS)], rows)
 
 
 if __name__ == "__main__":

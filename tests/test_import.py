@@ -36,6 +36,8 @@ def test_listing_names_loads_nothing_heavy() -> None:
 def test_errors_and_the_table_need_no_compiler() -> None:
     statement = "import kineme; kineme.KinemeError, kineme.Segmentation, kineme.read"
     assert not loaded_by(statement) & {"numba", "matplotlib", "sklearn"}
+    statement = "import kineme; kineme.read_signals, kineme.Signals, kineme.segment_signals"
+    assert not loaded_by(statement) & {"numba", "matplotlib", "sklearn"}
 
 
 @pytest.mark.parametrize("name", kineme.__all__)

@@ -22,7 +22,6 @@ from numpy.typing import ArrayLike, NDArray
 from kineme.features import offsets_in_frames, stack
 from kineme.segmentation.parts import Part
 from kineme.segmentation.presets import ActionPreset, Preset, RegionPreset, resolve_preset
-from kineme.segmentation.recurrence import recurrence
 from kineme.signals.recording import Signals
 
 Floats = NDArray[np.float64]
@@ -123,6 +122,8 @@ def recurrence_unit(features: Floats, preset: ActionPreset) -> float:
 
     1 where nothing is long enough to recur.
     """
+    from kineme.segmentation.recurrence import recurrence  # compiled code, loaded where used
+
     scales = recurrence(
         features,
         step=preset.step,
