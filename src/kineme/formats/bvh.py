@@ -38,6 +38,7 @@ from kineme.motion import Motion, Skeleton
 Floats = NDArray[np.float64]
 
 _MOTION = re.compile(rb"\bMOTION\s+Frames\s*:", re.IGNORECASE)
+_GLUED = re.compile(rb"(?<=[0-9.])-")
 _HEADER = re.compile(rb"[ \t]*(\d{1,18})\s+Frame\s*Time\s*:[ \t]*(\S*)[^\r\n]*", re.IGNORECASE)
 
 
@@ -129,9 +130,11 @@ def _frames(source: Source, start: int, width: int, declared: int) -> Floats:
     values = array("d")
     odd: list[tuple[int, int]] = []
     fault: ReadError | None = None
+    glued = 0
     for number, line in enumerate(lines, first):
         try:
-            row = numbers(line.split())
+            row, apart = _row(line)
+            glued += apart
         except ValueError as error:
             fault = source.error(str(error), number)
             if number < last:
@@ -150,7 +153,20 @@ def _frames(source: Source, start: int, width: int, declared: int) -> Floats:
         raise fault or source.error("the file ends before its first frame: there is no motion")
     if fault is not None:
         warn(f"{fault}: the last frame is truncated and left out")
+    if glued:
+        warn(f"{source.path}: blanks before minus signs are missing in {glued} frames: put there")
     return np.array(values).reshape(-1, width)
+
+
+def _row(line: bytes) -> tuple[list[float], bool]:
+    """The numbers of a line, and whether some were not apart (``0.0-7.5``, as SlimeVR wrote)."""
+    try:
+        return numbers(line.split()), False
+    except ValueError:
+        apart = _GLUED.sub(b" -", line)
+        if apart == line:
+            raise
+        return numbers(apart.split()), True
 
 
 FORMAT = Format("BVH", (".bvh",), lambda head: b"HIERARCHY" in head.upper(), read_bvh, write_bvh)

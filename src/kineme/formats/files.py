@@ -77,7 +77,7 @@ def numbers(words: Sequence[str | bytes]) -> list[float]:
 def warn(message: str) -> None:
     """A KinemeWarning at the line outside the package that asked for the file."""
     level, frame = 1, sys._getframe()  # noqa: SLF001
-    while frame.f_back is not None and frame.f_globals["__name__"].startswith("kineme."):
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("kineme."):
         level, frame = level + 1, frame.f_back
     warnings.warn(message, KinemeWarning, stacklevel=level)
 
