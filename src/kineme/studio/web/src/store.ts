@@ -25,9 +25,10 @@ export interface Span {
   stop_s: number;
 }
 
-/** What the page asks for when the user drags a border. The report has none. */
+/** What the page asks for when the user drags a border or names a cluster. The report has none. */
 export interface EditHooks {
   moveBorder(level: Level, frame: number, to: number): void;
+  nameCluster(cluster: number, label: string): void;
 }
 
 /** Another result shown below the first. */

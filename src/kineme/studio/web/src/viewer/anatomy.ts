@@ -63,7 +63,11 @@ function jointRadii(head: MotionHead, size: number, bones: Float32Array): Float3
     radii[from] = Math.max(radii[from]!, 1.12 * bones[bone]!);
     radii[to] = Math.max(radii[to]!, 1.2 * TAPER * bones[bone]!);
   });
-  return radii.map((radius) => radius || 0.011 * size);
+  const crown = head.effectors["head"] ?? -1;
+  return radii.map((radius, joint) => {
+    const inside = joint === crown && radius > 0; // covered by the head
+    return inside ? 0 : radius || 0.011 * size;
+  });
 }
 
 function pathToRoot(head: MotionHead, joint: number): Set<number> {

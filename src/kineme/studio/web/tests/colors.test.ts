@@ -1,0 +1,28 @@
+import { expect, test } from "vitest";
+import { clusterColor, inkOn, luminance, onPage } from "../src/colors";
+
+test("colours are those of kineme._colors", () => {
+  expect([-1, 0, 8, 9, 17, 18, 27].map(clusterColor)).toEqual([
+    "#DDDDDD",
+    "#332288",
+    "#AA4499",
+    "#9990C4",
+    "#D4A2CC",
+    "#1F1452",
+    "#332288",
+  ]);
+});
+
+test("names can be read on every colour", () => {
+  for (let cluster = -1; cluster < 27; cluster++) {
+    const color = clusterColor(cluster);
+    const [dark, light] = [luminance(color), luminance(inkOn(color))].sort((a, b) => a - b);
+    expect((light! + 0.05) / (dark! + 0.05)).toBeGreaterThanOrEqual(4.5);
+  }
+});
+
+test("the darkest colours become visible on a dark page, others stay", () => {
+  expect(luminance(onPage("#332288", "dark"))).toBeGreaterThan(0.1);
+  expect(onPage("#88CCEE", "dark")).toBe("#88CCEE");
+  expect(onPage("#332288", "light")).toBe("#332288");
+});

@@ -1,0 +1,11 @@
+import { expect, test } from "vitest";
+import { advance } from "../src/player";
+
+const loop = { start_s: 2, stop_s: 4 };
+
+test("time goes on, and round inside a loop", () => {
+  expect(advance(1, 0.5, null)).toBe(1.5);
+  expect(advance(3.5, 1, loop)).toBeCloseTo(2.5);
+  expect(advance(0, 0.1, loop)).toBe(2);
+  expect(advance(9, 0.1, loop)).toBeLessThan(4);
+});

@@ -1,0 +1,48 @@
+import { expect, test } from "vitest";
+import { clustersOf, indexAt, labelSpans, laneOf, nameOf, segmentAt } from "../src/segments";
+import { segment } from "./recordings";
+
+const lane = [segment(0, 10), segment(10, 30, { cluster: 1 }), segment(30, 40)];
+
+test("the segment that holds a frame", () => {
+  expect([0, 9, 10, 29, 30, 99].map((frame) => indexAt(lane, frame))).toEqual([0, 0, 1, 1, 2, 2]);
+  expect(segmentAt([], 3)).toBeUndefined();
+});
+
+test("a lane has one level, in time order", () => {
+  const activity = segment(0, 40, { level: "activity" });
+  const segments = [lane[2]!, activity, lane[0]!, lane[1]!];
+  const table = { schema: "", n_frames: 40, fps: 10, provenance: {}, timings: {}, segments };
+  expect(laneOf(table, "primitive")).toEqual(lane);
+  expect(laneOf(table, "activity")).toEqual([activity]);
+});
+
+test("clusters are counted and timed; what is in none is left out", () => {
+  const clusters = clustersOf([...lane, segment(40, 50, { cluster: -1, kind: "transition" })]);
+  expect(clusters.map(({ id, members }) => [id, members.length])).toEqual([
+    [0, 2],
+    [1, 1],
+  ]);
+  expect(clusters[0]!.total_s).toBeCloseTo(2);
+  expect(clusters[0]!.mean_s).toBeCloseTo(1);
+});
+
+test("neighbours of one label are one stretch", () => {
+  const named = [
+    segment(0, 10, { label: "walk" }),
+    segment(10, 20, { label: "walk" }),
+    segment(20, 30),
+    segment(30, 40, { label: "walk" }),
+  ];
+  expect(labelSpans([], named).map((s) => [s.start_frame, s.stop_frame, s.label])).toEqual([
+    [0, 20, "walk"],
+    [30, 40, "walk"],
+  ]);
+  expect(labelSpans([segment(0, 40, { label: "all" })], lane).map((s) => s.label)).toEqual(["all"]);
+});
+
+test("names", () => {
+  expect(nameOf(segment(0, 1, { label: "jump" }))).toBe("jump");
+  expect(nameOf(segment(0, 1, { cluster: 3 }))).toBe("cluster 3");
+  expect(nameOf(segment(0, 1, { cluster: -1, kind: "transition" }))).toBe("transition");
+});

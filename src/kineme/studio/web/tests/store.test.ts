@@ -1,0 +1,90 @@
+import { signal } from "@preact/signals";
+import { expect, test } from "vitest";
+import type { Recording } from "../src/messages";
+import type { Source } from "../src/source";
+import { Store } from "../src/store";
+import { segment } from "./recordings";
+
+const activity = segment(0, 40, { level: "activity" });
+const last = segment(40, 50, { cluster: -1, kind: "transition" });
+const primitives = [segment(0, 10), segment(10, 30, { cluster: 1 }), segment(30, 40), last];
+
+function page(): Store {
+  const store = new Store();
+  const segmentation = {
+    ...{ schema: "kineme.segments/1", n_frames: 50, fps: 10, provenance: {}, timings: {} },
+    segments: [activity, { ...last, level: "activity" as const }, ...primitives],
+  };
+  const recording = signal({
+    ...{ id: "a", name: "take", n_frames: 50, fps: 10, motion: null, segmentation },
+    ...{ matrix: { fps: 10, tile: 256, sizes: [50], band: null }, revision: 0 },
+    ...{ can_undo: false, can_redo: false, saved: "", warnings: [] },
+  } satisfies Recording);
+  store.add({ source: {} as Source, recording, motion: signal(null) });
+  return store;
+}
+
+test("selecting a segment moves the playhead and shows its cluster", () => {
+  const store = page();
+  store.select(primitives[1]!);
+  expect(store.playhead.value).toBe(1);
+  expect(store.selected.value).toEqual(primitives[1]);
+  expect(store.shownCluster.value?.id).toBe(1);
+});
+
+test("steps go frame by frame and segment by segment, and stop at the ends", () => {
+  const store = page();
+  store.step(1);
+  expect(store.frame.value).toBe(1);
+  store.stepSegment(1);
+  expect(store.frame.value).toBe(10);
+  store.step(-100);
+  expect(store.frame.value).toBe(0);
+  store.seek(1e9);
+  expect([store.playhead.value, store.frame.value]).toEqual([5, 49]);
+});
+
+test("a loop is that of the segment under the playhead, and follows the selection", () => {
+  const store = page();
+  store.seek(3.5);
+  store.toggleLoop();
+  expect(store.loop.value).toEqual({ start_s: 3, stop_s: 4 });
+  expect(store.playhead.value).toBe(3.5);
+  store.select(primitives[0]!);
+  expect(store.loop.value).toEqual({ start_s: 0, stop_s: 1 });
+  store.toggleLoop();
+  expect(store.loop.value).toBeNull();
+});
+
+test("a cluster is shown at its next member", () => {
+  const store = page();
+  store.seek(1.5);
+  store.selectCluster(0);
+  expect(store.selected.value).toEqual(primitives[2]);
+  store.seek(4.5);
+  store.selectCluster(0);
+  expect(store.selected.value).toEqual(primitives[0]);
+});
+
+test("the view follows the playhead, and all of it is shown again at the end of zooming out", () => {
+  const store = page();
+  store.zoomBy(0.2, 0.5);
+  store.seek(4);
+  expect(store.range.value.start_s).toBeLessThanOrEqual(4);
+  expect(store.range.value.stop_s).toBeGreaterThanOrEqual(4);
+  store.zoomBy(100);
+  expect(store.zoom.value).toBeNull();
+});
+
+test("a selection that an edit took away is none", () => {
+  const store = page();
+  store.select(primitives[1]!);
+  const opened = store.active.value!;
+  const { segmentation } = opened.recording.value;
+  const segments = segmentation.segments.filter((each) => each.start_frame !== 10);
+  opened.recording.value = {
+    ...opened.recording.value,
+    segmentation: { ...segmentation, segments },
+  };
+  expect(store.selected.value).toBeUndefined();
+});
