@@ -31,6 +31,7 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
     named = kineme.segmentation.editing.name_cluster(table, 0, "walk")
     KnowledgeBase.from_recording(kineme.read(studio.path), named).save(folder / "base.npz")
     kineme.write(kineme.read(studio.path), folder / "poses.csv")
+    (folder / "take.asf").write_text(":version 1.10")
     (folder / "package.json").write_text('{"name": "other"}')
     (folder / ".hidden.bvh").write_text("HIERARCHY")
     state = studio.get("/api/state").json()

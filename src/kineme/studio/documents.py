@@ -178,7 +178,8 @@ class Documents:
         with opening:
             known = self._open.get(name)
             if known is None or known.take.changed():
-                taken = {other.kept_at for other in self._open.values() if other.path != path}
+                others = [other for other in list(self._open.values()) if other.path != path]
+                taken = {other.kept_at for other in others}
                 revision = 1 if known is None else known.revision + 1
                 self._open[name] = Document(name, path, self._sources, taken, revision)
             return self._open[name]

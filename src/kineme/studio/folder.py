@@ -71,7 +71,7 @@ def holds_motion(path: Path) -> bool:
     """Whether a file is a recording: by its suffix, and where labels have the same, its head."""
     suffix = path.suffix.lower()
     formats = [known for known in supported_formats() if known.read and suffix in known.suffixes]
-    if not formats:
+    if not formats or suffix == ".asf":  # the skeleton of an AMC beside it
         return False
     if suffix == ".json":  # which may hold anything
         return any(known.recognises(_head(path)) for known in formats)
