@@ -67,7 +67,8 @@ class Kept:
                 os.fsync(file.fileno())
             if self.changed():
                 raise ChangedOnDiskError
-        self._mark, self._digest = _mark(self.path), sha256(text).digest()
+            mark = _mark(draft)  # which it keeps under its name; later it may be another's
+        self._mark, self._digest = mark, sha256(text).digest()
 
 
 def saved_table(
