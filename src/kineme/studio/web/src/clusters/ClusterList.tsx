@@ -4,6 +4,7 @@ import { clusterColor } from "../colors";
 import type { Cluster } from "../segments";
 import type { Store } from "../store";
 import { clock } from "../view";
+import { ClusterName } from "./ClusterName";
 
 export function ClusterList({ store }: { store: Store }): JSX.Element {
   const clusters = store.clusters.value;
@@ -40,10 +41,9 @@ interface RowProps {
 }
 
 function Row({ cluster, store, most }: RowProps): JSX.Element {
-  const { id, label, members, mean_s, total_s } = cluster;
+  const { id, members, mean_s, total_s } = cluster;
   const color = clusterColor(id);
   const shown = store.cluster.value === id;
-  const present = store.present.value?.cluster === id;
   return (
     <tr
       class={shown ? "shown" : ""}
@@ -51,11 +51,7 @@ function Row({ cluster, store, most }: RowProps): JSX.Element {
       onClick={() => store.selectCluster(id)}
     >
       <th scope="row">
-        <button type="button" class="plain" aria-pressed={shown}>
-          <span class="swatch" style={{ background: color }} />
-          <span class="cluster-name">{label || `cluster ${id}`}</span>
-          {present && <span class="now" title="At the playhead" />}
-        </button>
+        <ClusterName cluster={cluster} store={store} />
       </th>
       <td class="number count">
         <span

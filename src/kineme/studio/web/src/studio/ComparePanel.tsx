@@ -34,7 +34,7 @@ export function ComparePanel({ session, choose }: Props): JSX.Element {
           {Object.entries(comparison.scores).map(([name, score]) => (
             <tr key={name}>
               <th scope="row">{name.replaceAll("_", " ")}</th>
-              <td>{Number.isInteger(score) ? score : score.toFixed(3)}</td>
+              <td>{score.toFixed(3)}</td>
             </tr>
           ))}
         </tbody>

@@ -65,7 +65,9 @@ export function FolderPanel({ session, uploads }: Props): JSX.Element {
 function Row({ session, listing }: { session: Session; listing: Listing }): JSX.Element {
   const { id, name } = listing;
   const { store } = session;
-  const shown = store.opened.value.some((each) => each.recording.value.id === id);
+  const open = store.opened.value.find((each) => each.recording.value.id === id)?.recording.value;
+  const shown = open !== undefined;
+  const corrected = listing.corrected || Boolean(open?.saved);
   const current = store.recording.value?.id === id;
   const opening = session.opening.value === id;
   const several = store.opened.value.length > 1;
@@ -76,11 +78,11 @@ function Row({ session, listing }: { session: Session; listing: Listing }): JSX.
         class="recording"
         aria-current={current ? "true" : undefined}
         aria-busy={opening}
-        title={`${name}, ${megabytes(listing.bytes)}${listing.corrected ? ", corrected" : ""}`}
+        title={`${name}, ${megabytes(listing.bytes)}${corrected ? ", corrected" : ""}`}
         onClick={() => void session.open(id, { beside: shown })}
       >
         <span class="name">{name}</span>
-        {opening ? <span class="busy" /> : listing.corrected && <span title="corrected">✎</span>}
+        {opening ? <span class="busy" /> : corrected && <span title="corrected">✎</span>}
       </button>
       {shown && several ? (
         <button

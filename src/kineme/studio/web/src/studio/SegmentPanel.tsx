@@ -3,6 +3,7 @@ import type { JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { clusterColor } from "../colors";
 import type { Kind, Segment } from "../messages";
+import { NameInput } from "../layout/NameInput";
 import { durationOf } from "../segments";
 import type { Editor } from "./editor";
 import type { Session } from "./session";
@@ -37,21 +38,23 @@ export function SegmentPanel({ session, editor }: Props): JSX.Element {
         onDone={() => (editor.naming.value = null)}
         onName={(label) => editor.name(segment, label)}
       />
-      <label class="field">
-        <span>Kind</span>
-        <select
-          value={segment.kind}
-          onChange={(event) => editor.setKind(segment, event.currentTarget.value as Kind)}
-        >
-          <option value="activity">{segment.level}</option>
-          <option value="transition">transition</option>
-        </select>
-      </label>
-      <label class="field">
-        <span>Cluster</span>
-        <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
-        <ClusterChoice session={session} editor={editor} segment={segment} />
-      </label>
+      <div class="pair">
+        <label class="field">
+          <span>Kind</span>
+          <select
+            value={segment.kind}
+            onChange={(event) => editor.setKind(segment, event.currentTarget.value as Kind)}
+          >
+            <option value="activity">{segment.level}</option>
+            <option value="transition">transition</option>
+          </select>
+        </label>
+        <label class="field">
+          <span>Cluster</span>
+          <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
+          <ClusterChoice session={session} editor={editor} segment={segment} />
+        </label>
+      </div>
       {segment.cluster >= 0 && (
         <NameField
           key={`cluster ${segment.cluster} ${members?.label}`}
@@ -106,35 +109,20 @@ interface NameProps {
   onName: (label: string) => void;
 }
 
-/** A name is taken with Enter or on leaving the field; Escape leaves it as it was. */
 function NameField({ title, value, names, focus, onDone, onName }: NameProps): JSX.Element {
-  const input = useRef<HTMLInputElement>(null);
+  const field = useRef<HTMLInputElement>(null);
   useLayoutEffect(() => {
     if (!focus) return;
-    input.current?.focus();
-    input.current?.select();
+    field.current?.focus();
+    field.current?.select();
     onDone();
   }, [focus]);
-  const id = `names-${title.replaceAll(" ", "-")}`;
+  const list = `names-${title.replaceAll(" ", "-")}`;
   return (
     <label class="field">
       <span>{title}</span>
-      <input
-        ref={input}
-        type="text"
-        list={id}
-        defaultValue={value}
-        placeholder="no name"
-        onKeyDown={(event) => {
-          if (event.key === "Escape") event.currentTarget.value = value;
-          if (event.key === "Enter" || event.key === "Escape") event.currentTarget.blur();
-        }}
-        onBlur={(event) => {
-          const label = event.currentTarget.value.trim();
-          if (label !== value) onName(label);
-        }}
-      />
-      <datalist id={id}>
+      <NameInput field={field} value={value} list={list} onName={onName} />
+      <datalist id={list}>
         {names.map((name) => (
           <option key={name} value={name} />
         ))}

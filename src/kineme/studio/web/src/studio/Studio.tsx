@@ -70,7 +70,7 @@ export function Studio({ session, editor, uploads, front }: Props): JSX.Element 
           </>
         }
         viewer={<Stage session={session} />}
-        matrix={store.active.value && <MatrixPlace store={store} />}
+        matrix={store.active.value && <MatrixPlace key={store.recording.value?.id} store={store} />}
         side={<Tabs label="About the recording" tabs={tabs} open={front.tab} />}
         transport={
           <>

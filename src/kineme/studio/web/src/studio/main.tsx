@@ -24,6 +24,7 @@ function start(): void {
   const front = new Front();
   store.edits.value = {
     moveBorder: (level, frame, to) => editor.moveBorder(level, frame, to),
+    nameCluster: (cluster, label) => editor.nameCluster(cluster, label),
   };
   addEventListener("keydown", (event) => onKey(event, editor, front));
   effect(() => {

@@ -1,0 +1,43 @@
+/** The name of a cluster in the list; where edits are possible, a double click or F2 changes it. */
+import { useSignal } from "@preact/signals";
+import { useLayoutEffect, useRef } from "preact/hooks";
+import type { JSX } from "preact";
+import { clusterColor } from "../colors";
+import { NameInput } from "../layout/NameInput";
+import type { Cluster } from "../segments";
+import type { Store } from "../store";
+
+export function ClusterName({ cluster, store }: { cluster: Cluster; store: Store }): JSX.Element {
+  const { id, label } = cluster;
+  const naming = useSignal(false);
+  const field = useRef<HTMLInputElement>(null);
+  const edits = store.edits.value;
+  useLayoutEffect(() => {
+    if (naming.value) field.current?.select();
+  }, [naming.value]);
+  if (naming.value && edits)
+    return (
+      <NameInput
+        field={field}
+        value={label}
+        label={`Name of cluster ${id}`}
+        onName={(name) => edits.nameCluster(id, name)}
+        onDone={() => (naming.value = false)}
+      />
+    );
+  const begin = (): void => void (naming.value = edits !== null);
+  return (
+    <button
+      type="button"
+      class="plain"
+      aria-pressed={store.cluster.value === id}
+      title={edits ? "Double click or F2 to name it" : undefined}
+      onDblClick={begin}
+      onKeyDown={(event) => event.key === "F2" && begin()}
+    >
+      <span class="swatch" style={{ background: clusterColor(id) }} />
+      <span class="cluster-name">{label || `cluster ${id}`}</span>
+      {store.present.value?.cluster === id && <span class="now" title="At the playhead" />}
+    </button>
+  );
+}
