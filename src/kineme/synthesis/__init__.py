@@ -3,8 +3,8 @@
 from kineme.synthesis.blending import Placement, synthesize
 from kineme.synthesis.building import motion_graph
 from kineme.synthesis.feet import foot_contacts, plant_feet
+from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
-from kineme.synthesis.motion_graph import Edge, MotionGraph, Node, Source
 from kineme.synthesis.paths import line_route, parse_line
 from kineme.synthesis.routes import action_route, following, parse_actions, random_route
 

@@ -22,7 +22,7 @@ from kineme.errors import ParameterError
 from kineme.kinematics import local_translations
 from kineme.motion import Motion, Provenance
 from kineme.synthesis.feet import plant_feet
-from kineme.synthesis.motion_graph import MotionGraph
+from kineme.synthesis.graph import MotionGraph
 
 Floats = NDArray[np.float64]
 

@@ -28,7 +28,7 @@ from kineme.operations import resample
 from kineme.segmentation.presets import KINEME
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.segmenter import motion_features, segment
-from kineme.synthesis.motion_graph import Edge, MotionGraph, Node, Source
+from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 from kineme.transfer.sharing import share_clusters
 
 Floats = NDArray[np.float64]

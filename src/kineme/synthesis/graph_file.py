@@ -32,7 +32,7 @@ from kineme._files import atomic_write
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import read
 from kineme.motion import Motion
-from kineme.synthesis.motion_graph import Edge, MotionGraph, Node, Source
+from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 
 SCHEMA = "kineme.motion-graph/1"
 OPTIONS = ("skeleton", "fps", "unit", "up")

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError
 from kineme.motion import Motion
 from kineme.synthesis.blending import Placement
-from kineme.synthesis.motion_graph import MotionGraph
+from kineme.synthesis.graph import MotionGraph
 
 Complex = NDArray[np.complex128]
 

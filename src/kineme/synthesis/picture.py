@@ -17,7 +17,7 @@ from matplotlib.patches import Patch
 
 from kineme._colors import cluster_color
 from kineme._files import atomic_write
-from kineme.synthesis.motion_graph import MotionGraph
+from kineme.synthesis.graph import MotionGraph
 
 
 def plot_graph(graph: MotionGraph, path: Path) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
-from kineme.synthesis.motion_graph import MotionGraph
+from kineme.synthesis.graph import MotionGraph
 
 Floats = NDArray[np.float64]
 
