@@ -45,8 +45,10 @@ def display_motion(
     most_bytes : length above which fewer digits are sent, then fewer poses
     """
     fps = min(motion.fps, RATE)
-    for share in (FINE, COARSE):
-        positions = sampled(motion, fps)
+    positions = sampled(motion, fps)
+    # Fine numbers take more than a byte each, so that many of them need not be tried.
+    shares = (FINE, COARSE) if positions.size <= most_bytes else (COARSE,)
+    for share in shares:
         origin, step, data = encode(positions, share)
         if len(data) <= most_bytes:
             break

@@ -1,0 +1,75 @@
+"""The report opened from the disk, as somebody would who got it by mail."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from screen import Screen
+
+import kineme
+from kineme.datasets import bundled_recording
+from kineme.report.page import write_report
+
+NASTY = "</script><img src=x onerror=alert(1)><b>squat</b>"
+
+
+@pytest.fixture(scope="module")
+def segments() -> kineme.Segmentation:
+    """Those of the bundled recording, each called something nasty."""
+    found = kineme.segment(kineme.read(bundled_recording()))
+    columns = dict(found.table.columns())
+    columns["label"] = np.full(len(found), NASTY)
+    return kineme.Segmentation.from_columns(
+        columns, n_frames=found.n_frames, fps=found.fps, provenance=found.provenance
+    )
+
+
+def test_it_plays_without_a_network(chromium, segments, tmp_path: Path) -> None:
+    path = tmp_path / "report <b>&.html"
+    write_report(kineme.read(bundled_recording()), segments, path, name=NASTY)
+    context = chromium.new_context(viewport={"width": 1280, "height": 720}, offline=True)
+    page = context.new_page()
+    said: list[str] = []
+    asked: list[str] = []
+    page.on("console", lambda message: said.append(message.text))
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.on("dialog", lambda dialog: said.append(dialog.message))
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(path.as_uri())
+    screen = Screen(page).opened()
+    before = screen.pixels()
+    page.keyboard.press("Space")
+    screen.wait("k.playhead > 0.3")
+    page.keyboard.press("Space")
+    screen.wait("!k.playing")
+    after = screen.pixels()
+    shown = screen.state
+    assert page.locator("img").count() == 0
+    context.close()
+    assert said == []
+    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert sum(url.startswith("file:") for url in asked) == 1
+    assert shown["name"] == NASTY
+    assert shown["n_segments"] == len(segments)
+    assert all(before[place] != after[place] for place in before)
+
+
+def test_signals_have_no_figure_but_lanes_and_matrix(chromium, tmp_path: Path) -> None:
+    times = np.arange(3000) / 50
+    values = np.column_stack([np.sin(6 * times), np.cos(6 * times)])
+    signals = kineme.Signals(values, 50.0)
+    write_report(signals, kineme.segment_signals(signals), tmp_path / "signals.html", name="wrist")
+    page = chromium.new_page()
+    said: list[str] = []
+    page.on("console", lambda message: said.append(message.text))
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.goto((tmp_path / "signals.html").as_uri())
+    screen = Screen(page)
+    screen.wait("k?.n_segments > 0")
+    shown = screen.state
+    page.wait_for_timeout(500)
+    page.close()
+    assert said == []
+    assert (shown["hasMotion"], shown["name"], shown["duration"]) == (False, "wrist", 60)
