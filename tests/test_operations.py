@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from math import floor
 from pathlib import Path
 
@@ -86,6 +87,13 @@ def test_cut() -> None:
     for start, stop in ((-1, 5), (5, 5), (6, 5), (0, 42)):
         with pytest.raises(ParameterError, match=f"frames {start} to {stop}"):
             cut(old, start, stop)
+
+
+def test_events_keep_their_place_in_a_cut() -> None:
+    whole = motion(60, 120)
+    marked = whole.provenance.marked([(0.1, "start"), (0.3, "strike"), (0.45, "off")])
+    part = cut(replace(whole, provenance=marked), 24, 48)
+    assert part.provenance.events == ((pytest.approx(0.1), "strike"),)
 
 
 @given(st.floats(-10, 10), st.floats(0.01, 100), st.tuples(*[st.floats(-5, 5)] * 3))

@@ -58,12 +58,20 @@ def resample(motion: Motion, fps: float) -> Motion:
 
 
 def cut(motion: Motion, start: int, stop: int) -> Motion:
-    """The frames start, ..., stop - 1; ParameterError unless 0 <= start < stop <= n_frames."""
+    """The frames start, ..., stop - 1, and the events marked in them.
+
+    Raises
+    ------
+    ParameterError : unless 0 <= start < stop <= n_frames
+    """
     if not 0 <= start < stop <= motion.n_frames:
         raise ParameterError(
             f"frames {start} to {stop} are not a stretch of a motion of {motion.n_frames} frames"
         )
-    return _frames(motion, slice(start, stop), motion.fps, f"cut to frames {start} to {stop}")
+    part = _frames(motion, slice(start, stop), motion.fps, f"cut to frames {start} to {stop}")
+    first, last = start / motion.fps, stop / motion.fps
+    events = [(at - first, name) for at, name in part.provenance.events if first <= at < last]
+    return replace(part, provenance=part.provenance.marked(events))
 
 
 def split_at_gaps(motion: Motion) -> list[tuple[int, Motion]]:
