@@ -118,8 +118,8 @@ function drawSelected(pen: Pen, frame: Frame, store: Store): void {
   const lane = selected.level === "activity" ? store.activities.value : store.primitives.value;
   for (const other of lane) {
     if (other.cluster !== selected.cluster || other.cluster < 0) continue;
-    pen.strokeRect(...boxOf(selected, other, frame));
-    pen.strokeRect(...boxOf(other, selected, frame));
+    for (const box of [boxOf(selected, other, frame), boxOf(other, selected, frame)])
+      if (box[2] >= 2 && box[3] >= 2) pen.strokeRect(...box);
   }
 }
 
