@@ -791,3 +791,22 @@ def dips(row, least):
         if depth >= least and 0 < c < last:
             found.append((depth, c))
     return sorted(found, reverse=True)
+
+
+def matched_lengths(gains):
+    """The largest sum of a warped path through the gains, and the lengths that gather it.
+
+    Paths begin before the corner; steps of (1, 1) weigh 2, those of (1, 2) and (2, 1) weigh 3.
+    """
+
+    def ends(i, j, total):
+        """(sum, length) of every path that goes on from here, wherever it ends."""
+        yield total, j + 1
+        for down, right in ((1, 1), (1, 2), (2, 1)):
+            a, b = i + down, j + right
+            if a < len(gains) and b < len(gains[0]):
+                yield from ends(a, b, total + (down + right) * gains[a][b])
+
+    found = list(ends(-1, -1, 0))
+    best = max(total for total, _ in found)
+    return best, {length for total, length in found if total == best}

@@ -46,7 +46,7 @@ def test_dips_are_those_of_the_naive_version(row, least) -> None:
 
 def count(rows: np.ndarray) -> Repetitions:
     frames = len(rows)
-    return repetitions(rows.astype(np.float32), 0, frames, (0, frames), surroundings=6)
+    return repetitions(rows.astype(np.float32), 0, frames, smoothing=2)
 
 
 movements = pytest.mark.parametrize("movement", [swing, nod])
@@ -98,9 +98,61 @@ def test_what_does_not_move_has_one_repetition() -> None:
         assert len(count(np.linspace(0, 1, frames)[:, None]).cuts) == 0
 
 
-def test_only_the_core_is_counted() -> None:
-    """A single movement before the repetitions joins the first of them."""
+@movements
+@pytest.mark.parametrize("rest", [0.5, 1.5])
+def test_a_single_repetition_between_rests_is_one(movement, rest: float) -> None:
+    still = np.zeros((round(30 * rest), 6))
+    once = movement(1, period=1.5)
+    for rows in (np.concatenate([once, still]), np.concatenate([still, once, still])):
+        assert len(count(rows).cuts) == 0
+
+
+@movements
+@pytest.mark.parametrize("missing", [0.1, 0.2, 0.4])
+def test_a_repetition_cut_short_at_an_end_still_counts(movement, missing: float) -> None:
+    for times in range(3, 9):
+        rows = movement(times, period=1.5)
+        lost = round(missing * 45)
+        for part in (rows[lost:], rows[:-lost]):
+            assert len(count(part).cuts) + 1 == times
+
+
+def test_what_comes_before_the_repetitions_joins_the_first() -> None:
     rows = np.concatenate([swing(1, period=2, axis=2), swing(6, period=1)])
-    found = repetitions(rows.astype(np.float32), 0, len(rows), (60, len(rows)), surroundings=6)
+    found = count(rows)
     assert len(found.cuts) == 5
     assert found.cuts[0] > 60
+
+
+@pytest.mark.parametrize("heights", [(0.3, 0.15, 0.3, 0.15), (0.15, 0.15, 0.3, 0.15, 0.3, 0.3)])
+def test_deep_and_shallow_ones_are_as_many(heights: tuple[float, ...]) -> None:
+    rows = np.concatenate([nod(1, period=1.5, rest=0.3, height=height) for height in heights])
+    assert len(count(rows).cuts) + 1 == len(heights)
+
+
+def test_left_and_right_are_halves_of_one_repetition() -> None:
+    both = np.concatenate([nod(1, period=0.8, axis=axis) for axis in (0, 2)])
+    for times in range(2, 7):
+        assert len(count(np.tile(both, (times, 1))).cuts) + 1 == times
+
+
+@given(st.integers(20, 300), st.integers(0, 2**32 - 1))
+@settings(deadline=None, max_examples=40)
+def test_what_merely_shakes_is_not_repeated(frames: int, seed: int) -> None:
+    rows = np.random.default_rng(seed).normal(0, 0.01, (frames, 15))
+    assert len(count(rows).cuts) == 0
+
+
+@st.composite
+def gains(draw: st.DrawFn) -> np.ndarray:
+    shape = draw(st.integers(1, 9)), draw(st.integers(1, 9))
+    values = st.integers(-5, 4)
+    return np.array([[draw(values) for _ in range(shape[1])] for _ in range(shape[0])], np.float64)
+
+
+@given(gains())
+@seconds
+def test_matched_lengths_are_those_of_the_naive_version(gained) -> None:
+    best, lengths = naive.matched_lengths(gained.tolist())
+    length = kernels.matched_length(gained)
+    assert length in lengths if best > 0 else length == 0

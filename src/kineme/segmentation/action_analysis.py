@@ -15,11 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.segmentation import stretches
-from kineme.segmentation._recurrence_kernels import recurrence_distances
-from kineme.segmentation.actions import Actions, leading, refine, transition_ends
+from kineme.segmentation.actions import Actions, refine, transition_ends
 from kineme.segmentation.presets import ActionPreset
 from kineme.segmentation.recurrence import Recurrence, recurrence
-from kineme.segmentation.repetitions import SURROUNDINGS, Repetitions, repetitions
+from kineme.segmentation.repetitions import SMOOTHING, Repetitions, repetitions
 from kineme.segmentation.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
@@ -29,9 +28,6 @@ Frames = NDArray[np.int64]
 
 # For pictures: neighbours per frame at most.
 PICTURED = 256
-# Ends of an activity that recur worse than this many times its upper quartile are
-# not counted as repetition, over at most so many seconds and a quarter of it.
-CORE_FACTOR, CORE_QUANTILE, CORE_SECONDS = 1.2, 0.75, 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +42,7 @@ class ActionAnalysis:
     labels : (blocks,) action of each block, -1 for transitions
     confidence : (blocks,) how sure the block's action is, nan for transitions
     segments : (segments + 1,) borders of the primitives, from 0 to n, blocks' included
-    agreement : (segments,) share of poses that agree on the count, nan in transitions
+    agreement : (segments,) how certain the count is, 0 to 1, nan in transitions
     timings : seconds per stage
     """
 
@@ -188,21 +184,7 @@ def _count(
         start, stop = int(blocks[block]), int(blocks[block + 1])
         if labels[block] < 0:
             return Repetitions(np.empty(0, np.int64), np.nan)
-        core = _core(likeness, start, stop, preset)
-        around = preset.frames(SURROUNDINGS)
-        return repetitions(likeness.features, start, stop, core, surroundings=around)
+        smoothing = preset.frames(SMOOTHING)
+        return repetitions(likeness.features, start, stop, smoothing=smoothing)
 
     return map_threads(count, range(len(labels)))
-
-
-def _core(likeness: Recurrence, start: int, stop: int, preset: ActionPreset) -> tuple[int, int]:
-    """The frames of an activity without the ends that hardly recur in it."""
-    step = likeness.step
-    nearest = recurrence_distances(likeness.near, start // step, -(-stop // step), likeness.phase)
-    known = np.isfinite(nearest)
-    if not known.any():
-        return start, stop
-    strange = nearest > CORE_FACTOR * np.quantile(nearest[known], CORE_QUANTILE)
-    limit = min(preset.moments(CORE_SECONDS), len(strange) // 4)
-    head, tail = leading(strange[:limit]), leading(strange[::-1][:limit])
-    return start + head * step, stop - tail * step

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from kineme.segmentation.analysis import Analysis, Mirror
 
 # Scores below which a result is to be looked at: activities whose moments are nearly as
-# much like another action's, and counts that few poses agree on.
-UNSURE_ACTION, UNSURE_COUNT = 0.25, 0.4
+# much like another action's, and counts that others fit nearly as well.
+UNSURE_ACTION, UNSURE_COUNT = 0.25, 0.5
 
 
 def segment_features(
@@ -140,8 +140,8 @@ def _doubts(columns: Columns, fps: float) -> list[str]:
         agreement = columns["score"][inside][0]
         if agreement < UNSURE_COUNT:
             sentences.append(
-                f"look at the repetitions {where}: only {agreement:.0%} of the poses agree "
-                "on their number"
+                f"look at the repetitions {where}: another number of them fits nearly as well "
+                f"(score {agreement:.2f})"
             )
     return sentences
 
