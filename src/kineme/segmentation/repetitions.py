@@ -167,8 +167,8 @@ def _ways(rows: NDArray[np.float32], movement: _Movement) -> list[_Way]:
     ways = []
     for column in np.argsort(-votes, kind="stable")[:NUMBERS]:
         clear = np.argsort(-falls[:, column], kind="stable")[:POSES]
-        for pose in clear[falls[clear, column] > 0] if votes[column] > 0 else []:
-            ways.append(_way(movement, np.sort(centers[pose, : column + 1])))
+        visits = centers[clear[falls[clear, column] > 0], : column + 1]
+        ways += [_way(movement, row) for row in np.sort(visits, axis=1) if votes[column] > 0]
     return [way for way in ways if way.whole > 1 and way.unexplained < CHANCE]
 
 
