@@ -1,0 +1,75 @@
+"""How soon a report shows its first picture, and how fluently it plays, without a graphics card.
+
+    python benchmarks/report_in_browser.py [RECORDING]
+
+The recording, by default the bundled one, is repeated to two minutes and to an
+hour (see report.py), and opened in Chromium, which draws with the processor.
+The first picture is the one with the figure in it, counted from the request for
+the page. Drawing is counted over some seconds of playing. What else the machine
+does falls on both.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from playwright.sync_api import sync_playwright
+
+import kineme
+from _measure import verdict
+from kineme.datasets import bundled_recording
+from kineme.report.page import write_report
+from report import repeated
+
+FLAGS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+SIZE = {"width": 1280, "height": 720}
+SECONDS = 8
+FIRST_PICTURE, LEAST_RATE = 1.5, 30
+DRAWN = "window.kineme?.hasMotion && window.kineme.drawn > 0"
+
+
+def main() -> None:
+    path = Path(sys.argv[1]) if len(sys.argv) > 1 else bundled_recording()
+    motion = kineme.read(path)
+    segments = kineme.segment(motion)
+    print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        sandbox = [] if os.geteuid() else ["--no-sandbox"]
+        program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
+        browser = playwright.chromium.launch(executable_path=program, args=[*FLAGS, *sandbox])
+        for minutes in (2, 60):
+            file = Path(folder) / f"{minutes}.html"
+            write_report(*repeated(motion, segments, minutes), file)
+            show(browser, minutes, file)
+        browser.close()
+
+
+def show(browser: Any, minutes: float, file: Path) -> None:
+    tab = browser.new_page(viewport=SIZE)
+    start = perf_counter()
+    tab.goto(file.as_uri())
+    tab.wait_for_function(DRAWN)
+    tab.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    first = perf_counter() - start
+    tab.keyboard.press("Space")
+    tab.wait_for_timeout(2000)
+    before = tab.evaluate("[performance.now(), window.kineme.drawn]")
+    tab.wait_for_timeout(1000 * SECONDS)
+    after = tab.evaluate("[performance.now(), window.kineme.drawn]")
+    rate = 1000 * (after[1] - before[1]) / (after[0] - before[0])
+    print(f"{minutes} minutes")
+    promise = verdict(first, FIRST_PICTURE) if minutes <= 2 else "usable"
+    print(f"  first picture {first:.2f} s; {promise}")
+    kept = "kept" if rate >= LEAST_RATE else "NOT KEPT"
+    print(f"  {rate:.0f} pictures per second; at least {LEAST_RATE} promised: {kept}")
+    tab.close()
+
+
+if __name__ == "__main__":
+    main()
