@@ -1,0 +1,118 @@
+"""The pictures of the report and the studio, from the recording that comes with the package.
+
+    python docs/make_screenshots.py
+
+Needs Chromium, and the packages of the ``test`` extra.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from PIL import Image
+from playwright.sync_api import Page, sync_playwright
+
+import kineme
+from kineme._files import atomic_write
+from kineme.datasets import bundled_truth
+
+IMAGES = Path(__file__).parent / "images"
+SIZE = {"width": 1280, "height": 720}
+DRAWN_IN_SOFTWARE = [
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+]
+NAMES = ("walk", "squat", "arm circles", "jump", "run", "kick")  # of clusters 0 to 5
+STILL = 1500  # milliseconds until trails, tiles and curves are drawn
+
+
+def main() -> None:
+    chromium = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
+    with tempfile.TemporaryDirectory() as name, sync_playwright() as driver:
+        folder = Path(name)
+        shutil.copy(kineme.bundled_recording(), folder)
+        kineme.write_segments(kineme.read_segments(bundled_truth()), folder / "truth.csv")
+        browser = driver.chromium.launch(executable_path=chromium, args=DRAWN_IN_SOFTWARE)
+        with studio(folder) as address:
+            draw_studio(browser.new_page(viewport=SIZE, color_scheme="dark"), address)
+        draw_report(browser.new_page(viewport=SIZE, color_scheme="light"), folder)
+        browser.close()
+
+
+def draw_studio(page: Page, address: str) -> None:
+    page.goto(address)
+    page.get_by_role("tab", name="Clusters").click()
+    for cluster, name in enumerate(NAMES):
+        page.locator(".cluster-name").nth(cluster).dblclick()
+        page.keyboard.type(name)
+        page.keyboard.press("Enter")
+    page.get_by_text("saved as").wait_for()
+    page.locator(".cluster-name", has_text="jump").click()
+    go_on(page, 62)
+    save(page, "studio")
+
+    page.get_by_role("button", name="In step").click()
+    save(page, "studio-in-step")
+    page.get_by_role("button", name="In step").click()
+
+    page.keyboard.press("c")
+    page.get_by_role("button", name="truth.csv").click()
+    page.get_by_text("Stop comparing").wait_for()
+    save(page, "studio-compare")
+
+
+def draw_report(page: Page, folder: Path) -> None:
+    recording = kineme.read(folder / kineme.bundled_recording().name)
+    segments = kineme.read_segments(folder / "exercises.segments.json")
+    report = folder / "exercises.html"
+    kineme.write_report(recording, segments, report)
+    page.goto(report.as_uri())
+    page.locator(".cluster-name", has_text="kick").click()
+    go_on(page, 50)
+    save(page, "report")
+
+
+def go_on(page: Page, frames: int) -> None:
+    """Some frames into the segment, where the pose tells what it is."""
+    for _ in range(frames):
+        page.keyboard.press("ArrowRight")
+
+
+def save(page: Page, name: str) -> None:
+    """The page as it is, in few enough colours for a small file."""
+    page.mouse.move(640, 505)
+    page.wait_for_timeout(STILL)
+    picture: Any = Image.open(io.BytesIO(page.screenshot()))
+    with atomic_write(IMAGES / f"{name}.png") as draft:
+        picture.convert("RGB").quantize(255).save(draft, format="png", optimize=True)
+
+
+@contextmanager
+def studio(folder: Path) -> Iterator[str]:
+    """The studio of a folder; its address."""
+    command = [sys.executable, "-m", "kineme.cli", "studio", str(folder), "--no-browser"]
+    process = subprocess.Popen(  # noqa: S603 (our own command)
+        [*command, "--port", "0"], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        said = process.stdout.readline() if process.stdout else ""
+        yield re.findall(r"http\S+", said)[0]
+    finally:
+        process.terminate()
+        process.wait()
+
+
+if __name__ == "__main__":
+    main()
