@@ -47,6 +47,7 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
     from kineme.motion import Motion as Motion, Provenance as Provenance, Skeleton as Skeleton
     from kineme.operations import resample as resample
     from kineme.plot import plot_segmentation as plot_segmentation
+    from kineme.report.page import write_report as write_report
     from kineme.segmentation.analysis import Analysis as Analysis, analyze as analyze
     from kineme.segmentation.presets import PRESETS as PRESETS, Preset as Preset
     from kineme.segmentation.result import Segmentation as Segmentation
@@ -92,6 +93,7 @@ _HOMES = {
     "kineme.motion": ("Motion", "Provenance", "Skeleton"),
     "kineme.operations": ("resample",),
     "kineme.plot": ("plot_segmentation",),
+    "kineme.report.page": ("write_report",),
     "kineme.segmentation.analysis": ("Analysis", "analyze"),
     "kineme.segmentation.presets": ("PRESETS", "Preset"),
     "kineme.segmentation.result": ("Segmentation",),
