@@ -61,8 +61,6 @@ def report(
     person: Person = None,
     confidence: Confidence = None,
     effectors: Effectors = None,
-    person: Person = None,
-    confidence: Confidence = None,
     columns: Columns = None,
     emg: Emg = False,
     overrides: dict[str, Any] | None = None,
