@@ -810,3 +810,27 @@ def matched_lengths(gains):
     found = list(ends(-1, -1, 0))
     best = max(total for total, _ in found)
     return best, {length for total, length in found if total == best}
+
+
+def poses_at(poses, path, lengths):
+    """The pose of the last frame at which the path is no longer than each of these lengths."""
+    last = [max((f for f in range(len(poses)) if path[f] <= x), default=0) for x in lengths]
+    return np.array([poses[f] for f in last])
+
+
+def unlike(parts):
+    """One minus the squared correlation, if positive, of each part with the mean of all others."""
+    rows = [(part - part.mean(axis=0)).ravel() for part in parts]
+    found = []
+    for k, row in enumerate(rows):
+        others = np.mean(rows[:k] + rows[k + 1 :], axis=0)
+        found.append(1 - max(row @ others, 0) ** 2 / ((row @ row) * (others @ others)))
+    return found
+
+
+def along(poses, path, lengths, mean, near):
+    gains = [
+        [near - ((pose - place) ** 2).sum() for place in mean]
+        for pose in poses_at(poses, path, lengths)
+    ]
+    return matched_lengths(gains)

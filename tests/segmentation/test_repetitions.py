@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import naive
 from bands import points
 from kineme.segmentation import _distance_kernels as kernels
+from kineme.segmentation import _way_kernels as way_kernels
 from kineme.segmentation.repetitions import Repetitions, repetitions
 from loops import nod, swing
 
@@ -154,5 +155,27 @@ def gains(draw: st.DrawFn) -> np.ndarray:
 @seconds
 def test_matched_lengths_are_those_of_the_naive_version(gained) -> None:
     best, lengths = naive.matched_lengths(gained.tolist())
-    length = kernels.matched_length(gained)
+    length = way_kernels.matched_length(gained)
     assert length in lengths if best > 0 else length == 0
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(deadline=None, max_examples=60)
+def test_ways_are_judged_as_by_the_naive_versions(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    poses = rng.normal(0, 1, (12, 3))
+    path = np.append(0, np.cumsum(rng.integers(0, 3, 12))).astype(float)
+    lengths = rng.uniform(0, path[-1] + 0.1, 5)
+    expected = naive.poses_at(poses, path, lengths)
+    np.testing.assert_array_equal(way_kernels.poses_at(poses, path, lengths), expected)
+    parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
+    np.testing.assert_allclose(way_kernels.unlike(parts), naive.unlike(parts), atol=1e-12)
+    best, ends = naive.along(poses, path, lengths, parts[0], 4.0)
+    length = way_kernels.along(poses, path, lengths, parts[0], 4.0)
+    assert length in ends if best > 0 else length == 0
+    visits = np.array([1, 5, 9])
+    for part, (a, b) in zip(
+        way_kernels.parts_between(poses, path, visits, 4), pairwise(path[visits]), strict=True
+    ):
+        places = a + (b - a) * (np.arange(4) + 0.5) / 4
+        np.testing.assert_array_equal(part, naive.poses_at(poses, path, places))

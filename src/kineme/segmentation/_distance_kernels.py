@@ -1,4 +1,4 @@
-"""Compiled loops over single frames: stretches far apart, visits of a pose, and what goes along.
+"""Compiled loops over single frames: stretches far apart, and visits of a pose.
 
 Naive twins are in ``tests/naive.py``.
 """
@@ -133,24 +133,3 @@ def dips(distances, least):
                 depths[r, place], lowest[r, place] = found[i], where[i]
                 place += 1
     return depths, lowest
-
-
-@njit("int64(float64[:, ::1])", **OPTIONS)
-def matched_length(gains):
-    """Columns up to which the rows go along with them: the warped path of the largest gain.
-
-    Paths begin before the first row and column and take steps of (1, 1),
-    (1, 2) and (2, 1), weighed by their length. None if no path gains.
-    """
-    rows, columns = gains.shape
-    sums = np.full((rows + 2, columns + 2), -np.inf)
-    sums[1, 1] = 0
-    best, length = 0.0, 0
-    for i in range(rows):
-        for j in range(columns):
-            straight = sums[i + 1, j + 1] + 2 * gains[i, j]
-            bent = max(sums[i, j + 1], sums[i + 1, j]) + 3 * gains[i, j]
-            sums[i + 2, j + 2] = max(straight, bent)
-            if sums[i + 2, j + 2] > best:
-                best, length = sums[i + 2, j + 2], j + 1
-    return length

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.segmentation import _distance_kernels as kernels
+from kineme.segmentation import _way_kernels as way_kernels
 
 Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
@@ -36,6 +37,8 @@ VOTERS = 80
 NUMBERS, POSES = 8, 4
 # Parts are compared at so many places along their path.
 PLACES = 16
+# An end is followed for as long as one and a half repetitions.
+STEPS = (np.arange(PLACES * 3 // 2) + 0.5) / PLACES
 # An end goes along as long as it is nearer than this share of the variance, squared.
 NEAR = 0.5
 # Cost of the repetition that the others are compared with, per share of the activity.
@@ -69,12 +72,6 @@ class _Movement:
     poses: Floats
     path: Floats
     variance: float
-
-    def at(self, lengths: Floats) -> Floats:
-        """The poses at these lengths along the path."""
-        frames = np.searchsorted(self.path, lengths, side="right") - 1
-        poses: Floats = self.poses[np.clip(frames, 0, len(self.poses) - 1)]
-        return poses
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,48 +182,31 @@ def _dips(
 
 
 def _way(movement: _Movement, visits: Frames) -> _Way:
-    path, whole = movement.path, movement.path[-1]
-    at = path[visits]
+    poses, path = movement.poses, movement.path
+    whole, at = path[-1], path[visits]
     lengths = np.diff(at)
     length = max(float(np.sort(lengths)[len(lengths) // 2]), 1e-12)
-    places = (np.arange(PLACES) + 0.5) / PLACES
-    parts = movement.at(at[:-1, None] + lengths[:, None] * places)
-    mean = parts.mean(axis=0)
-    steps = (np.arange(PLACES * 3 // 2) + 0.5) * length / PLACES
-    backwards = at[0] - steps
-    before = _along(movement, backwards[backwards >= 0], mean[::-1])
-    forwards = at[-1] + steps
-    after = _along(movement, forwards[forwards <= whole], mean)
+    parts = way_kernels.parts_between(poses, path, visits, PLACES)
+    mean = parts.sum(axis=0) / len(parts)
+    before = _along(movement, at[0] - STEPS * length, np.ascontiguousarray(mean[::-1]))
+    after = _along(movement, at[-1] + STEPS * length, mean)
     strange = max(at[0] - before * length, 0) + max(whole - at[-1] - after * length, 0)
     number = len(lengths) + before + after
     if len(parts) == 1:  # compared with what comes after it, and goes on at the beginning
-        rest = whole - length
-        ahead = at[-1] + rest * places
-        parts = np.stack([parts[0], movement.at(np.where(ahead < whole, ahead, ahead - whole))])
-        unlike = _unlike(parts)[:1]
-    else:
-        unlike = _unlike(parts)
+        ahead = at[-1] + (whole - length) * STEPS[:PLACES]
+        rest = way_kernels.poses_at(poses, path, np.where(ahead < whole, ahead, ahead - whole))
+        parts = np.stack([parts[0], rest])
+    unlike = way_kernels.unlike(parts)[: len(lengths)]
     known = max(whole - strange - lengths.sum(), 0)
     # A part counts as a repetition, however short.
     shares = np.maximum(lengths / whole, 1 / number)
-    unexplained = shares @ unlike + (unlike.mean() * known + strange) / whole
+    unexplained = shares @ unlike + (unlike.sum() / len(unlike) * known + strange) / whole
     return _Way(visits, before, after, float(unexplained))
 
 
 def _along(movement: _Movement, lengths: Floats, mean: Floats) -> float:
     """How much of a repetition an end goes along with the mean of the others, 0 to 1."""
-    if len(lengths) == 0:
-        return 0.0
-    poses = movement.at(lengths)
-    squares = (poses**2).sum(1)[:, None] + (mean**2).sum(1) - 2 * poses @ mean.T
-    return float(kernels.matched_length(NEAR * movement.variance - squares)) / PLACES
-
-
-def _unlike(parts: Floats) -> Floats:
-    """What the mean of all others does not explain of each part, 0 to 1, size apart."""
-    rows = (parts - parts.mean(axis=1, keepdims=True)).reshape(len(parts), -1)
-    others = rows.sum(axis=0) - rows
-    products = np.maximum((rows * others).sum(axis=1), 0)
-    squares = (rows**2).sum(axis=1) * (others**2).sum(axis=1)
-    unlike: Floats = 1 - products**2 / np.maximum(squares, 1e-24)
-    return unlike
+    poses, path = movement.poses, movement.path
+    inside = lengths[(lengths >= 0) & (lengths <= path[-1])]
+    near = NEAR * movement.variance
+    return float(way_kernels.along(poses, path, inside, mean, near)) / PLACES

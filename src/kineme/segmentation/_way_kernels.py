@@ -1,0 +1,105 @@
+"""Compiled loops that judge one way to divide an activity into repetitions.
+
+Poses are those of an activity, ``path`` their length of path up to each frame
+and to the end. Naive twins are in ``tests/naive.py``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from kineme._compiled import OPTIONS
+
+SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
+
+
+@njit("int64(float64[:, ::1])", **OPTIONS)
+def matched_length(gains):
+    """Columns up to which the rows go along with them: the warped path of the largest gain.
+
+    Paths begin before the first row and column and take steps of (1, 1),
+    (1, 2) and (2, 1), weighed by their length. None if no path gains.
+    """
+    rows, columns = gains.shape
+    sums = np.full((rows + 2, columns + 2), -np.inf)
+    sums[1, 1] = 0
+    best, length = 0.0, 0
+    for i in range(rows):
+        for j in range(columns):
+            straight = sums[i + 1, j + 1] + 2 * gains[i, j]
+            bent = max(sums[i, j + 1], sums[i + 1, j]) + 3 * gains[i, j]
+            sums[i + 2, j + 2] = max(straight, bent)
+            if sums[i + 2, j + 2] > best:
+                best, length = sums[i + 2, j + 2], j + 1
+    return length
+
+
+@njit("float64[:, ::1](float64[:, ::1], float64[::1], float64[::1])", **OPTIONS)
+def poses_at(poses, path, lengths):
+    """The poses at these lengths along the path."""
+    found = np.empty((len(lengths), poses.shape[1]))
+    for i in range(len(lengths)):
+        frame = np.searchsorted(path, lengths[i], side="right") - 1
+        found[i] = poses[min(max(frame, 0), len(poses) - 1)]
+    return found
+
+
+@njit("int64(float64[:, ::1], float64[::1], float64[::1], float64[:, ::1], float64)", **SUMS)
+def along(poses, path, lengths, mean, near):
+    """Places of the mean that the poses at these lengths go along with.
+
+    They gain by being nearer than ``near``, a squared distance.
+    """
+    there = poses_at(poses, path, lengths)
+    gains = np.full((len(there), len(mean)), near)
+    for i in range(len(there)):
+        for j in range(len(mean)):
+            square = 0.0
+            for d in range(mean.shape[1]):
+                difference = there[i, d] - mean[j, d]
+                square += difference * difference
+            gains[i, j] -= square
+    return matched_length(gains)
+
+
+@njit("float64[::1](float64[:, :, ::1])", **SUMS)
+def unlike(parts):
+    """What the mean of all others does not explain of each part, 0 to 1, size apart.
+
+    Parts are (places, dims) each; 1 minus the square of a positive correlation.
+    """
+    count, places, dims = parts.shape
+    rows = np.empty((count, places, dims))
+    total = np.zeros((places, dims))
+    for k in range(count):
+        for d in range(dims):
+            mean = 0.0
+            for p in range(places):
+                mean += parts[k, p, d]
+            mean /= places
+            for p in range(places):
+                rows[k, p, d] = parts[k, p, d] - mean
+                total[p, d] += rows[k, p, d]
+    found = np.empty(count)
+    for k in range(count):
+        product = own = other = 0.0
+        for p in range(places):
+            for d in range(dims):
+                rest = total[p, d] - rows[k, p, d]
+                product += rows[k, p, d] * rest
+                own += rows[k, p, d] * rows[k, p, d]
+                other += rest * rest
+        found[k] = 1 - max(product, 0.0) ** 2 / max(own * other, 1e-24)
+    return found
+
+
+@njit("float64[:, :, ::1](float64[:, ::1], float64[::1], int64[::1], int64)", **OPTIONS)
+def parts_between(poses, path, visits, places):
+    """(parts, places, dims): poses evenly along the path from each visit to the next."""
+    parts = np.empty((len(visits) - 1, places, poses.shape[1]))
+    steps = (np.arange(places) + 0.5) / places
+    for k in range(len(parts)):
+        first, last = path[visits[k]], path[visits[k + 1]]
+        parts[k] = poses_at(poses, path, first + (last - first) * steps)
+    return parts
