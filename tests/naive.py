@@ -693,6 +693,21 @@ def recurrence_distances(near, width, start, stop, gap):
     ]
 
 
+def class_distances(near, width, labels, wanted, gap):
+    """For each bin the distance to the nearest bin of the class wanted there; none for -1."""
+    return [
+        min(
+            (
+                near[i, j]
+                for j, label in enumerate(labels)
+                if label == wanted[i] != -1 and gap < abs(i - j) <= width
+            ),
+            default=np.inf,
+        )
+        for i in range(len(labels))
+    ]
+
+
 def coverage(near, width, scales, g, h, gap, softness):
     """Mean over the bins of g of how near the nearest of h is, more than the gap away."""
     total = 0.0

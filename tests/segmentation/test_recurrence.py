@@ -59,8 +59,11 @@ def test_local_scales_are_those_of_the_naive_version(features, width, gap, rank,
 def test_similarities_are_those_of_the_naive_version(features, width, softness) -> None:
     near = naive.nearest_in_bins(features, 1, width)
     scales = np.linspace(0.5, 2, len(near)).astype(np.float32)
-    found = np.full((len(near), width + 1), np.nan, np.float32)
-    kernels.similarities(two_sided(near, width), scales, softness, 0, len(near), found)
+    found = np.zeros((len(near), width + 1), np.float32)
+    for weight in (0.25, 0.75):
+        kernels.add_similarities(
+            two_sided(near, width), scales, softness, weight, 0, len(near), found
+        )
     expected = naive.similarities(near, scales, width, softness)
     np.testing.assert_allclose(found, one_sided(expected, width), rtol=1e-4, atol=1e-6)
 
@@ -81,6 +84,20 @@ def test_means_over_stretches_are_those_of_the_naive_version(features, width, ga
     recurring = kernels.recurrence_distances(two_sided(near, width), g.start, g.stop, gap)
     expected = naive.recurrence_distances(near, width, g.start, g.stop, gap)
     np.testing.assert_allclose(recurring, expected, rtol=1e-6)
+
+
+@given(points(), WIDTHS, GAPS, st.data())
+@seconds
+def test_distances_to_classes_are_those_of_the_naive_version(features, width, gap, data) -> None:
+    near = naive.nearest_in_bins(features, 1, width)
+    labels, wanted = (
+        np.array(data.draw(st.lists(st.integers(-1, 2), min_size=len(near), max_size=len(near))))
+        for _ in range(2)
+    )
+    found = np.full(len(near), np.nan, np.float32)
+    kernels.class_distances(two_sided(near, width), labels, wanted, gap, 0, len(near), found)
+    expected = naive.class_distances(near, width, labels, wanted, gap)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
 @given(points(), STEPS, st.integers(0, 20), st.integers(1, 4), st.data())

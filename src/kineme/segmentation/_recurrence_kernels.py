@@ -87,18 +87,18 @@ def local_scales(blurred, gap, rank, start, stop, low, high, scales):
             scales[i] = max(low, np.partition(row[:count], rank)[rank])
 
 
-@njit("void(float32[:, ::1], float32[::1], float32, int64, int64, float32[:, ::1])", **SUMS)
-def similarities(blurred, scales, softness, start, stop, similarity):
-    """Similarity of each pair, from 0 to 1, as a one-sided band."""
+@njit(
+    "void(float32[:, ::1], float32[::1], float32, float32, int64, int64, float32[:, ::1])", **SUMS
+)
+def add_similarities(blurred, scales, softness, weight, start, stop, similarity):
+    """Adds the similarity of each pair, from 0 to 1, times a weight to a one-sided band."""
     bins, lags = blurred.shape
     width = lags // 2
     for i in range(start, stop):
-        for lag in range(width + 1):
-            similarity[i, lag] = 0
-            if i + lag < bins:
-                distance = max(blurred[i, width + lag], blurred[i + lag, width - lag])
-                unit = softness * softness * scales[i] * scales[i + lag]
-                similarity[i, lag] = np.exp(-distance * distance / unit)
+        for lag in range(min(width + 1, bins - i)):
+            distance = max(blurred[i, width + lag], blurred[i + lag, width - lag])
+            unit = softness * softness * scales[i] * scales[i + lag]
+            similarity[i, lag] += weight * np.exp(-distance * distance / unit)
 
 
 @njit("float32[::1](float32[:, ::1], int64, int64, int64)", **OPTIONS)
@@ -111,6 +111,22 @@ def recurrence_distances(near, start, stop, gap):
             if abs(j - i) > gap:
                 nearest[i - start] = min(nearest[i - start], near[i, j - i + width])
     return nearest
+
+
+@njit("void(float32[:, ::1], int64[::1], int64[::1], int64, int64, int64, float32[::1])", **OPTIONS)
+def class_distances(near, labels, wanted, gap, start, stop, nearest):
+    """For each bin the distance to the nearest bin of the class wanted there, beyond the gap.
+
+    Fills ``nearest[start:stop]``; where no class is wanted (-1) it is infinite.
+    """
+    bins = len(labels)
+    width = near.shape[1] // 2
+    for i in range(start, stop):
+        nearest[i] = FAR
+        if wanted[i] >= 0:
+            for j in range(max(0, i - width), min(bins, i + width + 1)):
+                if labels[j] == wanted[i] and abs(j - i) > gap:
+                    nearest[i] = min(nearest[i], near[i, j - i + width])
 
 
 @njit("float64(float32[:, ::1], float32[::1], int64, int64, int64, int64, int64, float64)", **SUMS)

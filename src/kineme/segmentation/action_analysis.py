@@ -5,7 +5,7 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -15,11 +15,12 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.segmentation import stretches
-from kineme.segmentation.actions import Actions, refine, transition_ends
+from kineme.segmentation.actions import Actions, refine
 from kineme.segmentation.presets import ActionPreset
 from kineme.segmentation.recurrence import Recurrence, recurrence
 from kineme.segmentation.repetitions import SMOOTHING, Repetitions, repetitions
 from kineme.segmentation.stages import Progress, stopwatch
+from kineme.segmentation.transitions import activity_ends
 
 if TYPE_CHECKING:
     from kineme.graph import NeighborGraph
@@ -106,7 +107,7 @@ def analyze_actions(
         found = find_actions(likeness, preset)
         blocks, labels, confidence = _blocks(found, likeness, preset, len(rows))
     with stage("repetitions"):
-        counted = _count(likeness, blocks, labels, preset)
+        counted = _count(likeness, blocks, labels, found.borders * likeness.step, preset)
     segments = np.unique(np.concatenate([blocks, *(c.cuts for c in counted)]))
     parents = np.searchsorted(blocks, segments[:-1], side="right") - 1
     agreement = np.array([c.agreement for c in counted])[parents]
@@ -152,39 +153,42 @@ def _blocks(
     found: Actions, likeness: Recurrence, preset: ActionPreset, n: int
 ) -> tuple[Frames, Frames, NDArray[np.float64]]:
     """Borders, labels and confidence of activities and the transitions between them, in frames."""
-    heads, tails = transition_ends(
+    ends, begins = activity_ends(
         found,
         likeness,
         factor=preset.transition_factor,
         longest=preset.moments(preset.max_transition),
     )
-    borders = np.column_stack(
-        [found.borders[:-1], found.borders[:-1] + heads, found.borders[1:] - tails]
-    ).ravel()
-    none = np.full_like(found.labels, -1)
-    labels = np.column_stack([none, found.labels, none]).ravel()
-    confidence = np.column_stack([none, found.confidence, none]).ravel()
-    filled = np.append(borders[1:], found.borders[-1]) > borders
+    borders = np.column_stack([np.append(0, begins), np.append(ends, n)]).ravel()[:-1]
+    labels = np.column_stack([found.labels, np.full_like(found.labels, -1)]).ravel()[:-1]
+    confidence = np.repeat(found.confidence, 2)[:-1]
+    filled = np.diff(borders, append=n) > 0
     borders, labels, confidence = borders[filled], labels[filled], confidence[filled]
     first = np.concatenate([[True], labels[1:] != labels[:-1]])
     confidence = np.where(labels < 0, np.nan, confidence)
-    return (
-        np.append(borders[first] * likeness.step, n),
-        labels[first],
-        confidence[first],
-    )
+    return np.append(borders[first], n), labels[first], confidence[first]
 
 
 def _count(
-    likeness: Recurrence, blocks: Frames, labels: Frames, preset: ActionPreset
+    likeness: Recurrence, blocks: Frames, labels: Frames, borders: Frames, preset: ActionPreset
 ) -> list[Repetitions]:
-    """Repetitions of each block; none in transitions."""
+    """Repetitions of each block; none in transitions.
+
+    An activity's first and last repetition reach into its transitions, so it
+    is counted from half-way to the border of its stretch; cuts lie within it.
+    """
+    smoothing = preset.frames(SMOOTHING)
+    limits = np.append(borders[:-1], len(likeness.features))
 
     def count(block: int) -> Repetitions:
         start, stop = int(blocks[block]), int(blocks[block + 1])
         if labels[block] < 0:
             return Repetitions(np.empty(0, np.int64), np.nan)
-        smoothing = preset.frames(SMOOTHING)
-        return repetitions(likeness.features, start, stop, smoothing=smoothing)
+        stretch = int(np.searchsorted(limits, (start + stop) // 2, side="right")) - 1
+        first = (start + min(start, int(limits[stretch]))) // 2
+        last = (stop + max(stop, int(limits[stretch + 1]))) // 2
+        found = repetitions(likeness.features, first, last, smoothing=smoothing)
+        inside = (start < found.cuts) & (found.cuts < stop)
+        return replace(found, cuts=found.cuts[inside])
 
     return map_threads(count, range(len(labels)))

@@ -2,8 +2,7 @@
 
 Stretches (see ``stretches``) say roughly which actions there are. Each moment
 then goes to the action it is most like, or to none; changing costs, so that
-borders fall where the evidence turns. What at either end of an activity
-recurs nowhere in it is transition.
+borders fall where the evidence turns.
 
 The method is ours. See ``docs/method.md`` for what each step contributes.
 """
@@ -17,10 +16,12 @@ from numpy.typing import NDArray
 
 from kineme._threads import even_slices, map_threads
 from kineme.segmentation import _action_kernels as kernels
-from kineme.segmentation._recurrence_kernels import recurrence_distances
 from kineme.segmentation.numbering import by_first_appearance
 from kineme.segmentation.recurrence import Recurrence
 from kineme.segmentation.stretches import Bins
+
+# Moments less like an action than this share of its own are as unlike it as can be.
+LEAST_AFFINITY = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +65,8 @@ def refine(
     per_bin = by_first_appearance(np.repeat(labels, np.diff(borders)))
     for _ in range(rounds):
         relative, actions = _relative_affinity(recurrence, per_bin, min_length)
-        costs = np.column_stack([1 - relative, np.full(len(per_bin), no_action_cost)])
+        none = np.full(len(per_bin), no_action_cost)
+        costs = np.column_stack([_unlikeness(relative), none])
         columns = kernels.cheapest_labels(costs, switch_cost)
         actions = np.column_stack([actions, np.full(len(per_bin), -1)])
         per_bin = actions[np.arange(len(per_bin)), columns]
@@ -72,6 +74,13 @@ def refine(
         per_bin = by_first_appearance(np.where(rare, -1, per_bin))
     found = np.concatenate([[0], np.flatnonzero(np.diff(per_bin)) + 1, [len(per_bin)]])
     return Actions(found, per_bin[found[:-1]], _confidence(recurrence, per_bin, found, min_length))
+
+
+def _unlikeness(affinity: NDArray[np.float64]) -> NDArray[np.float64]:
+    """0 where an action is at home, more by as much each time affinity halves, 1 at the least."""
+    logarithms = np.log(np.maximum(affinity, LEAST_AFFINITY))
+    costs: NDArray[np.float64] = logarithms / np.log(LEAST_AFFINITY)
+    return costs
 
 
 def _confidence(
@@ -132,41 +141,3 @@ def _columns(per_bin: Bins, reach: int) -> tuple[Bins, Bins]:
     for action, (start, stop, column) in enumerate(spans):
         actions[start:stop, column] = action
     return actions, column_of
-
-
-def transition_ends(
-    actions: Actions, recurrence: Recurrence, *, factor: float, longest: int
-) -> tuple[Bins, Bins]:
-    """Bins at the start and at the end of each stretch that do not recur in it.
-
-    A bin does not recur if its nearest like in the stretch is farther than
-    ``factor`` times the median of the stretch. The recording's own ends are
-    no transitions.
-
-    Parameters
-    ----------
-    actions : Actions
-    recurrence : Recurrence
-    factor : of the median distance
-    longest : bins to take from one end at most
-    """
-    k = len(actions.labels)
-    heads, tails = np.zeros(k, np.int64), np.zeros(k, np.int64)
-    for g in range(k):
-        start, stop = actions.borders[g : g + 2]
-        nearest = recurrence_distances(recurrence.near, start, stop, recurrence.phase)
-        known = np.isfinite(nearest)
-        if not known.any():
-            continue
-        strange = nearest > factor * np.median(nearest[known])
-        limit = min(longest, (stop - start) // 4)
-        if g > 0:
-            heads[g] = leading(strange[:limit])
-        if g < k - 1:
-            tails[g] = leading(strange[::-1][:limit])
-    return heads, tails
-
-
-def leading(mask: NDArray[np.bool_]) -> int:
-    """How many of the first values are true."""
-    return len(mask) if mask.all() else int(np.argmin(mask))

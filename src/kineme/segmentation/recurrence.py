@@ -4,7 +4,9 @@ Two moments of the same activity seldom show the same pose, but each finds its
 own pose again close to the other. The distance of two moments is therefore the
 larger of two smallest distances: from the one to anything within the phase
 window around the other, and back. Activities then are plain blocks along the
-diagonal, without the stripes of a self-similarity matrix.
+diagonal, without the stripes of a self-similarity matrix. A wide window spans
+slow repetitions, a narrow one keeps short activities apart: similarity is the
+mean over several.
 
 How near is near depends on the movement: distances are measured against the
 scale at which each moment recurs, so that small movements count as large ones
@@ -26,6 +28,9 @@ from kineme.segmentation import _recurrence_kernels as kernels
 
 Band = NDArray[np.float32]
 
+# Similarity is the mean of those measured with phase windows of these shares of the widest.
+PHASE_SHARES = (0.6, 0.8, 1.0)
+
 
 @dataclass(frozen=True, eq=False)
 class Recurrence:
@@ -37,13 +42,13 @@ class Recurrence:
         ``near[i, j - i + width]`` is the distance from moment i to the nearest
         frame in bin j.
     similarity : (bins, width + 1)
-        ``similarity[i, j - i]`` from 0 to 1, phase window and local scale applied.
+        ``similarity[i, j - i]`` from 0 to 1, phase windows and local scale applied.
     scales : (bins,)
         The distance at which each moment recurs.
     features : (frames, dims), as measured
     step : frames per bin
-    phase : bins on either side of a moment within which it may find its like; nearer moments
-        do not count as recurrence
+    phase : bins on either side of a moment within which it may find its like, at most; nearer
+        moments do not count as recurrence
     softness : scales at which similarity has fallen to 1/e
     """
 
@@ -77,7 +82,7 @@ def recurrence(
     features : (frames, dims)
     step : frames per bin; every step-th frame is a moment
     width : bins on either side of the diagonal
-    phase : bins on either side within which a moment may find its like
+    phase : bins on either side within which a moment may find its like, at most
     rank : the scale of a moment is the distance to its rank-th nearest beyond the phase window
     low, high : least and greatest scale, in the unit of the features
     softness : scales at which similarity has fallen to 1/e
@@ -88,19 +93,33 @@ def recurrence(
     near = np.empty((bins, 2 * width + 1), np.float32)
     blurred = np.empty_like(near)
     scales = np.empty(bins, np.float32)
-    similarity = np.empty((bins, width + 1), np.float32)
+    similarity = np.zeros((bins, width + 1), np.float32)
     parts = even_slices(bins)
+    windows = phase_windows(phase)
 
     def measure(part: slice) -> None:
         kernels.nearest_in_bins(rows, step, width, part.start, part.stop, near)
-        kernels.blur_rows(near, phase, part.start, part.stop, blurred)
 
     def scale(part: slice) -> None:
         kernels.local_scales(blurred, phase, rank, part.start, part.stop, low, high, scales)
 
     def compare(part: slice) -> None:
-        kernels.similarities(blurred, scales, softness, part.start, part.stop, similarity)
+        kernels.add_similarities(
+            blurred, scales, softness, 1 / len(windows), part.start, part.stop, similarity
+        )
 
-    for stage in (measure, scale, compare):
-        map_threads(stage, parts)
+    map_threads(measure, parts)
+    for window in windows:
+
+        def blur(part: slice, window: int = window) -> None:
+            kernels.blur_rows(near, window, part.start, part.stop, blurred)
+
+        # The scale is that of the widest window, which is the first.
+        for stage in (blur, scale, compare) if window == phase else (blur, compare):
+            map_threads(stage, parts)
     return Recurrence(near, similarity, scales, rows, step, phase, softness)
+
+
+def phase_windows(widest: int) -> list[int]:
+    """The windows that similarity is measured with, bins on either side, the widest first."""
+    return sorted({round(share * widest) for share in PHASE_SHARES}, reverse=True)

@@ -21,7 +21,7 @@ from kineme._threads import map_threads
 from kineme.segmentation import _action_kernels, _distance_kernels
 from kineme.segmentation import _recurrence_kernels as kernels
 from kineme.segmentation.numbering import by_first_appearance
-from kineme.segmentation.recurrence import Recurrence
+from kineme.segmentation.recurrence import Recurrence, phase_windows
 
 Bins = NDArray[np.int64]
 
@@ -127,11 +127,15 @@ def _similarity(borders: Bins, recurrence: Recurrence, g: int, h: int) -> float:
             recurrence.similarity, g_start, g_stop, h_start, h_stop, recurrence.phase
         )
         return in_band
-    distant: float = _distance_kernels.distant_similarity(
-        recurrence.features, recurrence.scales, recurrence.step, recurrence.phase, STRIDE,
-        recurrence.softness, *_excerpt(g_start, g_stop), *_excerpt(h_start, h_stop),
-    )  # fmt: skip
-    return distant
+    excerpts = (*_excerpt(g_start, g_stop), *_excerpt(h_start, h_stop))
+    distant = [
+        _distance_kernels.distant_similarity(
+            recurrence.features, recurrence.scales, recurrence.step, window, STRIDE,
+            recurrence.softness, *excerpts,
+        )
+        for window in phase_windows(recurrence.phase)
+    ]  # fmt: skip
+    return float(np.mean(distant))
 
 
 def _excerpt(start: int, stop: int) -> tuple[int, int]:

@@ -21,7 +21,7 @@ class ActionPreset(Preset):
     ----------
     resolution : seconds between two moments that are compared
     window : moments this far apart are compared to find borders, seconds
-    phase : a moment may find its like this much earlier or later, seconds
+    phase : a moment may find its like this much earlier or later at most, seconds
     recurrence_time : the scale of a moment is the distance within which so many seconds of
         the recording recur
     min_scale : smallest scale, body sizes
@@ -37,7 +37,8 @@ class ActionPreset(Preset):
     switch_cost : seconds of unlikeness that a change of action costs
     no_action_cost : unlikeness at which a moment is better in no action
     min_action : shortest action, seconds
-    transition_factor : frames that recur farther than this times the median are transition
+    transition_factor : moments that recur farther than this times the 90 % quantile of their
+        action are transition, at the ends of an activity
     max_transition : longest transition taken from one end of an activity, seconds
     """
 
@@ -105,9 +106,9 @@ KINEME = ActionPreset(
     part_share=0.3,
     likeness=0.5,
     min_repetition=0.5,
-    switch_cost=0.5,
-    no_action_cost=0.6,
+    switch_cost=0.6,
+    no_action_cost=0.55,
     min_action=1.0,
-    transition_factor=2.0,
-    max_transition=0.2,
+    transition_factor=1.15,
+    max_transition=0.4,
 )

@@ -1,0 +1,87 @@
+"""What each stage of `kineme` contributes: each switched off in turn, scored as in fairness.py.
+
+    python benchmarks/ablation.py [--quick]
+
+A stage is switched off as closely as its constants allow, or by what it would
+hand on if it had found nothing to do.
+"""
+
+from __future__ import annotations
+
+import argparse
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+
+from _recordings import hdm05, subject_86, synthetic
+from fairness import show
+from kineme.segmentation import action_analysis, recurrence, stretches, transitions
+from kineme.segmentation.actions import Actions
+from kineme.segmentation.numbering import by_first_appearance
+from kineme.segmentation.presets import KINEME
+from sensitivity import at_working_rate, scores
+
+
+def not_refined(borders: Any, labels: Any, *_: Any, **__: Any) -> Actions:
+    """The stretches as they are, neighbours of one action as one."""
+    first = np.concatenate([[True], labels[1:] != labels[:-1]])
+    kept = by_first_appearance(labels[first])
+    return Actions(np.append(borders[:-1][first], borders[-1]), kept, np.ones(len(kept)))
+
+
+def not_slowest(_: Any, first: int, last: int) -> int:
+    return (first + last) // 2
+
+
+STAGES: dict[str, tuple[dict[str, Any], list[Any]]] = {
+    "as it is": ({}, []),
+    "one phase window": ({}, [patch.object(recurrence, "PHASE_SHARES", (1.0,))]),
+    "no phase window": ({"phase": 0.0}, []),
+    "one scale for all": ({"min_scale": 0.12, "max_scale": 0.12}, []),
+    "parts not merged": ({}, [patch.object(stretches, "merge_parts", lambda b, *_, **__: b)]),
+    "actions not linked": ({"likeness": 1.0}, []),
+    "moments not given anew": ({}, [patch.object(action_analysis, "refine", not_refined)]),
+    "no transitions at ends": ({"max_transition": 0.0}, []),
+    "one vote on their length": ({}, [patch.object(transitions, "VOTES", np.ones(1))]),
+    "not cut where slowest": ({}, [patch.object(transitions, "_slowest", not_slowest)]),
+    "poses not stacked": ({"offsets": (0.0,)}, []),
+}
+
+
+@contextmanager
+def without(patches: list[Any]) -> Iterator[None]:
+    for change in patches:
+        change.start()
+    try:
+        yield
+    finally:
+        for change in patches:
+            change.stop()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="a fifth of the seeds")
+    few = 5 if parser.parse_args().quick else 1
+    sets = {
+        "subject 86": subject_86(),
+        "HDM05": hdm05(50 // few),
+        "synthetic, speed": synthetic("speed", 50 // few),
+        "synthetic, all": synthetic("all", 50 // few),
+    }
+    for title, recordings in sets.items():
+        cases = at_working_rate(recordings)
+        rows = {}
+        for stage, (constants, patches) in STAGES.items():
+            with without(patches):
+                rows[stage] = scores(cases, KINEME.replace(**constants))
+        show(title, rows)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    main()
