@@ -686,13 +686,6 @@ def similarities(blurred, scales, width, softness):
     return alike
 
 
-def recurrence_distances(near, width, start, stop, gap):
-    return [
-        min((near[i, j] for j in range(start, stop) if gap < abs(i - j) <= width), default=np.inf)
-        for i in range(start, stop)
-    ]
-
-
 def class_distances(near, width, labels, wanted, gap):
     """For each bin the distance to the nearest bin of the class wanted there; none for -1."""
     return [

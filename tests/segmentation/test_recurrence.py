@@ -81,9 +81,6 @@ def test_means_over_stretches_are_those_of_the_naive_version(features, width, ga
     assert covered == pytest.approx(naive.coverage(near, width, scales, g, h, gap, 1.5), abs=1e-6)
     mean = kernels.mean_similarity(one_sided(alike, width), *ends, gap)
     assert mean == pytest.approx(naive.mean_similarity(alike, width, g, h, gap), abs=1e-6)
-    recurring = kernels.recurrence_distances(two_sided(near, width), g.start, g.stop, gap)
-    expected = naive.recurrence_distances(near, width, g.start, g.stop, gap)
-    np.testing.assert_allclose(recurring, expected, rtol=1e-6)
 
 
 @given(points(), WIDTHS, GAPS, st.data())

@@ -101,18 +101,6 @@ def add_similarities(blurred, scales, softness, weight, start, stop, similarity)
             similarity[i, lag] += weight * np.exp(-distance * distance / unit)
 
 
-@njit("float32[::1](float32[:, ::1], int64, int64, int64)", **OPTIONS)
-def recurrence_distances(near, start, stop, gap):
-    """For each bin of a segment the distance to its nearest other bin beyond the gap."""
-    width = near.shape[1] // 2
-    nearest = np.full(stop - start, FAR)
-    for i in range(start, stop):
-        for j in range(max(start, i - width), min(stop, i + width + 1)):
-            if abs(j - i) > gap:
-                nearest[i - start] = min(nearest[i - start], near[i, j - i + width])
-    return nearest
-
-
 @njit("void(float32[:, ::1], int64[::1], int64[::1], int64, int64, int64, float32[::1])", **OPTIONS)
 def class_distances(near, labels, wanted, gap, start, stop, nearest):
     """For each bin the distance to the nearest bin of the class wanted there, beyond the gap.
