@@ -5,6 +5,7 @@ interface Places {
   header: ComponentChildren;
   /** A column on the left, used by the studio. */
   left?: ComponentChildren;
+  /** Nothing for a recording without a skeleton: the matrix then takes its place. */
   viewer: ComponentChildren;
   matrix: ComponentChildren;
   side: ComponentChildren;
@@ -13,11 +14,14 @@ interface Places {
 }
 
 export function Layout(places: Places): JSX.Element {
+  const names = ["layout"];
+  if (places.left) names.push("with-left");
+  if (!places.viewer) names.push("without-viewer");
   return (
-    <div class={places.left ? "layout with-left" : "layout"}>
+    <div class={names.join(" ")}>
       <header class="place-header">{places.header}</header>
       {places.left && <aside class="place-left">{places.left}</aside>}
-      <main class="place-viewer">{places.viewer}</main>
+      {places.viewer && <main class="place-viewer">{places.viewer}</main>}
       <section class="place-matrix" aria-label="Self-similarity">
         {places.matrix}
       </section>

@@ -20,7 +20,7 @@ export function Report({ store }: { store: Store }): JSX.Element {
   return (
     <Layout
       header={<Header store={store} />}
-      viewer={<Viewer store={store} />}
+      viewer={store.recording.value?.motion && <Viewer store={store} />}
       matrix={<MatrixPlace store={store} />}
       side={<Tabs label="About the recording" tabs={tabs} />}
       transport={<Transport store={store} />}

@@ -10,7 +10,6 @@ export function ViewerButtons({
   store: Store;
   onFrame: () => void;
 }): JSX.Element {
-  const cluster = store.shownCluster.value;
   return (
     <div class="viewer-buttons">
       <Toggle on={store.follow} title="The camera follows the figure">
@@ -22,7 +21,8 @@ export function ViewerButtons({
       <Toggle
         on={store.inStep}
         title="All members of the selected cluster, playing in step"
-        disabled={!cluster || !store.active.value?.motion.value}
+        disabled={store.clusters.value.length === 0 || !store.active.value?.motion.value}
+        onTurn={() => store.cluster.value ?? store.selectCluster(clusterNear(store))}
       >
         In step
       </Toggle>
@@ -37,19 +37,30 @@ interface ToggleProps {
   on: Signal<boolean>;
   title: string;
   disabled?: boolean;
+  /** Done before it is turned on or off. */
+  onTurn?: () => unknown;
   children: string;
 }
 
-function Toggle({ on, title, disabled = false, children }: ToggleProps): JSX.Element {
+function Toggle({ on, title, disabled = false, onTurn, children }: ToggleProps): JSX.Element {
   return (
     <button
       type="button"
       aria-pressed={on.value}
       title={title}
       disabled={disabled}
-      onClick={() => (on.value = !on.value)}
+      onClick={() => {
+        onTurn?.();
+        on.value = !on.value;
+      }}
     >
       {children}
     </button>
   );
+}
+
+/** The cluster under the playhead, else the first. */
+function clusterNear(store: Store): number {
+  const present = store.present.value?.cluster ?? -1;
+  return present >= 0 ? present : (store.clusters.value[0]?.id ?? 0);
 }

@@ -36,7 +36,7 @@ export class Figure {
     this.skullShadow = new THREE.Mesh(ball, this.shadowPaint);
     this.skullShadow.matrixAutoUpdate = false;
     this.shade.matrixAutoUpdate = false;
-    this.shade.matrix.copy(flattening(anatomy.ground + 0.002 * anatomy.size));
+    this.shade.matrix.copy(flattening(anatomy.ground + 0.001 * anatomy.size));
     this.shade.add(this.shadowOf(this.bones), this.shadowOf(this.joints), this.skullShadow);
     this.group.add(this.bones, this.joints, this.skull, this.shade);
   }

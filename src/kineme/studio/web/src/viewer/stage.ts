@@ -1,16 +1,10 @@
 /** The room: light, ground and camera, and one picture of it when asked. */
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Floor, type RoomColors } from "./floor";
 import { drawsInSoftware, Sharpness } from "./sharpness";
 
 const FIELD = 32; // degrees from the lower to the upper edge
-const REACH = 40; // grid lines to each side
-
-export interface RoomColors {
-  sky: string;
-  ground: string;
-  grid: string;
-}
 
 export class Stage {
   readonly scene = new THREE.Scene();
@@ -18,10 +12,8 @@ export class Stage {
   readonly controls: OrbitControls;
   private readonly sharpness: Sharpness;
   private readonly renderer: THREE.WebGLRenderer;
-  private readonly floor: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshBasicMaterial>;
-  private grid: THREE.GridHelper | null = null;
-  private cell = 1;
-  private ground = 0;
+  private readonly floor = new Floor();
+  private readonly fog = new THREE.Fog(0, 1, 10);
 
   constructor(canvas: HTMLCanvasElement) {
     const software = drawsInSoftware();
@@ -34,23 +26,17 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false; // the picture stands still as soon as the hand does
     this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
-    this.scene.fog = new THREE.Fog(0, 1, 10);
+    this.scene.fog = this.fog;
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f99, 2.1));
     const sun = new THREE.DirectionalLight(0xffffff, 1.7);
     sun.position.set(2, 5, 3);
     this.scene.add(sun);
-    this.floor = new THREE.Mesh(
-      new THREE.PlaneGeometry(1, 1).rotateX(-Math.PI / 2),
-      new THREE.MeshBasicMaterial(),
-    );
-    this.scene.add(this.floor);
+    this.scene.add(this.floor.mesh);
   }
 
   /** Scales ground, fog and limits of the camera to a body's size. */
   fit(size: number, ground: number): void {
-    this.cell = 10 ** Math.round(Math.log10(size / 1.7));
-    this.ground = ground;
-    this.floor.scale.setScalar(2 * REACH * this.cell);
+    this.floor.fit(size, ground);
     this.controls.minDistance = 0.5 * size;
     this.controls.maxDistance = 14 * size;
     this.camera.near = 0.05 * size;
@@ -60,12 +46,8 @@ export class Stage {
 
   paint(colors: RoomColors): void {
     this.scene.background = new THREE.Color(colors.sky);
-    this.scene.fog?.color.set(colors.sky);
-    this.floor.material.color.set(colors.ground);
-    this.grid?.removeFromParent();
-    this.grid?.dispose();
-    this.grid = new THREE.GridHelper(2 * REACH, 2 * REACH, colors.grid, colors.grid);
-    this.scene.add(this.grid);
+    this.fog.color.set(colors.sky);
+    this.floor.paint(colors);
   }
 
   /** Looks at a point from a side (radians about y), so that a box of some size fills the view. */
@@ -113,24 +95,15 @@ export class Stage {
     if (moving) this.sharpness.learn(seconds);
     const ratio = this.sharpness.ratio(devicePixelRatio, moving);
     if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
-    const { x, z } = this.controls.target;
-    const away = this.camera.position.distanceTo(this.controls.target);
-    this.floor.position.set(x, this.ground, z);
-    this.grid?.scale.setScalar(this.cell);
-    this.grid?.position.set(this.snap(x), this.ground + 0.001 * this.cell, this.snap(z));
-    if (this.scene.fog instanceof THREE.Fog) {
-      this.scene.fog.near = away * 1.1;
-      this.scene.fog.far = Math.min(away * 6, away + 32 * this.cell);
-    }
+    const { target } = this.controls;
+    const fade = this.floor.lieAround(target, this.camera.position.distanceTo(target));
+    [this.fog.near, this.fog.far] = [fade.x, fade.y];
     this.renderer.render(this.scene, this.camera);
   }
 
   dispose(): void {
     this.controls.dispose();
+    this.floor.dispose();
     this.renderer.dispose();
-  }
-
-  private snap(value: number): number {
-    return Math.round(value / this.cell) * this.cell;
   }
 }
