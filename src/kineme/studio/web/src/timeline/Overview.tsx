@@ -1,4 +1,4 @@
-/** The whole recording in a strip, and the part that the lanes show; drag to move it. */
+/** The whole recording in a strip, and the part that the lanes show; drag to move it, or to scrub. */
 import { useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { Canvas } from "../canvas/Canvas";
@@ -13,7 +13,8 @@ export function Overview({ store }: { store: Store }): JSX.Element {
     const { left, width } = (event.currentTarget as Element).getBoundingClientRect();
     const { start_s, stop_s } = store.range.value;
     const at = ((event.clientX - left) / width) * store.duration.value;
-    store.panBy(at - (start_s + stop_s) / 2);
+    if (store.zoom.value) store.panBy(at - (start_s + stop_s) / 2);
+    else store.seek(at);
   };
   return (
     <div class="overview">
