@@ -87,18 +87,22 @@ export function Studio({ session, editor, uploads, front }: Props): JSX.Element 
   );
 }
 
-/** The figures; before there are any, what to do. */
+/** The figures; their stage is set up while the first recording is on its way. */
 function Stage({ session }: { session: Session }): JSX.Element {
-  const { store } = session;
-  if (store.active.value) return <Viewer store={store} />;
+  const { store, opening } = session;
   return (
-    <p class="empty quiet">
-      {session.opening.value ? (
-        <span class="busy" role="status" aria-label="Opening" />
-      ) : (
-        "Choose a recording on the left, or drop files here."
+    <>
+      {(store.active.value || opening.value) && <Viewer store={store} />}
+      {!store.active.value && (
+        <p class="empty quiet">
+          {opening.value || !session.state.value ? (
+            <span class="busy" role="status" aria-label="Opening" />
+          ) : (
+            "Choose a recording on the left, or drop files here."
+          )}
+        </p>
       )}
-    </p>
+    </>
   );
 }
 
