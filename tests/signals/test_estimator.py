@@ -95,3 +95,8 @@ def test_a_rate_that_was_not_given_is_said() -> None:
         "frame rate 30 Hz assumed: no fps was given"
         in (estimator.segmentation_.provenance["notes"])
     )
+
+
+def test_a_rate_of_nothing_is_refused() -> None:
+    with pytest.raises(ParameterError, match="frame rate is 0"):
+        Segmenter(fps=0).fit(np.zeros((10, 1)))

@@ -11,8 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pyarrow import parquet
+from scipy.io import savemat
 
-from kineme import read_signals, segment_signals
+from kineme import read, read_signals, segment_signals
 from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
 from kineme.signals import is_signal_file
 
@@ -55,6 +56,48 @@ def test_dialects(tmp_path, name, text) -> None:
     assert signals.names == ("a", "b")
     assert signals.values.tolist() == [[1, 2], [3, 4]]
     assert signals.fps == 50
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        ",a,b\n0,1,2\n1,3,4\n",  # pandas with its index
+        "a,b,\n1,2,\n3,4,\n",
+        "__index_level_0__,a,b\n0,1,2\n1,3,4\n",
+    ],
+)
+def test_columns_without_a_name_are_no_channels(tmp_path, text) -> None:
+    signals = read_signals(write(tmp_path, "a.csv", text), fps=50)
+    assert signals.names == ("a", "b")
+    assert signals.values.tolist() == [[1, 2], [3, 4]]
+    assert signals.provenance.notes[0].startswith("columns that are no channels: ")
+
+
+@pytest.mark.parametrize("column", ["hip_x,hip_y,hip_z", "a,b,c"])
+def test_times_a_second_apart_are_refused(tmp_path, column) -> None:
+    rows = "".join(f"{i},{i % 7},2,3\n" for i in range(20))
+    path = write(tmp_path, "a.csv", f"time,{column}\n{rows}")
+    reader = read if column.startswith("hip") else read_signals
+    with pytest.raises(ReadError, match=r"times are 1 apart.*1000 for milliseconds"):
+        reader(path)
+
+
+def test_channels_of_another_length_are_named(tmp_path) -> None:
+    path = tmp_path / "two_rates.mat"
+    muscle = np.sin(np.arange(40))
+    savemat(path, {"fs": 100.0, "emg": muscle, "angles": np.zeros((10, 2))})
+    signals = read_signals(path)
+    assert signals.names == ("angles_1", "angles_2")
+    assert signals.provenance.notes == ("of another length, left out: emg",)
+    assert read_signals(path, columns=["emg"]).values[:, 0].tolist() == muscle.tolist()
+    with pytest.raises(ReadError, match="'angles_1' is not as long as 'emg'"):
+        read_signals(path, columns=["emg", "angles_1"])
+
+
+def test_arrays_are_no_signal_files(tmp_path) -> None:
+    np.save(tmp_path / "a.npy", np.zeros((10, 2)))
+    with pytest.raises(ReadError, match=r"kineme\.Signals"):
+        read_signals(tmp_path / "a.npy", fps=10)
 
 
 def test_numbers_without_names(tmp_path) -> None:
@@ -103,7 +146,7 @@ def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
         "1 missing values filled in a straight line",
         "1 gaps of more than 0.2 s, 20 frames",
     )
-    with pytest.raises(ReadError, match="column 2 holds no number"):
+    with pytest.raises(ReadError, match="column 'b' holds no number"):
         read_signals(write(tmp_path, "b.csv", "a,b\n1,\n2,\n"), fps=50)
 
 

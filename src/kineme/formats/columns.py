@@ -31,6 +31,8 @@ Floats = NDArray[np.float64]
 SURE = 0.5
 """Confidence from which a keypoint counts as seen."""
 
+_SLOWEST = 1.0  # frames per second: at or below, a column of times is hardly in seconds
+
 _COORDINATE = re.compile(r"(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ])")
 _CONFIDENCE = re.compile(
     r"(.*[^\s_.:/-])[\s_.:/-]+(confidence|likelihood|score|visibility|presence|c)", re.IGNORECASE
@@ -114,7 +116,7 @@ def timed(
         if match:
             times = _column(source, columns, column, len(values))
             times = times / 1000 if (match[2] or "").lower() == "ms" else times
-            return even_frames(source, times, values)
+            return _in_seconds(source, *even_frames(source, times, values))
     raise source.error("no column 'time' or 'fps' found: give fps=")
 
 
@@ -163,6 +165,18 @@ def _column(
     if values.ndim != 1 or len(values) == 0 or len(values) != (rows or len(values)):
         raise source.error(f"column {name!r} has shape {values.shape}, not one value per row")
     return values
+
+
+def _in_seconds(
+    source: Source, rate: float, values: Floats, notes: list[str]
+) -> tuple[float, Floats, list[str]]:
+    """What the times tell, refused where they are so far apart that they are hardly seconds."""
+    if rate <= _SLOWEST:
+        raise source.error(
+            f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
+            f"(--fps; {1000 * rate:g} for milliseconds)"
+        )
+    return rate, values, notes
 
 
 def _one_rate(source: Source, rates: Sequence[float] | Floats) -> float:

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from kineme.formats.files import Source, numbers, warn
 
-_EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "-"})
+EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "-"})
+"""What stands in a cell without a number, in lower case."""
 
 
 def rows_of(
@@ -75,7 +76,7 @@ def _numbers(source: Source, cells: list[str], line: int) -> list[float]:
     try:
         return numbers(cells)
     except ValueError:
-        empty = [cell.strip().lower() in _EMPTY for cell in cells]
+        empty = [cell.strip().lower() in EMPTY for cell in cells]
     try:
         found = iter(numbers([cell for cell, hole in zip(cells, empty, strict=True) if not hole]))
     except ValueError as error:

@@ -10,7 +10,6 @@ QTM (Qualisys) exports a structure with ``FrameRate`` and
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
@@ -71,7 +70,7 @@ def arrays_of(variables: Mapping[str, Any]) -> dict[str, Array]:
 
 
 def mat_channels(source: Source) -> tuple[dict[str, Array], float | None]:
-    """(samples,) each: the channels by name, of the length that most have; and their rate, if told.
+    """(samples,) each: the channels by name, of whatever lengths; and their rate, if told.
 
     A matrix is a channel for each column, ``NAME_1`` and so on; its longer side is time.
     """
@@ -87,9 +86,7 @@ def mat_channels(source: Source) -> tuple[dict[str, Array], float | None]:
         elif array.ndim == 2:
             columns = array.T if len(array) >= array.shape[1] else array
             found |= {f"{name}_{i}": column for i, column in enumerate(columns, 1)}
-    lengths = Counter(map(len, found.values()))
-    usual = max(lengths, key=lambda n: (lengths[n], n), default=0)
-    return {name: column for name, column in found.items() if len(column) == usual}, rate
+    return found, rate
 
 
 def _labeled(variables: Mapping[str, Any]) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:

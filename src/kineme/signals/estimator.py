@@ -66,7 +66,8 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         values = validate_data(self, X, dtype=np.float64)
         preset = signal_preset(self.preset, **self._constants)
         names = getattr(self, "feature_names_in_", ())
-        signals = Signals(values, self.fps or preset.working_fps, tuple(map(str, names)))
+        fps = preset.working_fps if self.fps is None else self.fps
+        signals = Signals(values, fps, tuple(map(str, names)))
         if self.fps is None:
             note = f"frame rate {preset.working_fps:g} Hz assumed: no fps was given"
             signals = signals.noted(note)

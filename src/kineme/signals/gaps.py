@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,7 +14,7 @@ Floats = NDArray[np.float64]
 
 
 def without_gaps(
-    source: Source, values: Floats, fps: float
+    source: Source, values: Floats, fps: float, names: Sequence[str]
 ) -> tuple[Floats, list[tuple[int, int]], list[str]]:
     """Finite values, the stretches in which a channel is missing for long, and what was done.
 
@@ -20,6 +22,7 @@ def without_gaps(
     ----------
     values : (frames, channels), NaN or infinite where there is nothing
     fps : frames per second
+    names : of the channels
 
     Raises
     ------
@@ -29,7 +32,8 @@ def without_gaps(
     if not missing.any():
         return values, [], []
     if missing.all(axis=0).any():
-        raise source.error(f"column {int(missing.all(axis=0).argmax()) + 1} holds no number at all")
+        name = names[int(missing.all(axis=0).argmax())]
+        raise source.error(f"column {name!r} holds no number at all: name the others (--columns)")
     filled = np.array(values)
     long = np.zeros(len(values), np.bool_)
     for channel in np.flatnonzero(missing.any(axis=0)).tolist():

@@ -1,4 +1,4 @@
-"""Signals from files: tables, OpenSim's MOT and STO, analog channels of C3D, arrays.
+"""Signals from files: tables, OpenSim's MOT and STO, analog channels of C3D, MAT files.
 
 ============== ==================================================================
 CSV, TSV, text names in the first line, or numbers only (channels 1, 2, …);
@@ -71,7 +71,7 @@ def read_signals(
     kind = kind_of(source)
     table = KINDS[kind].read(source, columns)
     rate, values, notes = table.timed(source, fps)
-    values, gaps, filled = without_gaps(source, values, rate)
+    values, gaps, filled = without_gaps(source, values, rate, table.names)
     provenance = source.provenance(kind, [*table.notes, *notes, *filled])
     return Signals(values, rate, table.names, gaps, provenance)
 

@@ -6,6 +6,7 @@ rest, and its columns as a `Table`.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -16,21 +17,18 @@ from numpy.typing import NDArray
 from kineme.errors import MissingDependencyError, ReadError
 from kineme.formats.c3d_file import parse_c3d
 from kineme.formats.columns import is_timing, timed
-from kineme.formats.deeplabcut import is_deeplabcut
-from kineme.formats.delimited import rows_of, separator_of
-from kineme.formats.files import MOST_EXPANSION, Source, numbers, unique
+from kineme.formats.delimited import rows_of
+from kineme.formats.files import MOST_EXPANSION, Source, unique
 from kineme.formats.mat import mat_channels
+from kineme.signals.text_table import NAMELESS, TextTable, named
 
 Floats = NDArray[np.float64]
 
 COUNTERS = frozenset(
-    {"", "frame", "frames", "frame#", "index", "idx", "sample", "row", "id", "unnamed: 0"}
+    {"frame", "frames", "frame#", "index", "idx", "sample", "row", "id", "unnamed: 0"}
+    | {"__index_level_0__"}
 )
 """Names of columns that count rows."""
-
-EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "-"})
-
-_SLOWEST = 1.0  # frames per second: below, a column of times is hardly in seconds
 
 
 @dataclass(frozen=True)
@@ -58,13 +56,7 @@ class Table:
             return fps or self.rate or 0.0, self.values, []
         if not self.timing:
             raise source.error("nothing in it tells the frame rate: give fps (--fps)")
-        rate, values, notes = timed(source, self.timing, self.values, None)
-        if rate < _SLOWEST:
-            raise source.error(
-                f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
-                f"(--fps; {1000 * rate:g} for milliseconds)"
-            )
-        return rate, values, notes
+        return timed(source, self.timing, self.values, None)
 
 
 class Kind(NamedTuple):
@@ -77,6 +69,8 @@ class Kind(NamedTuple):
 def kind_of(source: Source) -> str:
     """The name of a file's kind, by its first bytes and its suffix."""
     head, suffix = source.data[:4096], source.path.suffix.lower()
+    if suffix in (".npz", ".npy"):
+        raise source.error("holds arrays: load them with numpy and give these to kineme.Signals")
     if suffix in (".c3d", ".mat"):
         return suffix[1:].upper()
     if head.startswith(b"PAR1"):
@@ -85,29 +79,26 @@ def kind_of(source: Source) -> str:
 
 
 def _text_names(source: Source) -> list[str]:
-    return _Text.of(source).names
+    return TextTable.of(source).names
 
 
 def _read_text(source: Source, columns: Sequence[str] | None) -> Table:
-    text = _Text.of(source)
-    first = text.cells(text.rows[0]) if text.rows else []
-    cells = zip(range(len(text.names)), first, strict=False)
-    numeric = [i for i, cell in cells if cell.lower() in EMPTY or _is_number(cell)]
-    wanted = _wanted(source, text.names, columns, [text.names[i] for i in numeric])
+    text = TextTable.of(source)
+    wanted = _wanted(source, text.names, columns, text.numeric())
     at = [text.names.index(name) for name in wanted]
     values = rows_of(source, text.rows, text.first_row, text.separator, len(text.names), at)
     return _table(source, text.names, dict(zip(wanted, values.T, strict=True)), columns)
 
 
 def _parquet_names(source: Source) -> list[str]:
-    return unique(_parquet(source).schema_arrow.names)
+    return named(_parquet(source).schema_arrow.names)
 
 
 def _read_parquet(source: Source, columns: Sequence[str] | None) -> Table:
     import pyarrow as pa
 
     file = _parquet(source)
-    names = unique(file.schema_arrow.names)
+    names = named(file.schema_arrow.names)
     types = dict(zip(names, file.schema_arrow.types, strict=True))
     kinds = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
     numeric = [name for name in names if any(kind(types[name]) for kind in kinds)]
@@ -143,10 +134,21 @@ def _mat_names(source: Source) -> list[str]:
 
 def _read_mat(source: Source, columns: Sequence[str] | None) -> Table:
     channels, rate = mat_channels(source)
-    names = list(channels)
-    wanted = _wanted(source, names, columns, names)
+    lengths = Counter(map(len, channels.values()))
+    length = max(lengths, key=lambda n: (lengths[n], n), default=0)
+    if columns and columns[0] in channels:
+        length = len(channels[columns[0]])
+    alike = [name for name, channel in channels.items() if len(channel) == length]
+    wanted = _wanted(source, list(channels), columns, alike)
+    for name in wanted:
+        if name not in alike:
+            raise source.error(f"column {name!r} is not as long as {wanted[0]!r}: choose one rate")
     values = {name: np.asarray(channels[name], np.float64) for name in wanted}
-    table = _table(source, names, values, columns)
+    table = _table(source, alike, values, columns)
+    others = [name for name in channels if name not in alike]
+    if columns is None and others:
+        note = f"of another length, left out: {', '.join(others)}"
+        table = replace(table, notes=(*table.notes, note))
     known = rate is not None and np.isfinite(rate) and rate > 0
     return replace(table, rate=rate) if known else table
 
@@ -165,52 +167,6 @@ def _parquet(source: Source) -> Any:
     if 8 * rows * width > MOST_EXPANSION * len(source.data):
         raise source.error(f"claims {rows} rows of {width} columns: it is damaged")
     return file
-
-
-@dataclass(frozen=True)
-class _Text:
-    """The lines of a text table."""
-
-    names: list[str]
-    rows: list[str]
-    first_row: int
-    separator: str
-
-    @classmethod
-    def of(cls, source: Source) -> _Text:
-        lines = source.text.splitlines()
-        ended = [i for i, line in enumerate(lines) if line.strip().lower() == "endheader"]
-        start = ended[0] + 1 if ended else 0
-        starts = (i for i in range(start, len(lines)) if lines[i].strip() and lines[i][0] != "#")
-        first = next(starts, None)
-        if first is None:
-            raise source.error("has no lines of numbers")
-        if is_deeplabcut(lines[first]):
-            raise source.error("is a DeepLabCut table of joints, which is a motion")
-        separator = separator_of(lines[first])
-        if ended or separator not in lines[first]:
-            lines[first:] = ["\t".join(line.split()) for line in lines[first:]]
-            separator = "\t"
-        cells = _cells(lines[first], separator)
-        if any(map(_is_number, cells)):
-            names = [str(i) for i in range(1, len(cells) + 1)]
-            return cls(names, lines[first:], first + 1, separator)
-        return cls(unique(cells), lines[first + 1 :], first + 2, separator)
-
-    def cells(self, line: str) -> list[str]:
-        return _cells(line, self.separator)
-
-
-def _cells(line: str, separator: str) -> list[str]:
-    return [cell.strip().strip('"').strip() for cell in line.split(separator)]
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        numbers([cell])
-    except ValueError:
-        return False
-    return True
 
 
 def _wanted(
@@ -238,14 +194,19 @@ def _table(
     if columns is not None:
         chosen, notes = list(columns), []
     else:
-        chosen = [n for n in values if n not in timing and n.strip().lower() not in COUNTERS]
-        left = [name or "(no name)" for name in names if name not in chosen and name not in timing]
+        chosen = [name for name in values if name not in timing and not _counts(name)]
+        left = [name for name in names if name not in chosen and name not in timing]
         notes = [f"columns that are no channels: {', '.join(left)}"] if left else []
     if not chosen:
         raise source.error(f"none of its columns is a channel ({', '.join(names)})")
     return Table(
         chosen, np.column_stack([values[name] for name in chosen]), timing, None, tuple(notes)
     )
+
+
+def _counts(name: str) -> bool:
+    """Whether a column of this name counts rows, as the one that pandas leaves nameless."""
+    return name.strip().lower() in COUNTERS or name.startswith(NAMELESS)
 
 
 KINDS = {
