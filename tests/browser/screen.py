@@ -34,7 +34,9 @@ class Screen:
 
     def opened(self) -> Screen:
         """The same, once a recording is there and drawn."""
-        self.wait("k?.hasMotion && k.drawn > 2")
+        self.wait("k?.hasMotion")
+        for _ in range(2):  # lanes and figure are drawn in one picture, measured in the next
+            self.page.evaluate("new Promise((done) => requestAnimationFrame(done))")
         return self
 
     def lane(self, level: str) -> list[dict[str, Any]]:

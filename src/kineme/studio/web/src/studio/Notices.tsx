@@ -1,10 +1,10 @@
 /** What needs attention, across the page; and the news of the moment. */
 import type { JSX } from "preact";
+import type { Document } from "./document";
 import type { Session } from "./session";
 
 export function Notices({ session }: { session: Session }): JSX.Element {
   const { bulletin, trouble, unsent } = session;
-  const held = session.document.value?.held.value;
   const news = bulletin.news.value;
   return (
     <>
@@ -16,7 +16,8 @@ export function Notices({ session }: { session: Session }): JSX.Element {
             </p>
           </div>
         )}
-        {held && !trouble.value && <Held session={session} reason={held} />}
+        {!trouble.value &&
+          session.held.value.map((document) => <Held key={document.id} document={document} />)}
         {bulletin.problems.value.map((text) => (
           <div class="notice danger" data-notice="problem" key={text}>
             <p>{text}</p>
@@ -48,13 +49,12 @@ export function Notices({ session }: { session: Session }): JSX.Element {
 }
 
 /** Edits that could not be made, and the choice to make or drop them. */
-function Held({ session, reason }: { session: Session; reason: string }): JSX.Element {
-  const document = session.document.value!;
+function Held({ document }: { document: Document }): JSX.Element {
   return (
     <div class="notice" data-notice="held">
       <p>
-        {reason} The table below is shown with your edits on it.{" "}
-        <Waiting edits={document.unsent()} />
+        {document.confirmed.value.name}: {document.held.value}. It is shown as it is now, with your
+        edits on it. <Waiting edits={document.unsent()} />
       </p>
       <button type="button" class="primary" onClick={() => document.retry()}>
         Make them here

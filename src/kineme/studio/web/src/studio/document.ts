@@ -89,13 +89,16 @@ export class Document {
   /** Takes back the last edit: from the queue if it never left, else from the table. */
   undo(): void {
     const queue = this.waiting.peek();
-    if (queue.length && !queue.at(-1)!.tried) this.waiting.value = queue.slice(0, -1);
+    const last = queue.at(-1);
+    const inQueue = last && !last.tried && last.edit.kind !== "undo" && last.edit.kind !== "redo";
+    if (inQueue) this.waiting.value = queue.slice(0, -1);
     else this.edit({ kind: "undo" });
   }
 
   /** The server answers again: find out what it has, then go on. */
   async resume(): Promise<void> {
     if (this.sending) return;
+    this.announced = 0; // a new server counts anew
     const base = fingerprint(this.confirmed.peek().segmentation);
     if (await this.reload()) {
       this.settle(base);
@@ -193,7 +196,7 @@ export class Document {
     const table = this.confirmed.peek().segmentation;
     if (!queue.length || fingerprint(table) === base) return;
     if (queue[0]!.tried && isDone(queue[0]!.edit, table)) this.waiting.value = queue.slice(1);
-    else this.held.value = "The table was changed elsewhere while these edits waited.";
+    else this.held.value = "the table was changed elsewhere while these edits waited";
   }
 
   private async reload(): Promise<boolean> {

@@ -74,12 +74,17 @@ export class Editor {
   }
 
   undo(): void {
-    if (this.session.document.value?.shown.value.can_undo || this.session.unsent.value.length)
-      this.session.document.value?.undo();
+    if (this.isOpenTo("can_undo")) this.session.document.value?.undo();
   }
 
   redo(): void {
-    if (this.session.document.value?.shown.value.can_redo) this.make({ kind: "redo" });
+    if (this.isOpenTo("can_redo")) this.make({ kind: "redo" });
+  }
+
+  /** Edits on their way may be what there is to undo or redo. */
+  private isOpenTo(what: "can_undo" | "can_redo"): boolean {
+    const document = this.session.document.value;
+    return document !== undefined && (document.shown.value[what] || document.unsent().length > 0);
   }
 
   private make(edit: Edit | null, otherwise = ""): void {

@@ -17,7 +17,6 @@ import { announceTab } from "./unsent";
 import { Uploads } from "./uploads";
 
 function start(): void {
-  announceTab();
   const store = new Store();
   const session = new Session(new Api(pageToken()), store);
   const editor = new Editor(session);
@@ -43,7 +42,7 @@ function start(): void {
     <Studio session={session} editor={editor} uploads={new Uploads(session)} front={front} />,
     document.getElementById("page")!,
   );
-  void session.start();
+  void announceTab().then(() => session.start());
 }
 
 function onKey(event: KeyboardEvent, editor: Editor, front: Front): void {

@@ -30,32 +30,24 @@ export class Session {
   readonly comparison = computed(() => this.store.other.value as Comparison | null);
   readonly bulletin = new Bulletin();
   readonly document = computed(() => this.shownAs.get(this.store.active.value!));
+  /** Recordings whose edits wait for a decision. */
+  readonly held = computed(() => this.documents.value.filter((document) => document.held.value));
   /** Edits of all recordings that the server has not confirmed. */
   readonly unsent = computed(() => this.documents.value.flatMap((document) => document.unsent()));
 
   private readonly documents = signal<Document[]>([]);
   private readonly shownAs = new WeakMap<Opened, Document>();
   private retrying = 0;
+  private begun = false;
 
   constructor(
     readonly api: Api,
     readonly store: Store,
   ) {}
 
-  /** Asks for the folder, opens what was open before, and listens for changes from then on. */
   async start(): Promise<void> {
     shareToken(this.api);
-    if (!(await this.refresh())) return;
-    this.api.listen(
-      (change) => void this.changed(change),
-      (up) => void (up ? this.recover() : this.refresh()),
-    );
-    const { recordings } = this.state.value!;
-    const before = fromAddress().filter((id) => recordings.some((each) => each.id === id));
-    const first =
-      before.length || recordings.length > 1 ? before : recordings.map((each) => each.id);
-    for (const id of first) await this.open(id, { beside: true });
-    effect(() => toAddress(this.store.opened.value));
+    if (await this.refresh()) await this.begin();
   }
 
   /** The folder as it is now; whether the server told. */
@@ -74,6 +66,7 @@ export class Session {
   /** Shows a recording, alone or beside those shown. */
   async open(id: string, { beside = false } = {}): Promise<void> {
     const { store } = this;
+    if (this.opening.value === id) return;
     const index = store.opened.value.findIndex((each) => each.recording.value.id === id);
     if (index >= 0) {
       store.show(index);
@@ -127,7 +120,23 @@ export class Session {
     window.clearInterval(this.retrying);
     this.retrying = 0;
     this.trouble.value = null;
-    for (const document of this.documents.value) await document.resume();
+    if (!this.begun) await this.begin();
+    else for (const document of this.documents.value) await document.resume();
+  }
+
+  /** Opens what was open before, and listens for changes from then on. */
+  private async begin(): Promise<void> {
+    this.begun = true;
+    this.api.listen(
+      (change) => void this.changed(change),
+      (up) => void (up ? this.recover() : this.refresh()),
+    );
+    const { recordings } = this.state.value!;
+    const known = new Set(recordings.map((each) => each.id));
+    const before = fromAddress().filter((id) => known.has(id));
+    const first = before.length || known.size > 1 ? before : known;
+    for (const id of first) await this.open(id, { beside: true });
+    effect(() => toAddress(this.store.opened.value));
   }
 
   private async fetch(id: string): Promise<Opened> {

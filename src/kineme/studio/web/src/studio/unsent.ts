@@ -14,12 +14,24 @@ export interface Unsent {
 }
 
 const PREFIX = "kineme.unsent";
-const tab = sessionStorage.getItem("kineme.tab") ?? crypto.randomUUID();
+let tab = sessionStorage.getItem("kineme.tab") ?? crypto.randomUUID();
 
-/** Says to other tabs that this one lives; a copy of a tab gets a name of its own. */
-export function announceTab(): void {
+/** Says to other tabs that this one lives; the copy of a living tab gets a name of its own. */
+export async function announceTab(): Promise<void> {
+  if (!(await claimed(tab))) {
+    tab = crypto.randomUUID();
+    await claimed(tab);
+  }
   sessionStorage.setItem("kineme.tab", tab);
-  void navigator.locks.request(`${PREFIX}.${tab}`, () => new Promise(() => undefined));
+}
+
+function claimed(name: string): Promise<boolean> {
+  return new Promise((answer) => {
+    void navigator.locks.request(`${PREFIX}.${name}`, { ifAvailable: true }, (lock) => {
+      answer(lock !== null);
+      return lock && new Promise(() => undefined); // held as long as the page lives
+    });
+  });
 }
 
 export function keep(folder: string, recording: string, unsent: Unsent): void {

@@ -115,6 +115,12 @@ describe("while the server answers", () => {
   });
 });
 
+it("as many edits are undone as undo was asked for, however fast", async () => {
+  const document = await open();
+  for (let i = 0; i < 4; i++) document.undo();
+  expect(document.waiting.value.map(({ edit }) => edit.kind)).toEqual(Array(4).fill("undo"));
+});
+
 describe("when the server is gone", () => {
   it("edits wait, are shown, and are sent when it is back", async () => {
     const document = await open();
