@@ -93,6 +93,26 @@ def test_openpose_in_one_file(tmp_path: Path) -> None:
     assert waves(motion) == pytest.approx(0.8, abs=0.05)
 
 
+def test_openpose_in_space_is_taken_where_it_is_there(tmp_path: Path) -> None:
+    body = standing(OPENPOSE[25])
+    frames = openpose()
+    for i, frame in enumerate(frames):
+        solid = openpose_frame(body[i], key="pose_keypoints_3d")["people"][0]
+        frame["people"][0]["pose_keypoints_3d"] = solid["pose_keypoints_3d"] if i != 4 else []
+    motion = read(tmp_path, "a.json", frames, fps=25)
+    assert motion.n_frames == 30
+    assert not any("two-dimensional" in note for note in motion.provenance.notes)
+    assert waves(motion) == pytest.approx(0.8, abs=0.05)
+
+
+def test_a_folder_of_two_videos_is_refused(tmp_path: Path) -> None:
+    for i, frame in enumerate(openpose(frames=3)):
+        (tmp_path / f"a_{i}_keypoints.json").write_text(json.dumps(frame))
+    (tmp_path / "b_1_keypoints.json").write_text(json.dumps(frame))
+    with pytest.raises(ReadError, match=r"frame 1 is in a_1_key.*in b_1_keypoints.json: give"):
+        kineme.read(tmp_path, fps=25)
+
+
 def test_a_folder_of_anything_else(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("x")
     with pytest.raises(ReadError, match="cannot be opened: a folder without the file for each"):
@@ -228,6 +248,25 @@ def _wide(pattern: str, first: int = 0, **more: list) -> str:
     return "\n".join(lines) + "\n"
 
 
+def test_mediapipe_frames_without_anybody_keep_their_time(tmp_path: Path) -> None:
+    poses = world_landmarks(40)
+    there = {str(i): marks(pose) for i, pose in enumerate(poses) if not 10 <= i < 20}
+    with pytest.warns(KinemeWarning, match="frames 10 to 19"):
+        numbered = read(tmp_path, "a.json", there, fps=25)
+    assert (numbered.n_frames, numbered.gaps) == (40, ((10, 20),))
+    lines = _wide("{f}{i}").splitlines()
+    nobody = [lines[0], *["," * 131] * 10, *lines[1:]]
+    with pytest.warns(KinemeWarning, match="frames 0 to 9"):
+        empty = read(tmp_path, "a.csv", "\n".join(f"{i},{x}" for i, x in enumerate(nobody)), fps=25)
+    assert (empty.n_frames, empty.gaps) == (40, ((0, 10),))
+
+
+def test_mediapipe_at_uneven_times_says_so(tmp_path: Path) -> None:
+    times = [i / 25 + 0.012 * (i % 3) for i in range(30)]
+    motion = read(tmp_path, "a.csv", _wide("{f}{i}", time=times))
+    assert motion.provenance.notes[0].startswith("times are uneven")
+
+
 @pytest.mark.parametrize(
     ("pattern", "first"),
     [
@@ -329,7 +368,7 @@ def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
         ("{}", "no keypoints found in it"),
         ('[{"people": 3}]', "frame 0 has no list of 'people'"),
         ('[{"people": [3]}]', "a person without keypoints"),
-        ('[{"people": [{}]}]', "a person without pose_keypoints_2d"),
+        ('[{"people": [{}]}]', "a person without pose_keypoints_3d, pose_keypoints_2d"),
         ('[{"people": [{"pose_keypoints_2d": [1, 2, "a"]}]}]', "not a list of numbers"),
         ('[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]', "a person has 1 keypoints: 25, 18"),
         ('[{"people": []}]', "nobody is found in any frame"),

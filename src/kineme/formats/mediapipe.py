@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -56,16 +57,18 @@ _PLAIN = re.compile(r"[\s_-]")
 
 def is_mediapipe(data: Any) -> bool:
     """Whether JSON of this content has frames of 33 landmarks."""
-    return any(_poses(frame, world=False) or _poses(frame, world=True) for frame in _frames(data))
+    return any(
+        _poses(frame, world=False) or _poses(frame, world=True) for _, frame in _frames(data)
+    )
 
 
 def read_mediapipe(source: Source, data: Any, options: ReadOptions) -> Motion:
     """The motion of one person's landmarks."""
     frames = _frames(data)
-    world = any(_poses(frame, world=True) for frame in frames)
+    world = any(_poses(frame, world=True) for _, frame in frames)
     people: list[Person] = []
     numbers: list[int] = []
-    for i, frame in enumerate(frames):
+    for i, frame in frames:
         number = _found(frame, _NUMBER) if isinstance(frame, Mapping) else None
         numbers.append(number if isinstance(number, int) else i)
         poses = _poses(frame, world=world)
@@ -88,6 +91,7 @@ def landmarks_to_motion(
     fps: float | None = None,
     size: Sequence[float | None] = (None, None),
     frames: Sequence[int] = (),
+    notes: Sequence[str] = (),
 ) -> Motion:
     """The motion of one person's landmarks.
 
@@ -98,20 +102,22 @@ def landmarks_to_motion(
     fps : frames per second, if the file tells
     size : width and height of the image, if the file tells
     frames : numbers of all frames, of those without anybody, too
+    notes : sentences on what was done so far
     """
     if world is None and people:
         middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])
         world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
     if world:
-        notes = ["world landmarks: metres from the middle of the hips, the place is not known"]
+        said = "world landmarks: metres from the middle of the hips, the place is not known"
         video = Video(
-            "MediaPipe", NAMES, people, SURE, fps=fps, frames=frames, unit="m", notes=notes
+            "MediaPipe", NAMES, people, SURE, fps=fps, frames=frames, unit="m", notes=[*notes, said]
         )
         return video_to_motion(source, video, options)
     width, height = size
-    notes = []
+    notes = list(notes)
     scaled = list(people)
-    largest = max((abs(p.points[hip][0]) for p in people for hip in _HIPS), default=0.0)
+    hips = np.array([p.points[hip][0] for p in people for hip in _HIPS])
+    largest = np.nanmax(np.abs(hips), initial=0.0)
     if largest < 4:  # shares of the image, and not pixels
         if not (width and height):
             width = height = 1.0
@@ -126,19 +132,19 @@ def landmarks_to_motion(
     return video_to_motion(source, video, options)
 
 
-def _frames(data: Any) -> list[Any]:
-    """One entry per frame."""
+def _frames(data: Any) -> list[tuple[int, Any]]:
+    """Each frame and its number."""
     if isinstance(data, list):
-        return [data] if _is_pose(data) else data
+        return [(0, data)] if _is_pose(data) else list(enumerate(data))
     if not isinstance(data, Mapping):
         return []
-    if data and all(isinstance(key, str) and key.isdecimal() for key in data):
-        return [data[key] for key in sorted(data, key=lambda key: (len(key), key))]
+    if data and all(isinstance(key, str) and key.isdecimal() and len(key) < 19 for key in data):
+        return sorted(((int(key), frame) for key, frame in data.items()), key=itemgetter(0))
     for key, value in data.items():
         several = isinstance(value, list) and not _is_pose(value)
         if _plain(str(key)) in _FRAMES and (several or isinstance(value, Mapping)):
-            return _frames(value) or [data]
-    return [data]
+            return _frames(value) or [(0, data)]
+    return [(0, data)]
 
 
 def _poses(frame: Any, *, world: bool) -> list[Any]:

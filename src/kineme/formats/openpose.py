@@ -2,8 +2,8 @@
 
 ``people`` holds for each person ``pose_keypoints_2d``, x, y and confidence of 25
 (BODY_25), 18 (COCO) or 15 (MPI) keypoints; or ``pose_keypoints_3d``, with z and in
-the unit of the cameras' calibration. Hands and face are left out. OpenPose
-does not track people; where another program has, ``person_id`` tells.
+the unit of the cameras' calibration, taken where they are there. Hands and face are
+left out. OpenPose does not track people; where another program has, ``person_id`` tells.
 
 A folder is read in the order of the numbers in the files' names; numbers that
 are missing are frames in which nobody is found. Frames collected in one file,
@@ -18,9 +18,11 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from kineme.errors import ReadError
 from kineme.formats.files import Source, load
 from kineme.formats.keypoints import Person, Video, in_groups, parsed_json, video_to_motion
 from kineme.formats.registry import ReadOptions
@@ -40,7 +42,7 @@ NAMES = {
 """Keypoints by their number: BODY_25, COCO, MPI."""
 
 _NUMBER = re.compile(r"(\d+)(?:_keypoints)?\.json$", re.IGNORECASE)
-_KEYS = {"pose_keypoints_2d": 3, "pose_keypoints_3d": 4, "pose_keypoints": 3}
+_KEYS = {"pose_keypoints_3d": 4, "pose_keypoints_2d": 3, "pose_keypoints": 3}
 
 
 def is_openpose(data: Any) -> bool:
@@ -61,6 +63,11 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
     numbered = sorted((int(match[1][-18:]), file) for match, file in found)
     if not numbered:
         return None
+    for (number, file), (following, other) in pairwise(numbered):
+        if number == following:
+            raise ReadError(
+                path, f"frame {number} is in {file.name} and in {other.name}: give a folder to each"
+            )
     people: list[Person] = []
     digest: list[bytes] = []
     for number, file in numbered:
@@ -120,13 +127,15 @@ def _id(value: Any) -> str | None:
 def _to_motion(
     source: Source, people: list[Person], options: ReadOptions, frames: list[int]
 ) -> Motion:
+    solid = any(len(person.points[0]) == 3 for person in people)
+    if solid:  # in one view only, whose pixels are another unit
+        people = [person for person in people if len(person.points[0]) == 3]
     counts = {len(person.points) for person in people}
     for count in counts:
         if count not in NAMES:
             known = ", ".join(map(str, NAMES))
             raise source.error(f"a person has {count} keypoints: {known} are known")
     names = NAMES[max(counts, default=25)]
-    solid = any(len(person.points[0]) == 3 for person in people)
     video = Video("OpenPose", names, people, SURE, frames=frames)
     if solid:
         video = replace(video, unit=None, up=None)

@@ -102,10 +102,10 @@ def read_landmarks(table: PoseTable, options: ReadOptions) -> Motion:
     marks[..., 3] = 1.0
     for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
         marks[:, landmark, field] = column
-    frames, fps = np.arange(len(rows)), options.fps
+    frames, fps, notes = np.arange(len(rows)), options.fps, list[str]()
     if timing and not fps:
         columns = {table.names[i]: rows[:, len(at) + k] for k, i in enumerate(timing)}
-        fps, marks, _ = timed(table.source, columns, marks, None)
+        fps, marks, notes = timed(table.source, columns, marks, None)
         frames = np.arange(len(marks))
     elif numbered is not None:
         frames = _whole(table.source, rows[:, -1])
@@ -114,7 +114,9 @@ def read_landmarks(table: PoseTable, options: ReadOptions) -> Motion:
         for frame, mark in zip(frames.tolist(), marks, strict=True)
         if np.isfinite(mark[:, :2]).any()
     ]
-    return landmarks_to_motion(table.source, people, options, fps=fps)
+    return landmarks_to_motion(
+        table.source, people, options, fps=fps, frames=frames.tolist(), notes=notes
+    )
 
 
 def read_long(table: PoseTable, options: ReadOptions) -> Motion:
