@@ -72,6 +72,17 @@ def test_a_graph_in_time_has_nothing_where_the_gaps_are() -> None:
     assert spaced[2][0].tolist() == filled.tolist()
 
 
+def test_many_gaps_do_not_stretch_the_time() -> None:
+    graph = neighbor_graph(np.zeros((300, 1)), radius=1.0, k=2)
+    gaps = [(start, start + 9) for start in range(10, 990, 20)]  # 2.9 rows of the graph each
+    n_frames = 1000 - (1000 - 9 * len(gaps)) % 3
+    per_frame = 300 / (n_frames - 9 * len(gaps))
+    spaced = in_time(graph, gaps, n_frames)
+    assert abs(len(spaced) - n_frames * per_frame) <= 2
+    last = np.flatnonzero(spaced.counts)[-1]
+    assert abs(last - n_frames * per_frame) <= 2
+
+
 @settings(max_examples=5, deadline=None)
 @given(st.data())
 def test_a_gap_anywhere_is_a_transition(data: st.DataObject) -> None:

@@ -100,8 +100,8 @@ def in_time(graph: NeighborGraph, gaps: Sequence[Sequence[int]], n_frames: int) 
     before = 0
     for start, stop in gaps:
         at = floor((start - before) * per_frame + 0.5)
-        place[at:] += ceil((stop - start) * per_frame)
         before += stop - start
+        place[at:] = np.arange(at, len(graph)) + ceil(before * per_frame)
     n = max(floor(n_frames * per_frame + 0.5), int(place[-1]) + 1)
     counts = np.zeros(n, np.int64)
     counts[place] = graph.counts
