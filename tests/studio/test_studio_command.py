@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
-import pytest
 from typer.testing import CliRunner
 
 from kineme.cli.app import app
@@ -22,9 +20,3 @@ def test_what_is_not_there_is_said(folder: Path) -> None:
     assert "nowhere: there is no such file or folder" in refused(folder / "nowhere")
     assert "is a folder: give one folder, or files" in refused(folder, folder / "take.bvh")
     assert "from 0 to 65535, not 99999" in refused(folder, "--port", 99999)
-
-
-@pytest.mark.parametrize("package", ["starlette", "uvicorn"])
-def test_a_missing_extra_is_named(folder: Path, monkeypatch, package: str) -> None:
-    monkeypatch.setitem(sys.modules, package, None)
-    assert "pip install 'kineme[studio]'" in refused(folder)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from kineme.cli.messages import Failures
-from kineme.errors import MissingDependencyError, ParameterError
+from kineme.errors import ParameterError
 
 
 def studio(
@@ -35,11 +35,6 @@ def studio(
     failures = Failures()
     with failures.caught("studio"):
         root, recordings = _opened(files or [Path()])
-        try:
-            import starlette  # noqa: F401
-            import uvicorn  # noqa: F401
-        except ImportError as error:
-            raise MissingDependencyError(error.name or "uvicorn", "studio") from error
         from kineme.studio.server import serve
 
         def announce(address: str) -> None:
