@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
@@ -119,3 +120,24 @@ def test_a_gap_is_said_and_splits_the_recording(tmp_path: Path) -> None:
     assert motion.gaps == ((30, 60),)
     assert any("the recording is split there" in note for note in motion.provenance.notes)
     assert replace(motion, fps=25).gaps == motion.gaps
+
+
+def test_what_is_missing_with_the_body_only_stays(tmp_path: Path) -> None:
+    names, parents = (*NAMES, "knee", "elbow"), (-1, 0, 0, 1, 2, 0, 0, 0, 1, 0)
+    positions = np.repeat(REST[None, [*range(8), 3, 6]], 100, axis=0)
+    positions[:, 8, 0] = np.arange(100) / 100
+    skeleton = Skeleton(names, parents, np.zeros((10, 3)))
+    path = tmp_path / "a.csv"
+    kineme.write(Motion(skeleton, positions, 50.0, gaps=((30, 60),)), path)
+    rows = path.read_text().splitlines()
+    rows[80:95] = [",".join([*row.split(",")[:-3], "", "", ""]) for row in rows[80:95]]
+    path.write_text("\n".join(rows) + "\n")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        again = kineme.read(path, unit="m", up="y")
+    said = sorted(str(warning.message).partition(": ")[2] for warning in caught)
+    assert said[0] == "left out for gaps above 0.2 s: elbow (frames 30 to 93)"
+    assert said[1].startswith("the body is not seen whole in frames 30 to 59")
+    assert again.gaps == ((30, 60),)
+    knee = again.positions[:, again.joint("knee"), 0]
+    assert knee == pytest.approx(np.arange(100) / 100)

@@ -8,7 +8,7 @@ frame in which the body stands highest.
 
 Gaps are treated by `kineme.formats.gaps`. A point with a longer gap is left
 out with a warning; if a joint of the body cannot be made without it, the gap is
-one of the motion, and splits it.
+one of the motion, and splits it. Points that are missing in such gaps only stay.
 """
 
 from __future__ import annotations
@@ -83,6 +83,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     if not seen.any():
         which = _listed([names[i] for i in sorted(used & gaps.open.keys())])
         raise ReadError(path, f"the body is whole in no frame: {which} are never seen together")
+    kept = sorted([*kept, *_gone_with_the_body(positions, gaps, used, seen, points.fps)])
     notes = _said_of_gaps(path, names, gaps, kept, len(positions))
     notes += _said_of_splits(path, names, gaps, used, missing, points.fps)
     scale, note = _scale(path, points.unit, positions[seen][:, kept])
@@ -113,6 +114,20 @@ def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:
         if without.keys() == body.keys() and _missing(without, hidden) < _missing(body, hidden):
             usable, body = usable - {worst}, without
     return body
+
+
+def _gone_with_the_body(
+    positions: Floats, gaps: Gaps, used: set[int], seen: NDArray[np.bool_], fps: float
+) -> list[int]:
+    """Points that are missing where the body is, for long, and not elsewhere; they are bridged."""
+    n = len(positions)
+    found = [
+        point
+        for point, spans in gaps.open.items()
+        if point not in used and not (seen & covered(spans.tolist(), n)).any()
+    ]
+    bridge(positions, gaps, found, fps)
+    return found
 
 
 def _used(body: Body) -> set[int]:
