@@ -118,3 +118,9 @@ def test_turn_is_about_the_vertical_from_z_to_x() -> None:
 def test_values_are_checked(operation: object, value: object) -> None:
     with pytest.raises(ParameterError, match="give"):
         operation(motion(), value)  # type: ignore[operator]
+
+
+def test_a_rate_beyond_all_measure_is_refused() -> None:
+    motion = Motion(Skeleton(("a",), (-1,), np.zeros((1, 3))), np.zeros((10, 1, 3)), 0.001)
+    with pytest.raises(ParameterError, match="frames 1000 s apart are too far for 30 a second"):
+        resample(motion, 30)

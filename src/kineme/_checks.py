@@ -7,6 +7,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import ParameterError
 
+MOST_FRAMES_MORE = 1000
+"""Frames at a new rate for one of the old, at most; beyond that the old one is wrong."""
+
+
+def check_rates(old: float, new: float) -> None:
+    """ParameterError where the frames at a new rate would be beyond all measure."""
+    if new > MOST_FRAMES_MORE * old:
+        raise ParameterError(
+            f"frames {1 / old:g} s apart are too far for {new:g} a second: is the frame rate right?"
+        )
+
 
 def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64]:
     """The values as float64 (frames, dims) without gaps in memory.

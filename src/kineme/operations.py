@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme import _rotations as rot
+from kineme._checks import check_rates
 from kineme.errors import MotionError, ParameterError
 from kineme.kinematics import forward_kinematics, local_translations
 from kineme.motion import Motion
@@ -32,7 +33,7 @@ def resample(motion: Motion, fps: float) -> Motion:
 
     Raises
     ------
-    ParameterError : ``fps`` is not a positive number
+    ParameterError : ``fps`` is not a positive number, or beyond all measure
 
     Source: [V14], section 5 works at 30 Hz; at whole ratios the spline of the
     authors' program amounts to taking every fourth frame as well.
@@ -42,6 +43,7 @@ def resample(motion: Motion, fps: float) -> Motion:
     ratio = motion.fps / fps
     if ratio == 1:
         return motion
+    check_rates(motion.fps, fps)
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
     note = f"resampled from {motion.fps:g} to {fps:g} Hz"
     if abs(ratio - round(ratio)) < 1e-9 * ratio:

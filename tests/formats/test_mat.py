@@ -98,7 +98,10 @@ def as_hdf5(variables: dict, folder: Path) -> bytes:
             for key, item in value.items():
                 put(inner, key, item)
         elif isinstance(value, str):
-            group[name] = np.array([[ord(c)] for c in value], np.uint16)
+            rows = value.split("\n")
+            width = max(map(len, rows))
+            codes = [list(map(ord, row.ljust(width))) for row in rows]
+            group[name] = np.array(codes, np.uint16).T
             group[name].attrs["MATLAB_class"] = np.bytes_("char")
         elif isinstance(value, np.ndarray) and value.dtype == object:
             refs = np.empty((1, len(value)), h5py.ref_dtype)
@@ -123,6 +126,8 @@ def test_version_73(tmp_path: Path) -> None:
     names = cells(PLUG_IN_GAIT)
     data = as_hdf5({"positions": MARKERS, "names": names, "fps": 100}, tmp_path)
     assert has_the_walk(read(tmp_path, data))
+    rows = {"positions": MARKERS, "names": "\n".join(PLUG_IN_GAIT), "fps": 100}
+    assert has_the_walk(read(tmp_path, as_hdf5(rows, tmp_path)))
     motion = read(tmp_path, as_hdf5({"take": qtm(z_up_millimetres(MARKERS))}, tmp_path))
     assert motion.provenance.format == "MAT of QTM"
     assert has_the_walk(motion)

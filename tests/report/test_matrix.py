@@ -102,7 +102,8 @@ def test_signals_that_are_still_or_missing_in_part() -> None:
 
 
 @pytest.mark.parametrize(
-    ("values", "fps"), [(np.ones((0, 3)), 10), (np.ones((3, 0)), 10), (1.0, 1), (np.ones(3), 0)]
+    ("values", "fps"),
+    [(np.ones((0, 3)), 10), (np.ones((3, 0)), 10), (1.0, 1), (np.ones(3), 0), ([["a"]], 1)],
 )
 def test_what_is_no_signal_is_refused(values: object, fps: float) -> None:
     with pytest.raises(ParameterError):

@@ -102,7 +102,8 @@ def _plain(item: Any) -> Any:
         return None
     matlab = item.attrs.get("MATLAB_class", b"")
     if matlab == b"char":
-        return "".join(map(chr, array.T.ravel(order="F").tolist()))
+        rows = ["".join(map(chr, row)) for row in np.atleast_2d(array.T).tolist()]
+        return rows[0] if len(rows) == 1 else [row.rstrip() for row in rows]
     return array.T if matlab else array
 
 

@@ -123,9 +123,14 @@ def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
 
     Raises
     ------
-    ParameterError : no frames, no channels, or a frame rate that is not positive
+    ParameterError : no frames, no channels, no numbers, or a frame rate that is not positive
     """
-    signal = np.asarray(values, np.float64)
+    try:
+        signal = np.asarray(values, np.float64)
+    except (ValueError, TypeError):
+        raise ParameterError(
+            "a signal is frames x channels of numbers: columns of texts?"
+        ) from None
     signal = signal[:, None] if signal.ndim == 1 else signal
     if signal.ndim != 2 or 0 in signal.shape:
         raise ParameterError(f"a signal is frames x channels, not of shape {signal.shape}")
@@ -149,7 +154,10 @@ def _standardised(values: Floats) -> Floats:
     if out.shape[1] == 0:
         return np.where(seen[:, None], 0.0, np.nan)
     if out.shape[1] > MOST_CHANNELS:
-        axes = np.linalg.eigh(np.cov(out[seen].T))[1][:, -MOST_CHANNELS:]
+        from scipy.linalg import eigh
+
+        n = out.shape[1]
+        axes = eigh(np.cov(out[seen].T), subset_by_index=(n - MOST_CHANNELS, n - 1))[1]
         out = out @ axes
     return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[seen].var(axis=0).sum())))
 
