@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import check_rates
 from kineme.features import offsets_in_frames, stack
 from kineme.segmentation.parts import Part
 from kineme.segmentation.presets import ActionPreset, Preset, RegionPreset, resolve_preset
@@ -57,7 +58,12 @@ def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float = SMO
     fps : their rate
     new : the rate wanted
     smoothing : seconds
+
+    Raises
+    ------
+    ParameterError : the rate wanted is beyond all measure
     """
+    check_rates(fps, new)
     held = np.asarray(values, np.float64)
     middle: Floats = held.mean(axis=0)  # sums of what is left lose no digits to a large offset
     sums = np.concatenate([np.zeros((1, held.shape[1])), np.cumsum(held - middle, axis=0)])
