@@ -180,3 +180,8 @@ def test_signals_that_contradict_themselves() -> None:
     assert signals.select(["3", "1"]).names == ("3", "1")
     with pytest.raises(ParameterError, match="no channel '4'; there are 1, 2, 3"):
         signals.select("4")
+
+
+def test_a_rate_beyond_all_measure_is_refused() -> None:
+    with pytest.raises(ParameterError, match="is the frame rate right"):
+        segment_signals(Signals(np.zeros((10, 1)), 1e-6))
