@@ -97,7 +97,9 @@ def as_segmentation(
         raise ReadError(path, "has no labels")
     rate = fps or labels.fps
     if rate is None:
-        raise ReadError(path, f"{name} does not tell the frame rate of the recording: give fps")
+        raise ReadError(
+            path, f"{name} does not tell the frame rate of the recording: give fps (--fps)"
+        )
     if not 0 < rate < math.inf:
         raise ReadError(path, f"the frame rate must be a positive number, not {rate}")
     per_unit = rate if labels.unit == "seconds" else 1.0

@@ -94,8 +94,9 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     missing = [part.replace("_", " ") for part in PARTS if part not in found]
     if missing:
         raise EndEffectorError(
-            f"{' and '.join(missing)} not found among the joints {_joint_list(skeleton)}; "
-            f"name all five with --effectors {','.join(PARTS).upper()} (names=... in Python)"
+            f"{_listed(missing)} not found among the joints {_joint_list(skeleton)}; "
+            f"name all five with --effectors {','.join(PARTS).upper()} (names=... in Python), "
+            f"or segment coordinates as signals"
         )
     joints = [found[part][0] for part in PARTS]
     if len(set(joints)) < len(PARTS):
@@ -105,6 +106,11 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
             f"name five different joints with --effectors"
         )
     return EndEffectors(*joints, how=tuple(found[part][1] for part in PARTS))
+
+
+def _listed(words: list[str]) -> str:
+    """The words as people list them: ``a, b and c``."""
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
 def _add(found: dict[str, tuple[int, str]], more: Mapping[str, int], how: str) -> None:

@@ -23,7 +23,10 @@ def body_size(motion: Motion, effectors: EndEffectors) -> float:
     legs = [_chain(motion, joint) for joint in (effectors.left_ankle, effectors.right_ankle)]
     size = float(np.mean(legs)) + _chain(motion, effectors.head)
     if not size > 0:
-        raise MotionError("the bones between ankles and head have no length")
+        raise MotionError(
+            "the bones between ankles and head have no length, as among markers without a pelvis: "
+            "segment their coordinates as signals"
+        )
     return size
 
 

@@ -125,4 +125,4 @@ def _rate(source: Source, arrays: Mapping[str, Any]) -> float:
             rate = float(arrays[name].item())
             if np.isfinite(rate) and rate > 0:
                 return rate
-    raise source.error("no 'mocap_frame_rate' in it: give fps=")
+    raise source.error("no 'mocap_frame_rate' in it: give fps= (--fps)")

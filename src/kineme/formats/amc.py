@@ -87,9 +87,13 @@ def find_skeleton(path: Path) -> Path:
             return found[0]
         seen += found
     if not seen:
-        raise ReadError(path, "no ASF skeleton found beside it: name one with skeleton=")
+        raise ReadError(
+            path, "no ASF skeleton found beside it: name one with skeleton= (--skeleton)"
+        )
     raise ReadError(
-        path, f"none of the {len(seen)} ASF files beside it has its name: name one with skeleton="
+        path,
+        f"none of the {len(seen)} ASF files beside it has its name: "
+        f"name one with skeleton= (--skeleton)",
     )
 
 

@@ -109,9 +109,9 @@ def _rate(source: Source, word: bytes, line: int) -> tuple[float, str | None]:
     try:
         (period,) = numbers([word])
     except ValueError as error:
-        raise source.error(f"Frame Time: {error}; give fps=", line) from None
+        raise source.error(f"Frame Time: {error}; give fps= (--fps)", line) from None
     if not 1e-6 < period < 1e6:
-        raise source.error(f"Frame Time is {period:g} s: give fps=", line)
+        raise source.error(f"Frame Time is {period:g} s: give fps= (--fps)", line)
     return rate_from_period(word.decode())
 
 

@@ -31,7 +31,7 @@ def read_c3d(source: Source, options: ReadOptions) -> Motion:
     file = parse_c3d(source)
     fps = options.fps or file.rate
     if not fps:
-        raise source.error("the file has no frame rate: give fps=")
+        raise source.error("the file has no frame rate: give fps= (--fps)")
     notes = []
     markers, left_out = _markers(file)
     if not markers:

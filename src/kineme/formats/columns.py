@@ -117,7 +117,7 @@ def timed(
             times = _column(source, columns, column, len(values))
             times = times / 1000 if (match[2] or "").lower() == "ms" else times
             return _in_seconds(source, *even_frames(source, times, values))
-    raise source.error("no column 'time' or 'fps' found: give fps=")
+    raise source.error("no column 'time' or 'fps' found: give fps= (--fps)")
 
 
 def _axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
@@ -182,5 +182,7 @@ def _in_seconds(
 def _one_rate(source: Source, rates: Sequence[float] | Floats) -> float:
     rate = float(rates[0])
     if not (np.isfinite(rate) and rate > 0) or np.ptp(rates) > 0:
-        raise source.error(f"the frame rate is not one positive number ({rate:g} first): give fps=")
+        raise source.error(
+            f"the frame rate is not one positive number ({rate:g} first): give fps= (--fps)"
+        )
     return rate

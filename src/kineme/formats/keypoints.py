@@ -81,7 +81,7 @@ def video_to_motion(source: Source, video: Video, options: ReadOptions) -> Motio
     """
     fps = options.fps or video.fps
     if not fps:
-        raise source.error("keypoints have no frame rate: give fps=, that of the video")
+        raise source.error("keypoints have no frame rate: give fps= (--fps), that of the video")
     people = sorted(video.people, key=lambda person: person.frame)
     if not people:
         raise source.error("nobody is found in any frame")

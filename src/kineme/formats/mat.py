@@ -111,7 +111,7 @@ def _qtm_motion(
     rate = head.get("FrameRate")
     fps = float(rate.ravel()[0]) if isinstance(rate, np.ndarray) and rate.size == 1 else 0.0
     if not options.fps and not (np.isfinite(fps) and fps > 0):
-        raise source.error("no FrameRate in it: give fps=")
+        raise source.error("no FrameRate in it: give fps= (--fps)")
     positions = np.asarray(data[:, :3], np.float64).transpose(2, 0, 1)
     unit, up = options.unit or "mm", options.up
     points = Points(names, positions, options.fps or fps, unit, up, usual_up="z")

@@ -92,7 +92,7 @@ def _rate(source: Source, arrays: Arrays) -> float:
             rate = float(_numbers(source, arrays, name).item())
             if np.isfinite(rate) and rate > 0:
                 return rate
-    raise source.error("no 'fps' in it: give fps=")
+    raise source.error("no 'fps' in it: give fps= (--fps)")
 
 
 def _whole_numbers(source: Source, arrays: Arrays, name: str) -> list[int]:

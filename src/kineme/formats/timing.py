@@ -33,7 +33,7 @@ def even_frames(source: Source, times: Floats, values: Floats) -> tuple[float, F
     ReadError : times do not increase, or are too few to tell a rate
     """
     if len(times) < 2 or not np.isfinite(times).all():
-        raise source.error("the times are too few or not numbers: give fps=")
+        raise source.error("the times are too few or not numbers: give fps= (--fps)")
     steps = np.diff(times)
     if steps.min() <= 0:
         row = int(steps.argmin()) + 1
@@ -47,7 +47,7 @@ def even_frames(source: Source, times: Floats, values: Floats) -> tuple[float, F
     fps = _rounded(1 / period)
     n = int((times[-1] - times[0]) * fps + 0.5) + 1
     if n > _MOST_FRAMES_MORE * len(times):
-        raise source.error(f"the times span {n} periods in {len(times)} rows: give fps=")
+        raise source.error(f"the times span {n} periods in {len(times)} rows: give fps= (--fps)")
     at = times[0] + np.arange(n) / fps
     return (
         fps,

@@ -30,6 +30,9 @@ HEIGHTS = (1.2, 2.4)
 """Metres a body may be tall for its unit to be beyond doubt: less than the
 factor of 2.2 apart that lies between the two closest units."""
 
+BODIES = (0.3, 4.0)
+"""Metres outside of which a unit that was given is remarked upon."""
+
 _TO_Y = {
     "y": (1.0, 0.0, 0.0, 0.0),
     "-y": (0.0, 1.0, 0.0, 0.0),
@@ -82,6 +85,12 @@ def place(
     if unit is None:
         unit, note = infer_unit(skeleton, translations, provenance.path)
         provenance = provenance.noted(note)
+    else:
+        tall = _height(skeleton, translations) * metres(unit)
+        if not BODIES[0] <= tall <= BODIES[1]:
+            provenance = provenance.noted(
+                f"with unit {unit} the skeleton is about {tall:.2g} m tall: look whether it fits"
+            )
     scale = metres(unit)
     skeleton = replace(skeleton, offsets=scale * skeleton.offsets)
     translations = scale * translations
@@ -120,7 +129,7 @@ def infer_unit(
     within 7 % of the way along the bones from head to toes. Warns if no unit
     fits, and takes the nearest.
     """
-    height = 0.75 * _longest_way(skeleton, np.linalg.norm(translations.mean(axis=0), axis=1))
+    height = _height(skeleton, translations)
     fits = {name: HEIGHTS[0] <= height * size <= HEIGHTS[1] for name, size in UNITS.items()}
     if any(fits.values()):
         unit = next(name for name, fit in fits.items() if fit)
@@ -129,12 +138,17 @@ def infer_unit(
         unit = list(UNITS)[int(np.abs(tall).argmin())]
         warn(
             f"{path}: in no unit is this skeleton, about {height:.3g} units tall, of human size: "
-            f"{unit} assumed; give unit="
+            f"{unit} assumed; give unit= (--unit)"
         )
     return (
         unit,
         f"unit {unit} inferred: the skeleton is then about {height * UNITS[unit]:.2f} m tall",
     )
+
+
+def _height(skeleton: Skeleton, translations: Floats) -> float:
+    """Three quarters of the longest way along the bones, in file units."""
+    return 0.75 * _longest_way(skeleton, np.linalg.norm(translations.mean(axis=0), axis=1))
 
 
 def infer_up(skeleton: Skeleton, positions: Floats) -> str:
