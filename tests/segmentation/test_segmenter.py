@@ -20,6 +20,7 @@ from kineme.operations import cut, move, resample, turn
 from kineme.segmentation.presets import PRESETS
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.segmenter import segment, segment_and_analysis
+from kineme.signals import segment_signals
 
 presets = pytest.mark.parametrize("preset", PRESETS)
 few = settings(deadline=None, max_examples=5)
@@ -124,6 +125,14 @@ def test_provenance_says_how_it_was_made() -> None:
     assert published.provenance["preset"] == "voegele2014"
     assert published.provenance["parameters"]["radius"] == 0.5
     assert [*published.timings] == ["features", "neighbors", "activities", "primitives", "clusters"]
+
+
+def test_what_is_no_motion_is_refused_with_the_way_to_one() -> None:
+    for wrong in ("take.bvh", np.zeros((90, 15))):
+        with pytest.raises(ParameterError, match=r"takes a Motion, not \w+: kineme.read"):
+            segment(wrong)  # type: ignore[arg-type]
+    with pytest.raises(ParameterError, match="takes Signals, not ndarray: kineme.read_signals"):
+        segment_signals(np.zeros((90, 3)))  # type: ignore[arg-type]
 
 
 def test_an_unknown_constant_is_refused() -> None:

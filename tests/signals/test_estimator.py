@@ -71,6 +71,8 @@ def test_constants_are_parameters_like_others() -> None:
 def test_what_a_preset_cannot_take_is_said_by_fit() -> None:
     with pytest.raises(ParameterError, match="kineme has no parameter 'radius'"):
         Segmenter(radius=0.4).fit(two_movements())
+    with pytest.raises(ParameterError, match="one of voegele2014 and krueger2017"):
+        Segmenter(radius=0.4).fit(two_movements())
     with pytest.raises(ParameterError, match="no left and right"):
         Segmenter("krueger2017", mirror=True).fit(two_movements())
     with pytest.raises(ParameterError, match="smoothing is -1"):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.errors import ParameterError
 from kineme.features import (
     EndEffectors,
     body_size,
@@ -59,8 +60,13 @@ def segment(
     Raises
     ------
     EndEffectorError : head, hands or feet were not found
-    ParameterError : no such preset or constant, or a value it cannot take
+    ParameterError : no such preset or constant, a value it cannot take, or no motion
     """
+    if not isinstance(motion, Motion):
+        raise ParameterError(
+            f"segment takes a Motion, not {type(motion).__name__}: kineme.read(path) gives one; "
+            f"channels go to segment_signals, arrays to Segmenter"
+        )
     chosen = resolve_preset(preset, **overrides)
     return segment_and_analysis(motion, chosen, effectors=effectors, progress=progress)[0]
 

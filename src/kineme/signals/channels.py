@@ -120,7 +120,7 @@ def signal_preset(preset: str | Preset, **overrides: Any) -> Preset:
         lengths = {name: getattr(chosen, name) for name in _LENGTHS}
         scaled = {name: v / per_channel for name, v in lengths.items() if v is not None}
         overrides = {**scaled, **overrides}
-    return chosen.replace(**overrides)
+    return resolve_preset(chosen, **overrides)
 
 
 def recurrence_unit(features: Floats, preset: ActionPreset) -> float:

@@ -47,6 +47,11 @@ def segment_signals(
     ParameterError : no such preset or constant, a value it cannot take, or mirroring, for
         which signals have no left and right
     """
+    if not isinstance(signals, Signals):
+        raise ParameterError(
+            f"segment_signals takes Signals, not {type(signals).__name__}: "
+            f"kineme.read_signals(path) gives them; arrays go to Segmenter"
+        )
     chosen = signal_preset(preset, **overrides)
     return segment_signals_and_analysis(
         signals, chosen, emg=emg, smoothing=smoothing, progress=progress

@@ -55,6 +55,13 @@ def resolve_preset(preset: str | Preset, **overrides: Any) -> Preset:
         if preset not in PRESETS:
             raise ParameterError(f"no preset {preset!r}; there are {', '.join(PRESETS)}")
         preset = PRESETS[preset]
+    for name in overrides:
+        others = [other for other, known in PRESETS.items() if hasattr(known, name)]
+        if others and not hasattr(preset, name):
+            raise ParameterError(
+                f"{preset.name} has no parameter {name!r}: it is one of {' and '.join(others)}, "
+                f"so choose another preset or leave it out"
+            )
     return preset.replace(**overrides)
 
 
