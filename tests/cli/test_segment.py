@@ -11,6 +11,7 @@ from matplotlib.image import imread
 
 import kineme as package
 from kineme.datasets import bundled_recording
+from kineme.operations import cut
 
 
 @pytest.fixture
@@ -57,6 +58,20 @@ def test_json_is_pure_and_is_what_the_library_gives(kineme, recording: Path) -> 
     )
     assert [row["start_frame"] for row in data["segments"]] == result.table.start_frame.tolist()
     assert [row["cluster"] for row in data["segments"]] == result.table.cluster.tolist()
+
+
+def test_what_was_written_is_said(kineme, recording: Path) -> None:
+    done = kineme("segment", recording, "-o", "cuts", "--plot", "cuts.png")
+    written = [line for line in done.stdout.splitlines() if line.startswith("written: ")]
+    assert written == [f"written: {Path('cuts', 'exercises.csv')}", "written: cuts.png"]
+
+
+def test_where_nothing_is_found_a_way_on_is_told(kineme, tmp_path: Path, recording: Path) -> None:
+    motion = package.read(recording)
+    package.write(cut(motion, 0, 20), tmp_path / "short.bvh")
+    done = kineme("segment", "short.bvh")
+    assert done.returncode == 0
+    assert "note: no activity found" in done.stdout
 
 
 def test_output_and_picture_are_written_quietly(kineme, tmp_path: Path, recording: Path) -> None:

@@ -96,6 +96,9 @@ def test_convert_overwrites_nothing_and_knows_its_formats(kineme, tmp_path: Path
     assert (done.returncode, done.stdout) == (1, "")
     assert "mine.eaf: is there already" in done.stderr
     assert (tmp_path / "mine.eaf").read_text() == "corrected by hand"
+    done = kineme("convert", bundled_recording(), "other.csv")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "exercises.bvh: is a recording, and convert is for segments: cut it with" in done.stderr
     done = kineme("convert", bundled_truth(), "mine.srt", "--to", "srt")
     assert done.returncode == 2
     assert "'srt' is not one of csv, json, parquet, audacity" in done.stderr

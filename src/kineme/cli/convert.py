@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from kineme.cli.messages import Failures
-from kineme.errors import WriteError
+from kineme.errors import ReadError, WriteError
 from kineme.export import FORMATS, read_segments, write_segments
 from kineme.segmentation.table import Level
 
@@ -17,6 +17,20 @@ def _known(name: str | None) -> str | None:
     if name not in (None, *FORMATS):
         raise typer.BadParameter(f"{name!r} is not one of {', '.join(FORMATS)}")
     return name
+
+
+def _check_no_recording(source: Path, from_format: str | None) -> None:
+    from kineme.formats import supported_formats
+
+    suffix = source.suffix.lower()
+    recordings = {suffix for known in supported_formats() for suffix in known.suffixes}
+    labels = {suffix for known in FORMATS.values() for suffix in known.suffixes}
+    if from_format is None and suffix in recordings - labels:
+        raise ReadError(
+            source,
+            "is a recording, and convert is for segments: cut it with kineme segment; in Python "
+            "kineme.write(kineme.read(FROM), TO) turns it into another format",
+        )
 
 
 def convert(
@@ -45,6 +59,7 @@ def convert(
     with failures.caught(source):
         if target.exists():
             raise WriteError(target, "is there already: remove it or name another file")
+        _check_no_recording(source, from_format)
         segments = read_segments(source, format=from_format, fps=fps, n_frames=frames)
         write_segments(segments, target, format=to_format, level=level)
     failures.exit()

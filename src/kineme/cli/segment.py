@@ -109,7 +109,7 @@ def segment(
             elif not quiet:
                 from kineme.cli.tables import show_segments
 
-                show_segments(result, level)
+                show_segments(result, level, written=[table, picture, page])
     failures.exit()
 
 

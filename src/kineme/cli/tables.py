@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from rich import box
@@ -13,9 +14,16 @@ from kineme._colors import cluster_color
 from kineme.segmentation.result import Segmentation
 from kineme.segmentation.table import Level, Segment
 
+_NOTHING_FOUND = (
+    "no activity found: nothing stays alike or repeats for long enough; of a recording of a few "
+    "seconds --min-action 0.5 --min-stretch 0.3 or --preset krueger2017 may tell more"
+)
 
-def show_segments(segmentation: Segmentation, level: Level) -> None:
-    """Print one row per segment of a level, a summary and the notes."""
+
+def show_segments(
+    segmentation: Segmentation, level: Level, *, written: Sequence[Path | None] = ()
+) -> None:
+    """Print one row per segment of a level, a summary, the notes and the files written."""
     console = Console(highlight=False)
     source = segmentation.provenance["input"]["path"]
     console.print(
@@ -30,6 +38,10 @@ def show_segments(segmentation: Segmentation, level: Level) -> None:
     console.print(f"{segmentation.describe()}.")
     for note in segmentation.provenance["notes"]:
         console.print(Text(f"note: {note}", style="dim"))
+    if "activity" not in segmentation.activities.kind:
+        console.print(Text(f"note: {_NOTHING_FOUND}", style="dim"))
+    for path in filter(None, written):
+        console.print(Text(f"written: {path}"), soft_wrap=True)
     console.print()
 
 

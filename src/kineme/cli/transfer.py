@@ -100,7 +100,7 @@ def transfer(
             elif not quiet:
                 from kineme.cli.tables import show_segments
 
-                show_segments(result, level)
+                show_segments(result, level, written=[table])
     failures.exit()
 
 
