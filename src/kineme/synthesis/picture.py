@@ -38,12 +38,14 @@ def plot_graph(graph: MotionGraph, path: Path) -> None:
     ring.scatter(*at.T, c=colors, s=60, zorder=2, edgecolors="white")
     ring.set_aspect("equal")
     ring.axis("off")
-    shown = {
-        node.name or "transition": color for node, color in zip(graph.nodes, colors, strict=True)
-    }
+    shown = {node.name: color for node, color in zip(graph.nodes, colors, strict=True)}
     ring.legend(
-        handles=[Patch(color=color, label=name) for name, color in shown.items()],
-        loc="center",
+        handles=[
+            Patch(color=shown[name], label=name or "transition")
+            for name in sorted(shown, key=lambda name: not name)
+        ],
+        loc="center right",
+        bbox_to_anchor=(0, 0.5),  # beside the ring, clear of its edges
         frameon=False,
     )
     ends = np.array([(e.head, e.tail) for e in graph.edges])
