@@ -31,6 +31,11 @@ def quaternions(seed: int, *shape: int) -> np.ndarray:
     return q / np.linalg.norm(q, axis=-1, keepdims=True)
 
 
+def test_a_motion_prints_in_one_line() -> None:
+    motion = Motion.from_rotations(ARM, [[STILL, QUARTER, STILL]] * 45, 30)
+    assert repr(motion) == "<Motion of 45 frames (1.5 s) at 30 Hz: 3 joints, 1 of them end sites>"
+
+
 def test_forward_kinematics_of_a_bent_arm() -> None:
     motion = Motion.from_rotations(ARM, [[STILL, QUARTER, STILL]], 30, [[0, 1, 0]])
     np.testing.assert_allclose(motion.positions[0], [[0, 1, 0], [1, 1, 0], [1, 2, 0]], atol=1e-15)

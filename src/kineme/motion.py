@@ -210,6 +210,12 @@ class Motion:
             skeleton, positions, fps, np.asarray(rotations, float), provenance or Provenance()
         )
 
+    def __repr__(self) -> str:
+        return (
+            f"<Motion of {self.n_frames} frames ({self.duration:.1f} s) at {self.fps:g} Hz: "
+            f"{self.skeleton.n_joints} joints, {len(self.skeleton.end_sites)} of them end sites>"
+        )
+
     @property
     def n_frames(self) -> int:
         return len(self.positions)
