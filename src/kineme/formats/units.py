@@ -89,7 +89,7 @@ def place(
         tall = _height(skeleton, translations) * metres(unit)
         if not BODIES[0] <= tall <= BODIES[1]:
             provenance = provenance.noted(
-                f"with unit {unit} the skeleton is about {tall:.2g} m tall: look whether it fits"
+                f"with unit {unit} the skeleton is about {tall:.4g} m tall: look whether it fits"
             )
     scale = metres(unit)
     skeleton = replace(skeleton, offsets=scale * skeleton.offsets)
