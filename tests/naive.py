@@ -750,19 +750,15 @@ def labels_cost(costs, labels, switch_cost):
     return sum(costs[t][label] for t, label in enumerate(labels)) + switch_cost * changes
 
 
-def nearest_within(features, step, phase, stride, g, h):
-    """Distance from each moment of g to the nearest frame at most ``phase`` bins from one of h.
-
-    Of the frames around h every ``stride``-th is looked at.
-    """
-    low, high = max(0, (h.start - phase) * step), min(len(features), (h.stop + phase) * step)
+def nearest_within(features, step, window, stride, g, h):
+    """Distances of moments of g to the nearest frame in the phase window around moments of h."""
     return np.array(
         [
             [
                 min(
-                    np.linalg.norm(features[i * step] - features[f])
-                    for f in range(low, high, stride)
-                    if abs(f - j * step) <= phase * step
+                    np.linalg.norm(features[i * step] - row)
+                    for f, row in enumerate(features)
+                    if abs(f - j * step) <= window * step
                 )
                 for j in h[::stride]
             ]
@@ -771,14 +767,16 @@ def nearest_within(features, step, phase, stride, g, h):
     )
 
 
-def distant_similarity(features, scales, step, phase, stride, softness, g, h):
-    there = nearest_within(features, step, phase, stride, g, h)
-    back = nearest_within(features, step, phase, stride, h, g)
-    values = [
-        np.exp(-(max(there[r, c], back[c, r]) ** 2) / (softness**2 * scales[i] * scales[j]))
-        for r, i in enumerate(g[::stride])
-        for c, j in enumerate(h[::stride])
-    ]
+def distant_similarity(features, scales, step, windows, stride, softness, g, h):
+    values = []
+    for window in windows:
+        there = nearest_within(features, step, window, stride, g, h)
+        back = nearest_within(features, step, window, stride, h, g)
+        values += [
+            np.exp(-(max(there[r, c], back[c, r]) ** 2) / (softness**2 * scales[i] * scales[j]))
+            for r, i in enumerate(g[::stride])
+            for c, j in enumerate(h[::stride])
+        ]
     return sum(values) / len(values)
 
 

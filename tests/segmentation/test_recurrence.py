@@ -11,7 +11,7 @@ import naive
 from bands import one_sided, points, to_matrix, two_sided
 from kineme.segmentation import _distance_kernels as distant
 from kineme.segmentation import _recurrence_kernels as kernels
-from kineme.segmentation.recurrence import recurrence
+from kineme.segmentation.recurrence import phase_windows, recurrence
 from loops import swing
 
 seconds = settings(deadline=None, max_examples=120)
@@ -97,21 +97,25 @@ def test_distances_to_classes_are_those_of_the_naive_version(features, width, ga
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
-@given(points(), STEPS, st.integers(0, 20), st.integers(1, 4), st.data())
+@given(points(), STEPS, st.lists(st.integers(0, 20), min_size=1, max_size=3), st.data())
 @seconds
 def test_stretches_far_apart_are_compared_as_in_the_naive_version(
-    features, step, phase, stride, data
+    features, step, windows, data
 ) -> None:
+    windows, stride = sorted(windows, reverse=True), data.draw(st.integers(1, 4))
     bins = -(-len(features) // step)
     g, h = (stretch(data, bins) for _ in range(2))
     ends = (g.start, g.stop, h.start, h.stop)
-    nearest = distant.nearest_within(features, step, phase, stride, *ends)
-    expected = naive.nearest_within(features, step, phase, stride, g, h)
-    np.testing.assert_allclose(nearest, expected, rtol=1e-6)
+    nearest = distant.nearest_within(features, step, np.array(windows), stride, *ends)
+    for window, found in zip(windows, nearest):
+        expected = naive.nearest_within(features, step, window, stride, g, h)
+        np.testing.assert_allclose(found, expected, rtol=1e-6)
     scales = np.linspace(0.5, 2, bins).astype(np.float32)
-    options = (features, scales, step, phase, stride, 1.5)
-    assert distant.distant_similarity(*options, *ends) == pytest.approx(
-        naive.distant_similarity(*options, g, h), abs=1e-5
+    similarity = distant.distant_similarity(
+        features, scales, step, np.array(windows), stride, 1.5, *ends
+    )
+    assert similarity == pytest.approx(
+        naive.distant_similarity(features, scales, step, windows, stride, 1.5, g, h), abs=1e-5
     )
 
 
@@ -138,10 +142,11 @@ def test_far_apart_is_as_alike_as_near_by() -> None:
         [swing(14, period=1.4), swing(10, period=2.1, axis=1), swing(12, period=1.7)]
     )
     band = recurrence(rows, **OPTIONS)
+    windows = np.array(phase_windows(band.phase))
     for g, h in [((20, 80), (420, 480)), ((20, 80), (220, 280)), ((220, 280), (420, 480))]:
         near_by = kernels.mean_similarity(band.similarity, *g, *h, band.phase)
         far = distant.distant_similarity(
-            band.features, band.scales, band.step, band.phase, 2, band.softness, *g, *h
+            band.features, band.scales, band.step, windows, 2, band.softness, *g, *h
         )
         assert far == pytest.approx(near_by, abs=0.03)
 

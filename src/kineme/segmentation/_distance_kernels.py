@@ -14,52 +14,55 @@ SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 FAR = np.float32(np.inf)
 
 
-@njit("float32[:, ::1](float32[:, ::1], int64, int64, int64, int64, int64, int64, int64)", **SUMS)
-def nearest_within(features, step, phase, stride, g_start, g_stop, h_start, h_stop):
-    """Distances from moments of g to the nearest frame in the phase window around those of h.
+@njit(
+    "float32[:, :, ::1](float32[:, ::1], int64, int64[::1], int64, int64, int64, int64, int64)",
+    **SUMS,
+)
+def nearest_within(features, step, windows, stride, g_start, g_stop, h_start, h_stop):
+    """Distances from moments of g to the nearest frame in each phase window around those of h.
 
-    Moments are every ``stride``-th bin, frames every ``stride``-th frame.
+    Moments are every ``stride``-th bin; the widest window is the first.
     """
     frames, dims = features.shape
-    low, high = max(0, (h_start - phase) * step), min(frames, (h_stop + phase) * step)
-    line = np.empty((high - low + stride - 1) // stride, np.float32)
-    nearest = np.full(
-        ((g_stop - g_start + stride - 1) // stride, (h_stop - h_start + stride - 1) // stride), FAR
-    )
-    for r in range(nearest.shape[0]):
+    low = max(0, (h_start - windows[0]) * step)
+    high = min(frames, (h_stop + windows[0]) * step)
+    line = np.empty(high - low, np.float32)
+    rows, columns = -(-(g_stop - g_start) // stride), -(-(h_stop - h_start) // stride)
+    nearest = np.full((len(windows), rows, columns), FAR)
+    for r in range(rows):
         row = features[(g_start + r * stride) * step]
         for f in range(len(line)):
             square = np.float32(0)
             for d in range(dims):
-                difference = row[d] - features[low + f * stride, d]
+                difference = row[d] - features[low + f, d]
                 square += difference * difference
             line[f] = square
-        for c in range(nearest.shape[1]):
-            center = (h_start + c * stride) * step - low
-            first = max(0, -((phase * step - center) // stride))
-            for f in range(first, min(len(line), (center + phase * step) // stride + 1)):
-                nearest[r, c] = min(nearest[r, c], line[f])
-            nearest[r, c] = np.sqrt(nearest[r, c])
+        for w in range(len(windows)):
+            reach = windows[w] * step
+            for c in range(columns):
+                center = (h_start + c * stride) * step - low
+                for f in range(max(0, center - reach), min(len(line), center + reach + 1)):
+                    nearest[w, r, c] = min(nearest[w, r, c], line[f])
+                nearest[w, r, c] = np.sqrt(nearest[w, r, c])
     return nearest
 
 
 @njit(
-    "float64(float32[:, ::1], float32[::1], int64, int64, int64, float32, int64, int64, int64,"
+    "float64(float32[:, ::1], float32[::1], int64, int64[::1], int64, float32, int64, int64, int64,"
     " int64)",
     **SUMS,
 )
 def distant_similarity(
-    features, scales, step, phase, stride, softness, g_start, g_stop, h_start, h_stop
+    features, scales, step, windows, stride, softness, g_start, g_stop, h_start, h_stop
 ):
     """Mean similarity of two stretches that the band does not reach across."""
-    there = nearest_within(features, step, phase, stride, g_start, g_stop, h_start, h_stop)
-    back = nearest_within(features, step, phase, stride, h_start, h_stop, g_start, g_stop)
+    there = nearest_within(features, step, windows, stride, g_start, g_stop, h_start, h_stop)
+    back = nearest_within(features, step, windows, stride, h_start, h_stop, g_start, g_stop)
     total = 0.0
-    for r in range(there.shape[0]):
-        for c in range(there.shape[1]):
-            distance = max(there[r, c], back[c, r])
-            unit = scales[g_start + r * stride] * scales[h_start + c * stride]
-            total += np.exp(-distance * distance / (softness * softness * unit))
+    for w, r, c in np.ndindex(there.shape):
+        distance = max(there[w, r, c], back[w, c, r])
+        unit = scales[g_start + r * stride] * scales[h_start + c * stride]
+        total += np.exp(-distance * distance / (softness * softness * unit))
     return total / there.size
 
 

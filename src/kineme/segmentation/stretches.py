@@ -115,7 +115,7 @@ def link(borders: Bins, recurrence: Recurrence, *, likeness: float, max_lag: int
 
 # Of stretches that the band does not reach across, so many bins are compared.
 EXCERPT = 60
-STRIDE = 2
+STRIDE = 3
 
 
 def _similarity(borders: Bins, recurrence: Recurrence, g: int, h: int) -> float:
@@ -128,14 +128,11 @@ def _similarity(borders: Bins, recurrence: Recurrence, g: int, h: int) -> float:
         )
         return in_band
     excerpts = (*_excerpt(g_start, g_stop), *_excerpt(h_start, h_stop))
-    distant = [
-        _distance_kernels.distant_similarity(
-            recurrence.features, recurrence.scales, recurrence.step, window, STRIDE,
-            recurrence.softness, *excerpts,
-        )
-        for window in phase_windows(recurrence.phase)
-    ]  # fmt: skip
-    return float(np.mean(distant))
+    distant: float = _distance_kernels.distant_similarity(
+        recurrence.features, recurrence.scales, recurrence.step,
+        np.array(phase_windows(recurrence.phase)), STRIDE, recurrence.softness, *excerpts,
+    )  # fmt: skip
+    return distant
 
 
 def _excerpt(start: int, stop: int) -> tuple[int, int]:
