@@ -15,6 +15,7 @@ from kineme.cli.graph import graph
 from kineme.cli.info import info
 from kineme.cli.label import label
 from kineme.cli.preset_options import with_preset_options
+from kineme.cli.reading import with_reading_options
 from kineme.cli.report import report
 from kineme.cli.segment import segment
 from kineme.cli.split import split
@@ -29,17 +30,17 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
-app.command()(with_preset_options(segment))
-app.command()(with_preset_options(split))
-app.command()(with_preset_options(report))
+app.command()(with_preset_options(with_reading_options(segment)))
+app.command()(with_preset_options(with_reading_options(split)))
+app.command()(with_preset_options(with_reading_options(report)))
 app.command()(convert)
-app.command()(info)
+app.command()(with_reading_options(info))
 app.command()(demo)
 app.command()(evaluate)
 app.command()(data)
-app.command()(label)
-app.command()(transfer)
-app.command()(graph)
+app.command()(with_reading_options(label))
+app.command()(with_reading_options(transfer))
+app.command()(with_reading_options(graph))
 app.command()(synthesize)
 app.command()(studio)
 

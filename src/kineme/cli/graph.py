@@ -4,21 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import (
-    Confidence,
-    Fps,
-    Person,
-    Quiet,
-    Skeleton,
-    Unit,
-    Up,
-    read_options,
-)
+from kineme.cli.reading import Quiet
 from kineme.cli.targets import check_writable, targets
 
 if TYPE_CHECKING:
@@ -44,19 +35,10 @@ def graph(
         bool, typer.Option(help="Keep primitives after which nothing, or not all, can follow.")
     ] = False,
     quiet: Quiet = False,
-    skeleton: Skeleton = None,
-    fps: Fps = None,
-    unit: Unit = None,
-    up: Up = None,
-    person: Person = None,
-    confidence: Confidence = None,
+    reading: dict[str, Any] | None = None,
 ) -> None:
     """Find which primitives of recordings can be played one after the other."""
-    options = {
-        k: v
-        for k, v in read_options(skeleton, fps, unit, up, person, confidence).items()
-        if v is not None
-    }
+    options = {k: v for k, v in (reading or {}).items() if v is not None}
     tables = targets("--segments", segments, files, ".json")
     failures = Failures()
     with failures.caught(output), progress(output.name, quiet=quiet) as stage:

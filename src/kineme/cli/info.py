@@ -9,18 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.messages import Failures
-from kineme.cli.reading import (
-    Confidence,
-    Effectors,
-    Fps,
-    Json,
-    Person,
-    Skeleton,
-    Unit,
-    Up,
-    effector_names,
-    read_options,
-)
+from kineme.cli.reading import Effectors, Json, effector_names
 from kineme.cli.signals import Columns, SignalOptions, show_signals, signal_facts
 from kineme.errors import EndEffectorError
 
@@ -36,21 +25,16 @@ def info(
     ],
     joints: Annotated[bool, typer.Option("--joints", help="Show the tree of joints.")] = False,
     json: Json = False,
-    skeleton: Skeleton = None,
-    fps: Fps = None,
-    unit: Unit = None,
-    up: Up = None,
-    person: Person = None,
-    confidence: Confidence = None,
     effectors: Effectors = None,
     columns: Columns = None,
+    reading: dict[str, Any] | None = None,
 ) -> None:
     """Tell a recording's format, length, frame rate and skeleton or channels."""
-    reading = read_options(skeleton, fps, unit, up, person, confidence)
+    reading = reading or {}
     from kineme.formats import read
 
     failures = Failures()
-    signals = SignalOptions.of(columns, fps)
+    signals = SignalOptions.of(columns, reading.get("fps"))
     for path in files:
         with failures.caught(path):
             if signals.mean(path):

@@ -3,23 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import (
-    Confidence,
-    Effectors,
-    Fps,
-    Person,
-    Quiet,
-    Skeleton,
-    Unit,
-    Up,
-    effector_names,
-    read_options,
-)
+from kineme.cli.reading import Effectors, Quiet, effector_names
 
 
 def label(
@@ -35,20 +24,15 @@ def label(
         Path, typer.Option(help="Knowledge base to add to, .npz; made if it is not there.")
     ],
     quiet: Quiet = False,
-    skeleton: Skeleton = None,
-    fps: Fps = None,
-    unit: Unit = None,
-    up: Up = None,
-    person: Person = None,
-    confidence: Confidence = None,
     effectors: Effectors = None,
+    reading: dict[str, Any] | None = None,
 ) -> None:
     """Add the labelled primitives of a recording to a knowledge base.
 
     Where the labels name whole activities only, the recording is cut into primitives first.
     What the knowledge base held of this recording is replaced.
     """
-    reading = read_options(skeleton, fps, unit, up, person, confidence)
+    reading = reading or {}
     names = effector_names(effectors)
     failures = Failures()
     with failures.caught(file), progress(file.name, quiet=quiet) as stage:

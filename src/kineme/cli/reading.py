@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import inspect
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from functools import wraps
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -54,31 +57,45 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print warnings and e
 Json = Annotated[bool, typer.Option("--json", help="Print JSON, one line per recording.")]
 
 
-def read_options(
-    skeleton: Path | None,
-    fps: float | None,
-    unit: str | None,
-    up: str | None,
-    person: str | None = None,
-    confidence: float | None = None,
-) -> dict[str, Any]:
-    """Keywords for `kineme.read`, checked before any file is opened."""
+OPTIONS: dict[str, Any] = {
+    "skeleton": Skeleton,
+    "fps": Fps,
+    "unit": Unit,
+    "up": Up,
+    "person": Person,
+    "confidence": Confidence,
+}
+"""What `kineme.read` takes besides the path, as options of a command."""
+
+
+def with_reading_options(command: Callable[..., None]) -> Callable[..., None]:
+    """The command with these options; checked, they reach it as ``reading``."""
+    signature = inspect.signature(command, eval_str=True)
+    own = [p for p in signature.parameters.values() if p.name != "reading"]
+    kind = inspect.Parameter.KEYWORD_ONLY
+    options = [
+        inspect.Parameter(name, kind, default=None, annotation=option)
+        for name, option in OPTIONS.items()
+    ]
+
+    @wraps(command)
+    def wrapped(**values: Any) -> None:
+        given = {name: values.pop(name) for name in OPTIONS}
+        command(**values, reading=_checked(given))
+
+    wrapped.__signature__ = signature.replace(parameters=[*own, *options])  # type: ignore[attr-defined]
+    wrapped.__annotations__ = {p.name: p.annotation for p in (*own, *options)}
+    return wrapped
+
+
+def _checked(given: dict[str, Any]) -> dict[str, Any]:
+    """Keywords for `kineme.read`, before any file is opened."""
     from kineme.formats import ReadOptions
 
+    with suppress(TypeError, ValueError):
+        given = {**given, "unit": float(given["unit"])}
     try:
-        size = float(unit) if unit is not None else None
-    except ValueError:
-        size = None
-    given = {
-        "skeleton": skeleton,
-        "fps": fps,
-        "unit": unit if size is None else size,
-        "up": up,
-        "person": person,
-        "confidence": confidence,
-    }
-    try:
-        ReadOptions(**given)  # type: ignore[arg-type]
+        ReadOptions(**given)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
     return given

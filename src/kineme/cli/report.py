@@ -8,18 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import (
-    Confidence,
-    Effectors,
-    Fps,
-    Person,
-    Quiet,
-    Skeleton,
-    Unit,
-    Up,
-    effector_names,
-    read_options,
-)
+from kineme.cli.reading import Effectors, Quiet, effector_names
 from kineme.cli.segment import run
 from kineme.cli.signals import Columns, Emg, SignalOptions, run_signals
 from kineme.cli.targets import check_writable, targets
@@ -54,16 +43,11 @@ def report(
     ] = None,
     preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
     quiet: Quiet = False,
-    skeleton: Skeleton = None,
-    fps: Fps = None,
-    unit: Unit = None,
-    up: Up = None,
-    person: Person = None,
-    confidence: Confidence = None,
     effectors: Effectors = None,
     columns: Columns = None,
     emg: Emg = False,
     overrides: dict[str, Any] | None = None,
+    reading: dict[str, Any] | None = None,
 ) -> None:
     """Write a page on which a recording plays beside its segments, for any browser.
 
@@ -74,8 +58,8 @@ def report(
         chosen = resolve_preset(preset, **overrides)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    reading = read_options(skeleton, fps, unit, up, person, confidence)
-    signals = SignalOptions.of(columns, fps, emg=emg)
+    reading = reading or {}
+    signals = SignalOptions.of(columns, reading.get("fps"), emg=emg)
     names = effector_names(effectors)
     pages = [page for page in targets("--output", output, files, ".html") if page is not None]
     tables = targets("--segments", segments, files, ".segments.json")

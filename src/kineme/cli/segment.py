@@ -9,19 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import (
-    Confidence,
-    Effectors,
-    Fps,
-    Json,
-    Person,
-    Quiet,
-    Skeleton,
-    Unit,
-    Up,
-    effector_names,
-    read_options,
-)
+from kineme.cli.reading import Effectors, Json, Quiet, effector_names
 from kineme.cli.signals import Columns, Emg, SignalOptions, run_signals
 from kineme.cli.targets import check_writable, targets
 from kineme.errors import ParameterError
@@ -63,16 +51,11 @@ def segment(
     level: Annotated[Level, typer.Option(help="Rows to print.")] = "activity",
     json: Json = False,
     quiet: Quiet = False,
-    skeleton: Skeleton = None,
-    fps: Fps = None,
-    unit: Unit = None,
-    up: Up = None,
-    person: Person = None,
-    confidence: Confidence = None,
     effectors: Effectors = None,
     columns: Columns = None,
     emg: Emg = False,
     overrides: dict[str, Any] | None = None,
+    reading: dict[str, Any] | None = None,
 ) -> None:
     """Cut recordings into activities, transitions and repeated primitives."""
     overrides = overrides or {}
@@ -80,13 +63,13 @@ def segment(
         chosen = resolve_preset(preset, **overrides)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    reading = read_options(skeleton, fps, unit, up, person, confidence)
+    reading = reading or {}
     tables = targets("--output", output, files, ".csv")
     pictures = targets("--plot", plot, files, ".png")
     pages = targets("--report", report, files, ".html")
     failures = Failures()
     names = effector_names(effectors)
-    signals = SignalOptions.of(columns, fps, emg=emg)
+    signals = SignalOptions.of(columns, reading.get("fps"), emg=emg)
     source: Motion | Signals
     for path, table, picture, page in zip(files, tables, pictures, pages, strict=True):
         with failures.caught(path):

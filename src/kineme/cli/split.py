@@ -8,18 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import (
-    Confidence,
-    Effectors,
-    Fps,
-    Person,
-    Quiet,
-    Skeleton,
-    Unit,
-    Up,
-    effector_names,
-    read_options,
-)
+from kineme.cli.reading import Effectors, Quiet, effector_names
 from kineme.errors import ParameterError
 from kineme.segmentation.presets import DEFAULT, PRESETS, resolve_preset
 from kineme.segmentation.table import Level
@@ -49,14 +38,9 @@ def split(
     ] = None,
     preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
     quiet: Quiet = False,
-    skeleton: Skeleton = None,
-    fps: Fps = None,
-    unit: Unit = None,
-    up: Up = None,
-    person: Person = None,
-    confidence: Confidence = None,
     effectors: Effectors = None,
     overrides: dict[str, Any] | None = None,
+    reading: dict[str, Any] | None = None,
 ) -> None:
     """Write each segment of a recording as a motion file, and a manifest of them.
 
@@ -66,7 +50,7 @@ def split(
         chosen = resolve_preset(preset, **(overrides or {}))
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    reading = read_options(skeleton, fps, unit, up, person, confidence)
+    reading = reading or {}
     failures = Failures()
     with failures.caught(file):
         motion, cuts = _cuts(

@@ -9,19 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import (
-    Confidence,
-    Effectors,
-    Fps,
-    Json,
-    Person,
-    Quiet,
-    Skeleton,
-    Unit,
-    Up,
-    effector_names,
-    read_options,
-)
+from kineme.cli.reading import Effectors, Json, Quiet, effector_names
 from kineme.cli.targets import check_writable, targets
 from kineme.segmentation.table import Level
 
@@ -59,18 +47,13 @@ def transfer(
     level: Annotated[Level, typer.Option(help="Rows to print.")] = "primitive",
     json: Json = False,
     quiet: Quiet = False,
-    skeleton: Skeleton = None,
-    fps: Fps = None,
-    unit: Unit = None,
-    up: Up = None,
-    person: Person = None,
-    confidence: Confidence = None,
     effectors: Effectors = None,
+    reading: dict[str, Any] | None = None,
 ) -> None:
     """Cut recordings, and label what is like the primitives of a knowledge base."""
     if threshold is not None and not 0 < threshold < float("inf"):
         raise typer.BadParameter(f"must be a number above 0, not {threshold}")
-    reading = read_options(skeleton, fps, unit, up, person, confidence)
+    reading = reading or {}
     names = effector_names(effectors)
     tables = targets("--output", output, files, ".csv")
     failures = Failures()
