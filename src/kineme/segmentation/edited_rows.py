@@ -8,7 +8,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from kineme.segmentation.table import Segment
+from kineme.errors import ParameterError
+from kineme.segmentation.table import Level, Segment
 
 Rows = list[Segment]
 
@@ -89,6 +90,15 @@ def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, in
 def cuts(rows: Rows) -> list[int]:
     """Where one row stops and the next starts."""
     return [row.start_frame for row in rows[1:]]
+
+
+def after_border(rows: Rows, level: Level, frame: int) -> int:
+    """The number of the segment after the border; ParameterError where there is none."""
+    if frame not in cuts(rows):
+        nearest = min(cuts(rows), key=lambda border: abs(border - frame), default=None)
+        hint = "there is none" if nearest is None else f"the nearest is at {nearest}"
+        raise ParameterError(f"no border of level {level!r} is at frame {frame}; {hint}")
+    return next(i for i, row in enumerate(rows) if row.start_frame == frame)
 
 
 def length(row: Segment) -> int:

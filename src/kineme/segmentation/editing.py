@@ -20,8 +20,8 @@ from typing import get_args
 
 from kineme.errors import ParameterError
 from kineme.segmentation.edited_rows import (
-    Rows,
     adopted,
+    after_border,
     as_activity,
     as_transition,
     cut,
@@ -47,7 +47,7 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
     ParameterError : there is no such border, or ``to`` is not between its neighbours
     """
     rows = list(segmentation.level(level))
-    after = _border(rows, level, frame)
+    after = after_border(rows, level, frame)
     low, high = rows[after - 1].start_frame, rows[after].stop_frame
     if not low < to < high:
         raise ParameterError(
@@ -113,7 +113,7 @@ def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segme
     ParameterError : there is no such border, or it is one of activities, too
     """
     rows = list(segmentation.level(level))
-    after = _border(rows, level, frame)
+    after = after_border(rows, level, frame)
     longer = after if length(rows[after]) > length(rows[after - 1]) else after - 1
     return _merged(segmentation, level, after - 1, after, like=longer)
 
@@ -236,15 +236,6 @@ def _with(
         provenance=segmentation.provenance,
         timings=segmentation.timings,
     )
-
-
-def _border(rows: Rows, level: Level, frame: int) -> int:
-    """The number of the segment after the border."""
-    if frame not in cuts(rows):
-        nearest = min(cuts(rows), key=lambda border: abs(border - frame), default=None)
-        hint = "there is none" if nearest is None else f"the nearest is at {nearest}"
-        raise ParameterError(f"no border of level {level!r} is at frame {frame}; {hint}")
-    return next(i for i, row in enumerate(rows) if row.start_frame == frame)
 
 
 def _starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
