@@ -127,7 +127,7 @@ def line_route(
     if progress.worst > tolerance:
         off = points[progress.worst_at]
         raise ParameterError(
-            f"the best way is {progress.worst:.2f} m off the line near "
+            f"the best way is {np.ceil(progress.worst * 100) / 100:g} m off the line near "
             f"{off.real:.1f},{off.imag:.1f}: give a line with wider turns, recordings with more "
             f"of them, or a tolerance of {np.ceil(progress.worst * 10) / 10:g} m"
         )
