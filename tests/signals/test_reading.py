@@ -90,6 +90,8 @@ def test_channels_of_another_length_are_named(tmp_path) -> None:
     assert signals.names == ("angles_1", "angles_2")
     assert signals.provenance.notes == ("of another length, left out: emg",)
     assert read_signals(path, columns=["emg"]).values[:, 0].tolist() == muscle.tolist()
+    with pytest.raises(ReadError, match="no columns JOINT_x.* named with --columns"):
+        read(path)
     with pytest.raises(ReadError, match="'angles_1' is not as long as 'emg'"):
         read_signals(path, columns=["emg", "angles_1"])
 

@@ -138,7 +138,7 @@ def _joints(source: Source, columns: Mapping[str, ArrayLike]) -> tuple[list[str]
         shown = ", ".join(list(columns)[:8])
         raise source.error(
             "no columns JOINT_x, JOINT_y and JOINT_z found, so there are no positions "
-            f"(columns: {shown or 'none'})"
+            f"(columns: {shown or 'none'}); channels are named with --columns (read_signals)"
         )
     sureness = {
         match[1]: column for column in columns if (match := _CONFIDENCE.fullmatch(column.strip()))

@@ -22,6 +22,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from kineme.errors import ReadError
 from kineme.formats.files import Source, load
 from kineme.formats.keypoints import Person, Video, in_groups, parsed_json, video_to_motion
@@ -127,9 +129,8 @@ def _id(value: Any) -> str | None:
 def _to_motion(
     source: Source, people: list[Person], options: ReadOptions, frames: list[int]
 ) -> Motion:
-    solid = any(len(person.points[0]) == 3 for person in people)
-    if solid:  # in one view only, whose pixels are another unit
-        people = [person for person in people if len(person.points[0]) == 3]
+    in_space = [person for person in people if np.shape(person.points)[1:] == (3,)]
+    people = in_space or people  # others are in one view only, in pixels
     counts = {len(person.points) for person in people}
     for count in counts:
         if count not in NAMES:
@@ -137,6 +138,6 @@ def _to_motion(
             raise source.error(f"a person has {count} keypoints: {known} are known")
     names = NAMES[max(counts, default=25)]
     video = Video("OpenPose", names, people, SURE, frames=frames)
-    if solid:
+    if in_space:
         video = replace(video, unit=None, up=None)
     return video_to_motion(source, video, options)
