@@ -96,9 +96,26 @@ def test_convert_overwrites_nothing_and_knows_its_formats(kineme, tmp_path: Path
     assert (done.returncode, done.stdout) == (1, "")
     assert "mine.eaf: is there already" in done.stderr
     assert (tmp_path / "mine.eaf").read_text() == "corrected by hand"
-    done = kineme("convert", bundled_recording(), "other.csv")
-    assert (done.returncode, done.stdout) == (1, "")
-    assert "exercises.bvh: is a recording, and convert is for segments: cut it with" in done.stderr
     done = kineme("convert", bundled_truth(), "mine.srt", "--to", "srt")
     assert done.returncode == 2
     assert "'srt' is not one of csv, json, parquet, audacity" in done.stderr
+
+
+def test_convert_turns_a_recording_into_another_format(kineme, tmp_path: Path) -> None:
+    done = kineme("convert", bundled_recording(), "take.amc", "--unit", "cm")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    done = kineme("convert", "take.amc", "points.csv", "--fps", "60")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    before = package.read(bundled_recording(), unit="cm")
+    after = package.read(tmp_path / "points.csv")
+    assert after.fps == before.fps
+    shared = [name for name in before.skeleton.names if name in after.skeleton.names]
+    here, there = (
+        motion.positions[:, [motion.skeleton.names.index(name) for name in shared]]
+        for motion in (before, after)
+    )
+    assert len(shared) > 20
+    assert abs(here - there).max() < 1e-3
+    done = kineme("convert", bundled_recording(), "take.fbx")
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1

@@ -33,7 +33,7 @@ app = typer.Typer(
 app.command()(with_preset_options(with_reading_options(segment)))
 app.command()(with_preset_options(with_reading_options(split)))
 app.command()(with_preset_options(with_reading_options(report)))
-app.command()(convert)
+app.command()(with_reading_options(convert))
 app.command()(with_reading_options(info))
 app.command()(demo)
 app.command()(evaluate)

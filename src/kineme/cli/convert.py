@@ -1,14 +1,14 @@
-"""``kineme convert``: segments from one label format to another."""
+"""``kineme convert``: segments or recordings from one format to another."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from kineme.cli.messages import Failures
-from kineme.errors import ReadError, WriteError
+from kineme.errors import WriteError
 from kineme.export import FORMATS, read_segments, write_segments
 from kineme.segmentation.table import Level
 
@@ -19,22 +19,17 @@ def _known(name: str | None) -> str | None:
     return name
 
 
-def _check_no_recording(source: Path, from_format: str | None) -> None:
+def _is_recording(source: Path) -> bool:
+    """Whether the suffix is one of recordings and of no labels."""
     from kineme.formats import supported_formats
 
-    suffix = source.suffix.lower()
     recordings = {suffix for known in supported_formats() for suffix in known.suffixes}
-    labels = {suffix for known in FORMATS.values() for suffix in known.suffixes}
-    if from_format is None and suffix in recordings - labels:
-        raise ReadError(
-            source,
-            "is a recording, and convert is for segments: cut it with kineme segment; in Python "
-            "kineme.write(kineme.read(FROM), TO) turns it into another format",
-        )
+    labels = {suffix for known in FORMATS.values() if known.writes for suffix in known.suffixes}
+    return source.suffix.lower() in recordings - labels
 
 
 def convert(
-    source: Annotated[Path, typer.Argument(metavar="FROM", help="Table or labels to read.")],
+    source: Annotated[Path, typer.Argument(metavar="FROM", help="Segments, or a recording.")],
     target: Annotated[Path, typer.Argument(metavar="TO", help="File to write; it must be new.")],
     from_format: Annotated[
         str | None,
@@ -47,19 +42,28 @@ def convert(
     level: Annotated[
         Level | None, typer.Option(help="Segments to write; by default all the format holds.")
     ] = None,
-    fps: Annotated[
-        float | None, typer.Option(help="Frame rate of the recording, for labels in seconds only.")
-    ] = None,
     frames: Annotated[
         int | None, typer.Option(help="Length of the recording, where labels end before it.")
     ] = None,
+    reading: dict[str, Any] | None = None,
 ) -> None:
-    """Turn segments into the labels of another program, or such labels into a table."""
+    """Turn segments into labels of another program and back, or a recording into another format.
+
+    The suffixes say what is read and written: BVH, AMC, TRC, CSV and npz hold recordings.
+    --fps is the recording's frame rate, too, for labels that hold seconds only.
+    """
+    options = reading or {}
     failures = Failures()
     with failures.caught(source):
         if target.exists():
             raise WriteError(target, "is there already: remove it or name another file")
-        _check_no_recording(source, from_format)
-        segments = read_segments(source, format=from_format, fps=fps, n_frames=frames)
-        write_segments(segments, target, format=to_format, level=level)
+        if from_format is None and _is_recording(source):
+            from kineme.formats import read, write
+
+            write(read(source, **options), target)
+        else:
+            segments = read_segments(
+                source, format=from_format, fps=options.get("fps"), n_frames=frames
+            )
+            write_segments(segments, target, format=to_format, level=level)
     failures.exit()
