@@ -175,3 +175,10 @@ def test_small_movements_count_as_large_ones_do() -> None:
     np.testing.assert_array_equal(8 * small.scales, large.scales)
     limited = recurrence(rows, **{**OPTIONS, "low": 1.0, "high": 2.0})
     np.testing.assert_array_equal(limited.scales, np.clip(large.scales, 1, 2))
+
+
+@given(st.lists(st.floats(-9, 9, width=32), min_size=1, max_size=40), st.data())
+def test_the_value_of_a_rank(values, data) -> None:
+    rank = data.draw(st.integers(0, len(values) - 1))
+    found = kernels.smallest(np.array(values, np.float32), len(values), rank)
+    assert found == sorted(values)[rank]

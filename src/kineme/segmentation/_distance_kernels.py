@@ -115,24 +115,36 @@ def dips(distances, least):
     """
     rows, columns = distances.shape
     depths = np.zeros((rows, columns // 2 + 1), np.float32)
-    lowest = np.zeros(depths.shape, np.int64)
+    lowest = np.zeros((rows, columns // 2 + 1), np.int64)
     for r in range(rows):
         row = distances[r]
         turns = turning_points(row, least[r])
-        found = np.zeros(len(turns) // 2 + 1, np.float32)
-        where = np.zeros(len(found), np.int64)
+        n = len(turns)
+        found = np.zeros(n // 2 + 1, np.float32)
+        where = np.zeros(n // 2 + 1, np.int64)
         count = 0
-        while len(turns) > 1:
+        while n > 1:
             # The smallest climb is that out of the shallowest dip: take both away.
-            climbs = np.abs(row[turns[1:]] - row[turns[:-1]])
-            at = np.argmin(climbs)
-            found[count], where[count] = climbs[at], turns[at + at % 2]
+            at, climb = 0, FAR
+            for t in range(n - 1):
+                if abs(row[turns[t + 1]] - row[turns[t]]) < climb:
+                    at, climb = t, abs(row[turns[t + 1]] - row[turns[t]])
+            found[count], where[count] = climb, turns[at + at % 2]
             count += 1
-            turns = np.concatenate((turns[:at], turns[at + 2 :]))
-        found[count], where[count] = np.max(row) - row[turns[0]], turns[0]
+            n -= 2
+            for t in range(at, n):
+                turns[t] = turns[t + 2]
+        top = row[0]
+        for c in range(columns):
+            top = max(top, row[c])
+        found[count], where[count] = top - row[turns[0]], turns[0]
         place = 0
-        for i in np.argsort(-found):
+        for _ in range(len(found)):
+            i = 0
+            for other in range(1, len(found)):
+                i = other if found[other] > found[i] else i
             if found[i] >= least[r] and 0 < where[i] < columns - 1:
                 depths[r, place], lowest[r, place] = found[i], where[i]
                 place += 1
+            found[i] = -FAR
     return depths, lowest

@@ -51,18 +51,46 @@ def blur_rows(near, blur, start, stop, blurred):
     """
     lags = near.shape[1]
     size = 2 * blur + 1
-    padded = np.full(lags + 2 * size, FAR)
-    from_start = padded.copy()
-    to_end = padded.copy()
+    padded = np.empty(lags + 2 * size, np.float32)
+    from_start = np.empty(len(padded), np.float32)
+    to_end = np.empty(len(padded), np.float32)
     for i in range(start, stop):
-        padded[blur : blur + lags] = near[i]
         for p in range(len(padded)):
+            padded[p] = near[i, p - blur] if blur <= p < blur + lags else FAR
             from_start[p] = padded[p] if p % size == 0 else min(from_start[p - 1], padded[p])
         for p in range(len(padded) - 1, -1, -1):
             last = p % size == size - 1 or p == len(padded) - 1
             to_end[p] = padded[p] if last else min(to_end[p + 1], padded[p])
         for lag in range(lags):
             blurred[i, lag] = min(to_end[lag], from_start[lag + size - 1])
+
+
+@njit("float32(float32[::1], int64, int64)", **OPTIONS)
+def smallest(values, count, rank):
+    """The value of this rank, from 0, among the first ``count``, which are reordered.
+
+    Hoare's quickselect: numpy's partition would take seconds to compile.
+    """
+    low, high = 0, count - 1
+    while low < high:
+        pivot = values[(low + high) // 2]
+        left, right = low, high
+        while left <= right:
+            while values[left] < pivot:
+                left += 1
+            while values[right] > pivot:
+                right -= 1
+            if left <= right:
+                values[left], values[right] = values[right], values[left]
+                left += 1
+                right -= 1
+        if rank <= right:
+            high = right
+        elif rank >= left:
+            low = left
+        else:
+            break
+    return values[rank]
 
 
 @njit(
@@ -84,7 +112,7 @@ def local_scales(blurred, gap, rank, start, stop, low, high, scales):
                     count += 1
         scales[i] = high
         if count > rank:
-            scales[i] = max(low, np.partition(row[:count], rank)[rank])
+            scales[i] = max(low, smallest(row, count, rank))
 
 
 @njit(

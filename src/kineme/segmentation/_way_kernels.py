@@ -40,8 +40,16 @@ def poses_at(poses, path, lengths):
     """The poses at these lengths along the path."""
     found = np.empty((len(lengths), poses.shape[1]))
     for i in range(len(lengths)):
-        frame = np.searchsorted(path, lengths[i], side="right") - 1
-        found[i] = poses[min(max(frame, 0), len(poses) - 1)]
+        low, high = 0, len(path)  # the first frame that is farther
+        while low < high:
+            middle = (low + high) // 2
+            if path[middle] <= lengths[i]:
+                low = middle + 1
+            else:
+                high = middle
+        frame = min(max(low - 1, 0), len(poses) - 1)
+        for d in range(poses.shape[1]):
+            found[i, d] = poses[frame, d]
     return found
 
 
@@ -98,8 +106,13 @@ def unlike(parts):
 def parts_between(poses, path, visits, places):
     """(parts, places, dims): poses evenly along the path from each visit to the next."""
     parts = np.empty((len(visits) - 1, places, poses.shape[1]))
-    steps = (np.arange(places) + 0.5) / places
+    lengths = np.empty(places)
     for k in range(len(parts)):
         first, last = path[visits[k]], path[visits[k + 1]]
-        parts[k] = poses_at(poses, path, first + (last - first) * steps)
+        for p in range(places):
+            lengths[p] = first + (last - first) * ((p + 0.5) / places)
+        found = poses_at(poses, path, lengths)
+        for p in range(places):
+            for d in range(poses.shape[1]):
+                parts[k, p, d] = found[p, d]
     return parts
