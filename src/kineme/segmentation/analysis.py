@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._threads import map_threads
 from kineme.errors import ParameterError
-from kineme.features.bundling import bundle
 from kineme.graph import NeighborGraph, component_labels, neighbor_graph
 from kineme.segmentation import _kernels
 from kineme.segmentation.activities import ActivityCuts, scan_line_cuts, square_cuts
@@ -87,6 +86,8 @@ def analyze(
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
     if preset.bundling is not None:
+        from kineme.features.bundling import bundle  # compiled code that few need
+
         with stage("bundling"):
             features = bundle(features, neighbors=preset.bundling)
     with stage("neighbors"):
