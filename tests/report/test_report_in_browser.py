@@ -7,6 +7,7 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import pytest
@@ -35,14 +36,21 @@ class Page:
         tab.on("pageerror", lambda error: self.complaints.append(str(error)))
         tab.on("request", lambda request: self.requests.append(request.url))
         tab.goto(file.as_uri())
-        tab.wait_for_function("window.kineme?.hasMotion", timeout=60_000)
+        self.wait("s?.hasMotion", seconds=60)
 
     def state(self) -> Any:
         return self.tab.evaluate("window.kineme")
 
-    def wait(self, condition: str) -> None:
-        """Until a condition on the state, called ``s``, holds."""
-        self.tab.wait_for_function(f"(() => {{ const s = window.kineme; return {condition}; }})()")
+    def wait(self, condition: str, *, seconds: float = 30) -> None:
+        """Until a condition on the state, called ``s``, holds.
+
+        Asked from here: what would ask inside the page is barred by the page's own policy.
+        """
+        end = monotonic() + seconds
+        question = f"(() => {{ const s = window.kineme; return Boolean({condition}); }})()"
+        while not self.tab.evaluate(question):
+            assert monotonic() < end, f"not within {seconds} s: {condition}"
+            self.tab.wait_for_timeout(50)
 
     def pictures(self) -> dict[str, str]:
         """A digest of what is seen in each place, once nothing moves any more."""

@@ -80,9 +80,10 @@ def standardized(values: ArrayLike) -> Floats:
     """The channels with mean 0 and standard deviation 1; those that never change are 0."""
     centred = np.asarray(values, np.float64)
     centred = centred - centred.mean(axis=0)
-    deviation: Floats = centred.std(axis=0)
-    steady = deviation <= 1e-12 * np.abs(values).max(axis=0)
-    scaled: Floats = centred / np.where(steady, 1.0, deviation)
+    largest = np.abs(centred).max(axis=0)
+    steady = largest <= 1e-12 * np.abs(values).max(axis=0)
+    scaled: Floats = centred / np.where(steady, 1.0, largest)  # squares of tiny numbers vanish
+    scaled /= np.where(steady, 1.0, scaled.std(axis=0))
     scaled[:, steady] = 0.0
     return scaled
 
