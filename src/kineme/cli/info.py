@@ -78,9 +78,7 @@ def _facts(motion: Motion, names: Names | None) -> dict[str, Any]:
 
 
 def _show(facts: dict[str, Any], motion: Motion, *, joints: bool) -> None:
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
+    from kineme.cli.tables import show_facts
 
     parts = facts["end_effectors"] or {}
     lines = {
@@ -93,15 +91,7 @@ def _show(facts: dict[str, Any], motion: Motion, *, joints: bool) -> None:
         or "not found",
         "SHA-256": facts["sha256"],
     }
-    console = Console(highlight=False)
-    grid = Table.grid(padding=(0, 2))
-    for name, value in (*lines.items(), *(("note", note) for note in facts["notes"])):
-        grid.add_row(Text(name, style="dim"), Text(str(value)))
-    console.print(Text(str(facts["path"]), style="bold"))
-    console.print(grid)
-    if joints:
-        console.print(_tree(motion))
-    console.print()
+    show_facts(facts, lines, below=_tree(motion) if joints else None)
 
 
 def _tree(motion: Motion) -> Any:

@@ -103,9 +103,7 @@ def signal_facts(signals: Signals) -> dict[str, Any]:
 
 def show_signals(facts: dict[str, Any]) -> None:
     """Print the facts for people."""
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
+    from kineme.cli.tables import show_facts
 
     lines = {
         "format": f"{facts['format']}, signals without a skeleton",
@@ -113,10 +111,4 @@ def show_signals(facts: dict[str, Any]) -> None:
         "channels": f"{len(facts['channels'])}: {', '.join(facts['channels'])}",
         "SHA-256": facts["sha256"],
     }
-    console = Console(highlight=False)
-    grid = Table.grid(padding=(0, 2))
-    for name, value in (*lines.items(), *(("note", note) for note in facts["notes"])):
-        grid.add_row(Text(name, style="dim"), Text(str(value)))
-    console.print(Text(str(facts["path"]), style="bold"))
-    console.print(grid)
-    console.print()
+    show_facts(facts, lines)

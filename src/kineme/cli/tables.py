@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from rich import box
 from rich.console import Console, RenderableType
@@ -18,6 +19,21 @@ _NOTHING_FOUND = (
     "no activity found: nothing stays alike or repeats for long enough; of a recording of a few "
     "seconds --min-action 0.5 --min-stretch 0.3 or --preset krueger2017 may tell more"
 )
+
+
+def show_facts(
+    facts: Mapping[str, Any], lines: Mapping[str, object], *, below: RenderableType | None = None
+) -> None:
+    """Print what is known of a recording: its name, these lines, its notes, what goes below."""
+    console = Console(highlight=False)
+    grid = Table.grid(padding=(0, 2))
+    for name, value in (*lines.items(), *(("note", note) for note in facts["notes"])):
+        grid.add_row(Text(name, style="dim"), Text(str(value)))
+    console.print(Text(str(facts["path"]), style="bold"))
+    console.print(grid)
+    if below is not None:
+        console.print(below)
+    console.print()
 
 
 def show_segments(
