@@ -8,21 +8,9 @@ import numpy as np
 import pytest
 
 import kineme
-from kineme.datasets import bundled_recording
-from kineme.datasets.bundled import bundled_truth
 from kineme.errors import ParameterError
 from kineme.motion import Motion
 from kineme.synthesis import MotionGraph, line_route, motion_graph, parse_line, synthesize
-
-
-@pytest.fixture(scope="module")
-def exercises() -> Motion:
-    return kineme.read(bundled_recording(), unit="cm")
-
-
-@pytest.fixture(scope="module")
-def graph(exercises: Motion) -> MotionGraph:
-    return motion_graph([exercises], [kineme.read_segments(bundled_truth())])
 
 
 def distances(motion: Motion, line: list[tuple[float, float]]) -> np.ndarray:

@@ -12,7 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
-from kineme.datasets import bundled_recording
 from kineme.datasets.bundled import bundled_truth
 from kineme.errors import ParameterError
 from kineme.features.point_clouds import cloud_distances, fit_clouds
@@ -32,16 +31,6 @@ from kineme.synthesis import (
     read_graph,
     write_graph,
 )
-
-
-@pytest.fixture(scope="module")
-def exercises() -> Motion:
-    return kineme.read(bundled_recording(), unit="cm")
-
-
-@pytest.fixture(scope="module")
-def graph(exercises: Motion) -> MotionGraph:
-    return motion_graph([exercises], [kineme.read_segments(bundled_truth())])
 
 
 def small(names: str, edges: list[tuple[int, int]]) -> MotionGraph:

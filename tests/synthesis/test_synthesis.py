@@ -11,8 +11,6 @@ import pytest
 
 import kineme
 from kineme import _rotations as rot
-from kineme.datasets import bundled_recording
-from kineme.datasets.bundled import bundled_truth
 from kineme.errors import ParameterError
 from kineme.features import end_effectors
 from kineme.kinematics import forward_kinematics, local_translations, world_rotations
@@ -31,16 +29,6 @@ from kineme.synthesis import (
 )
 from kineme.synthesis.blending import jump_frames, pieces_of
 from kineme.synthesis.feet import slides
-
-
-@pytest.fixture(scope="module")
-def exercises() -> Motion:
-    return kineme.read(bundled_recording(), unit="cm")
-
-
-@pytest.fixture(scope="module")
-def graph(exercises: Motion) -> MotionGraph:
-    return motion_graph([exercises], [kineme.read_segments(bundled_truth())])
 
 
 def largest_step(motion: Motion) -> float:
