@@ -24,7 +24,15 @@ from playwright.sync_api import sync_playwright
 from _measure import verdict
 from kineme.datasets import bundled_recording
 from kineme.studio.folder import file_id
-from report_in_browser import FIRST_PICTURE, FLAGS, LEAST_RATE, SECONDS, SIZE
+from report_in_browser import (
+    FIRST_PICTURE,
+    FLAGS,
+    SIZE,
+    drawing_rate,
+    first_picture,
+    show_rate,
+    wait,
+)
 from studio import WARM, start
 
 MINUTES = (2, 60)
@@ -52,17 +60,7 @@ def main() -> None:
 
 def show(tab: Any, minutes: int, address: str) -> None:
     tab.goto("about:blank")
-    begun = perf_counter()
-    tab.goto(address)
-    wait(tab, "window.kineme?.hasMotion && window.kineme.drawn > 0")
-    tab.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-    first = perf_counter() - begun
-    tab.keyboard.press("Space")
-    tab.wait_for_timeout(2000)
-    before = tab.evaluate("[performance.now(), window.kineme.drawn]")
-    tab.wait_for_timeout(1000 * SECONDS)
-    after = tab.evaluate("[performance.now(), window.kineme.drawn]")
-    rate = 1000 * (after[1] - before[1]) / (after[0] - before[0])
+    first, rate = first_picture(tab, address), drawing_rate(tab)
     tab.keyboard.press("Space")
     begun = perf_counter()
     tab.keyboard.press("s")
@@ -72,15 +70,8 @@ def show(tab: Any, minutes: int, address: str) -> None:
     print(f"{minutes} minutes, {n} segments")
     promise = f"; {verdict(first, FIRST_PICTURE)}" if minutes <= 2 else ""
     print(f"  first picture {first:.2f} s{promise}")
-    kept = "kept" if rate >= LEAST_RATE else "NOT KEPT"
-    print(f"  {rate:.0f} pictures per second; at least {LEAST_RATE} promised: {kept}")
+    show_rate(rate)
     print(f"  an edit, shown and on the disk: {edit:.2f} s")
-
-
-def wait(tab: Any, condition: str) -> None:
-    """Until the condition holds; asked from outside, as the page's policy wants it."""
-    while not tab.evaluate(condition):
-        tab.wait_for_timeout(10)
 
 
 def repeated(bvh: str, n_frames: int) -> str:
