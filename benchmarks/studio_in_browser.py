@@ -53,7 +53,7 @@ def main() -> None:
         tab.wait_for_timeout(1000 * WARM)
         for minutes in MINUTES:
             recording = file_id(folder / f"{minutes}_minutes.bvh")
-            show(tab, minutes, f"{studio.base}/?token={studio.token}#open={recording}")
+            show(tab, minutes, f"{studio.base}/?token={studio.token}&open={recording}")
         browser.close()
         studio.end()
 

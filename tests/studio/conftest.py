@@ -13,6 +13,7 @@ from studio_clients import PORT, TOKEN, Process, Studio
 
 from kineme.datasets import bundled_recording
 from kineme.studio.app import create_app
+from kineme.studio.documents import Documents
 from kineme.studio.events import Hub
 from kineme.studio.folder import Folder
 
@@ -46,7 +47,9 @@ def make_studio(folder: Path) -> Iterator[Callable[..., Studio]]:
     clients = []
 
     def make(files: list[Path] | None = None, **options: Any) -> Studio:
-        app = create_app(Folder(folder, files), token=TOKEN, port=PORT, hub=Hub(), **options)
+        hub = Hub()
+        documents = Documents(Folder(folder, files), hub.tell)
+        app = create_app(documents, token=TOKEN, port=PORT, hub=hub, **options)
         client = TestClient(
             app,
             base_url=f"http://127.0.0.1:{PORT}",

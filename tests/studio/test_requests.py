@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from message_types import conforms
+from studio_clients import TOKEN
 
 import kineme
 from kineme.export import FORMATS
@@ -47,6 +48,23 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
     assert not any(file["corrected"] for file in state["recordings"])
     assert state["default_preset"] == state["presets"][0]["name"]
     assert conforms(messages.State, state)
+
+
+def test_what_the_pages_address_names_is_opened_ahead(studio, monkeypatch) -> None:
+    studio.get(f"/?token={TOKEN}&open=none&open={studio.id}")
+    monkeypatch.setattr("kineme.studio.takes._read", _unread)
+    assert studio.recording()["segmentation"]["segments"]
+
+
+@pytest.mark.parametrize("token", ["", "wrong"])
+def test_nothing_is_opened_ahead_without_the_token(studio, token, monkeypatch) -> None:
+    studio.client.headers.pop("x-kineme-token")
+    monkeypatch.setattr("kineme.studio.takes._read", _unread)
+    assert studio.get(f"/?token={token}&open={studio.id}").status_code == 200
+
+
+def _unread(_: Path) -> None:
+    pytest.fail("the file is read")
 
 
 def test_each_preset_offers_its_own_constants_with_their_help(studio) -> None:

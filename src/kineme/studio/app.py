@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from starlette.applications import Starlette
+from starlette.background import BackgroundTask
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
@@ -14,10 +15,9 @@ from starlette.routing import Route
 from kineme.errors import KinemeError, WriteError
 from kineme.studio.documents import ConflictError, Documents, UnknownError
 from kineme.studio.events import Hub
-from kineme.studio.folder import Folder
 from kineme.studio.pages import STATIC, Pages
 from kineme.studio.routes import Api
-from kineme.studio.security import Guard
+from kineme.studio.security import Guard, is_trusted
 from kineme.studio.uploads import LIMIT, TooLargeError
 
 Handler = Callable[[Request, Exception], Response]
@@ -30,30 +30,37 @@ STATUS: dict[type[Exception], int] = {
 
 
 def create_app(
-    folder: Folder,
+    documents: Documents,
     *,
     token: str,
     port: int,
-    hub: Hub | None = None,
+    hub: Hub,
     static: Path = STATIC,
     limit: int = LIMIT,
 ) -> Guard:
-    """The studio of a folder, as an ASGI application.
+    """The studio of some recordings, as an ASGI application.
 
     Parameters
     ----------
     token : what requests must carry
     port : the server's own
-    hub : where news go through, for who must close it
+    hub : where the documents' news go through
     static : the built page
     limit : bytes of an upload
     """
-    hub = hub or Hub()
-    api = Api(Documents(folder, hub.tell), hub, limit=limit)
+    api = Api(documents, hub, limit=limit)
     pages = Pages(static)
+
+    def page(request: Request) -> Response:
+        answer = pages.answer(request)
+        if is_trusted(request):  # the recordings are read while the browser sets up the page
+            names = request.query_params.getlist("open")
+            answer.background = BackgroundTask(documents.prepare, names)
+        return answer
+
     handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _refused)
     app = Starlette(
-        routes=[*api.routes(), Route("/", pages.answer), Route("/{path:path}", pages.answer)],
+        routes=[*api.routes(), Route("/", page), Route("/{path:path}", pages.answer)],
         exception_handlers={
             **handlers,
             ConflictError: _conflict,

@@ -9,10 +9,12 @@ that was acknowledged outlives the server, one that was not has changed nothing.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, cast
 
+from kineme.errors import KinemeError
 from kineme.export import json_table
 from kineme.report.messages import Edit, Edited, Recording, Segments
 from kineme.segmentation.result import Segmentation
@@ -191,6 +193,12 @@ class Documents:
         if anew:
             self._changed(name, message["revision"])
         return message
+
+    def prepare(self, names: Iterable[str]) -> None:
+        """Open recordings before they are asked for; what is wrong with one is said then."""
+        for name in names:
+            with suppress(KinemeError, UnknownError):
+                self.recording(name)
 
     def edit(self, name: str, revision: int, edit: Edit) -> Edited:
         """The recording's table after an edit; see :meth:`Document.edit`."""

@@ -16,12 +16,14 @@ from typing import Any
 from urllib.parse import parse_qs
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import Request
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 TOKEN_HEADER = "x-kineme-token"  # noqa: S105 (a header's name)
-EVENTS = "/api/events"
-"""The one path that takes the token in its address: browsers send no headers for events."""
+IN_ADDRESS = ("/", "/api/events")
+"""Paths that take the token in their address: browsers send no headers for pages and events."""
+TRUSTED = "kineme.trusted"
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
@@ -74,6 +76,7 @@ class Guard:
                 headers.setdefault("cache-control", "no-store")
             await send(message)
 
+        scope[TRUSTED] = scope["type"] == "http" and self._knows(scope, Headers(scope=scope))
         refusal = self._refusal(scope)
         if refusal is None:
             await self._app(scope, receive, send_with_headers)
@@ -92,12 +95,17 @@ class Guard:
             return "pages of other origins may not ask this server"
         if headers.get("sec-fetch-site") == "cross-site" and scope["path"] != "/":
             return "pages of other sites may not ask this server"
-        if scope["path"].startswith("/api") and not self._knows(scope, headers):
+        if scope["path"].startswith("/api") and not scope[TRUSTED]:
             return "the token is missing or wrong: use the address that kineme studio printed"
         return None
 
     def _knows(self, scope: MutableMapping[str, Any], headers: Headers) -> bool:
         given = headers.get(TOKEN_HEADER)
-        if given is None and scope["path"] == EVENTS:
+        if given is None and scope["path"] in IN_ADDRESS:
             given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
         return given is not None and secrets.compare_digest(given.encode(), self._token)
+
+
+def is_trusted(request: Request) -> bool:
+    """Whether a request that has passed the guard carries the token."""
+    return bool(request.scope[TRUSTED])

@@ -12,12 +12,16 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 from types import FrameType
+from typing import TYPE_CHECKING
 
 import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.events import Hub
 from kineme.studio.security import new_token
+
+if TYPE_CHECKING:
+    from kineme.studio.documents import Documents
 
 HOST = "127.0.0.1"
 PORT = 8750
@@ -72,13 +76,15 @@ def serve(
             threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
         # The browser starts meanwhile; its first request waits in the socket.
         from kineme.studio.app import create_app
+        from kineme.studio.documents import Documents
         from kineme.studio.folder import Folder
         from kineme.studio.uploads import forget_drafts
 
         hub = Hub()
+        documents = Documents(Folder(root, files), hub.tell)
         forget_drafts(root)
         config = uvicorn.Config(
-            create_app(Folder(root, files), token=token, port=number, hub=hub),
+            create_app(documents, token=token, port=number, hub=hub),
             log_level=logging.ERROR,
             access_log=False,  # addresses hold the token
             server_header=False,
@@ -86,7 +92,9 @@ def serve(
             proxy_headers=False,
             timeout_graceful_shutdown=PATIENCE,
         )
-        threading.Thread(target=make_ready, name="make ready", daemon=True).start()
+        threading.Thread(
+            target=make_ready, args=[documents], name="make ready", daemon=True
+        ).start()
         Server(config, hub).run(sockets=[opened])
 
 
@@ -110,14 +118,20 @@ def listening(port: int | None) -> socket.socket:
     raise ParameterError(f"port {which} not free ({reason}): name another with --port")
 
 
-def make_ready() -> None:
-    """Load or build the compiled code before it is asked for, that of the default first."""
+def make_ready(documents: Documents) -> None:
+    """Open the only recording, which every page shows, and load or build the compiled code.
+
+    That of the default preset first.
+    """
     from kineme.datasets import bundled_recording
     from kineme.formats import read
     from kineme.report.recording import footage
     from kineme.segmentation.presets import DEFAULT, PRESETS
     from kineme.segmentation.segmenter import segment
 
+    names = list(documents.folder.recordings())
+    if len(names) == 1:
+        documents.prepare(names)
     try:
         motion = read(bundled_recording())
         footage(motion)

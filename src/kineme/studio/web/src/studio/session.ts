@@ -172,12 +172,14 @@ export class Session {
   }
 }
 
-/** The recordings named in the address, so that a reload finds them. */
+/** The recordings named in the address, so that a reload finds them, and the server ahead of it. */
 function fromAddress(): string[] {
-  return new URLSearchParams(location.hash.slice(1)).getAll("open");
+  return new URLSearchParams(location.search).getAll("open");
 }
 
 function toAddress(opened: Opened[]): void {
-  const open = opened.map((each) => ["open", each.recording.peek().id]);
-  history.replaceState(null, "", `${location.search}#${new URLSearchParams(open)}`);
+  const address = new URLSearchParams(location.search);
+  address.delete("open");
+  for (const each of opened) address.append("open", each.recording.peek().id);
+  history.replaceState(null, "", `?${address}`);
 }

@@ -22,7 +22,9 @@ export function shareToken(api: Api): void {
   channel.onmessage = async ({ data: token }: MessageEvent<string>) => {
     if (token === api.token || (await isGood(api.token)) || !(await isGood(token))) return;
     api.token = token;
-    history.replaceState(null, "", `?token=${encodeURIComponent(token)}${location.hash}`);
+    const address = new URLSearchParams(location.search);
+    address.set("token", token);
+    history.replaceState(null, "", `?${address}`);
   };
   channel.postMessage(api.token);
 }
