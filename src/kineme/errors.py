@@ -51,7 +51,11 @@ class MotionError(KinemeError, ValueError):
 
 
 class EndEffectorError(MotionError):
-    """Head, hands or feet were not found in the skeleton."""
+    """Head, hands or feet were not found in the skeleton; ``reason`` is why, without advice."""
+
+    def __init__(self, message: str, *, reason: str | None = None):
+        self.reason = reason or message
+        super().__init__(message)
 
 
 class ParameterError(KinemeError, ValueError):

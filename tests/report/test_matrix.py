@@ -12,10 +12,19 @@ from PIL import Image
 import kineme
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import ParameterError
+from kineme.motion import Motion, Skeleton
 from kineme.report.matrix import MOST_CELLS, TILE, Matrix, matrix_of_motion, matrix_of_signal
 
 RECORDING = kineme.read(bundled_recording())
 MATRIX = matrix_of_motion(RECORDING)
+LEG_JOINTS = [
+    i for i, name in enumerate(RECORDING.skeleton.names) if name.endswith(("Leg", "Foot"))
+]
+LEGS = Motion(
+    Skeleton([str(joint) for joint in LEG_JOINTS], [-1] * 6, np.zeros((6, 3))),
+    RECORDING.positions[:, LEG_JOINTS],
+    RECORDING.fps,
+)
 
 
 def shown(matrix: Matrix, level: int = 0) -> np.ndarray:
@@ -48,21 +57,23 @@ def test_coarser_levels_halve_until_one_tile_is_left() -> None:
     assert shown(long, 4).shape == (188, 188)
 
 
-def test_from_afar_activities_are_plain_blocks() -> None:
+@pytest.mark.parametrize(("motion", "times"), [(RECORDING, 3), (LEGS, 2)])
+def test_from_afar_activities_are_plain_blocks(motion: Motion, times: float) -> None:
     """Moments of one activity are alike whatever their phase, those of different ones are not."""
     truth = kineme.read_segments(bundled_truth())
-    level = matrix_of_motion(RECORDING).levels
-    assert len(level) == 2
-    cells = np.arange(len(level[1])) / 5 + 0.1  # seconds
+    matrix = matrix_of_motion(motion)
+    assert matrix.head()["sizes"] == [483, 242]
+    cells = np.arange(242) / 5 + 0.1  # seconds
     rows = truth.activities
     owner = np.searchsorted(rows.start_s, cells, side="right") - 1
     same = (owner[:, None] == owner) & (rows.kind == "activity")[owner]
-    picture = shown(MATRIX, 1)
-    assert picture[same].mean() > 3 * picture[~same].mean()
+    picture = shown(matrix, 1)
+    assert picture[same].mean() > times * picture[~same].mean()
 
 
-def test_a_gap_is_like_nothing() -> None:
-    holed = matrix_of_motion(replace(RECORDING, gaps=((600, 900),)))
+@pytest.mark.parametrize("motion", [RECORDING, LEGS])
+def test_a_gap_is_like_nothing(motion: Motion) -> None:
+    holed = matrix_of_motion(replace(motion, gaps=((600, 900),)))
     for level, (start, stop) in enumerate(((100, 150), (51, 74))):
         picture = shown(holed, level)
         assert (picture[start:stop] == 0).all()

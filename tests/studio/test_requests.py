@@ -237,15 +237,28 @@ def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
     assert studio.get(f"/api/recordings/{studio.id}/export/json?level=both").status_code == 400
 
 
-def test_a_body_without_hands_is_shown_whole(studio, folder: Path) -> None:
+def test_a_body_without_hands_is_segmented_by_the_distances_between_its_points(
+    studio, folder: Path
+) -> None:
     (folder / "stick.bvh").write_text(
         "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
         "End Site\n{\nOFFSET 0 90 0\n}\n}\nMOTION\nFrames: 40\nFrame Time: 0.1\n" + "0 0 0\n" * 40
     )
     files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
     message = studio.get(f"/api/recordings/{files['stick.bvh']}").json()
+    assert {row["stop_frame"] for row in message["segmentation"]["segments"]} == {40}
+    notes = message["segmentation"]["provenance"]["notes"]
+    assert any("by the distances between 2 of its 2 points" in note for note in notes)
+
+
+def test_a_single_point_is_shown_whole(studio, folder: Path) -> None:
+    (folder / "point.csv").write_text(
+        "p_x,p_y,p_z,time\n" + "".join(f"{i},1,0,{i / 10}\n" for i in range(40))
+    )
+    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    message = studio.get(f"/api/recordings/{files['point.csv']}").json()
     assert [row["stop_frame"] for row in message["segmentation"]["segments"]] == [40]
-    assert "not segmented" in message["warnings"][-1]
+    assert "not segmented: a single point" in message["warnings"][-1]
 
 
 def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> None:

@@ -62,7 +62,7 @@ def _facts(motion: Motion, names: Names | None) -> dict[str, Any]:
         }
     except EndEffectorError as error:
         parts = None
-        notes.append(str(error))
+        notes.append(f"{error}; until then segments come from the distances between points")
     return {
         "path": source.path,
         "format": source.format,

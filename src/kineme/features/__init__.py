@@ -1,9 +1,11 @@
 """Feature vectors of poses: end effectors in the body's own frame, stacked over time.
 
-``bundling`` is not loaded here: it comes with compiled code.
+Where there is no body: distances between points. ``bundling`` is not loaded
+here: it comes with compiled code.
 """
 
 from kineme.features.body_frame import body_frame, heading
+from kineme.features.distances import distance_features
 from kineme.features.effectors import PARTS, EndEffectors, Names, end_effectors
 from kineme.features.mirroring import mirror, mirror_features
 from kineme.features.pose import offsets_in_frames, pose_features, stack
@@ -15,6 +17,7 @@ __all__ = [
     "Names",
     "body_frame",
     "body_size",
+    "distance_features",
     "end_effectors",
     "heading",
     "mirror",

@@ -95,15 +95,15 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     if missing:
         raise EndEffectorError(
             f"{_listed(missing)} not found among the joints {_joint_list(skeleton)}; "
-            f"name all five with --effectors {','.join(PARTS).upper()} (names=... in Python), "
-            f"or segment coordinates as signals"
+            f"name all five with --effectors {','.join(PARTS).upper()} (names=... in Python)",
+            reason=f"no {_listed(missing)} among the joints",
         )
     joints = [found[part][0] for part in PARTS]
     if len(set(joints)) < len(PARTS):
         twice = next(joint for joint in joints if joints.count(joint) > 1)
+        reason = f"joint {skeleton.names[twice]!r} serves as two end effectors"
         raise EndEffectorError(
-            f"joint {skeleton.names[twice]!r} serves as two end effectors; "
-            f"name five different joints with --effectors"
+            f"{reason}; name five different joints with --effectors", reason=reason
         )
     return EndEffectors(*joints, how=tuple(found[part][1] for part in PARTS))
 

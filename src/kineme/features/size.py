@@ -24,8 +24,7 @@ def body_size(motion: Motion, effectors: EndEffectors) -> float:
     size = float(np.mean(legs)) + _chain(motion, effectors.head)
     if not size > 0:
         raise MotionError(
-            "the bones between ankles and head have no length, as among markers without a pelvis: "
-            "segment their coordinates as signals"
+            "the bones between ankles and head have no length, as among markers without a pelvis"
         )
     return size
 

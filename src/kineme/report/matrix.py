@@ -3,8 +3,9 @@
 A cell of level 0 says how alike two moments look: ``exp(-d²)`` of the distance
 of their features, from 0 (nothing in common, or not seen) to 1. The features
 are those of the ``kineme`` method, the ends of the body in its own frame with
-what they do 0.2 s before and after; ``d`` is 1 at a fifth of a body. Recordings
-without a body are compared by their channels, each divided by its deviation.
+what they do 0.2 s before and after; ``d`` is 1 at a fifth of a body. Motions
+without a known body are compared by the distances between their points, signals
+by their channels, each divided by its deviation.
 
 A cell of level L merges 2^L moments on either side. It compares how their poses
 are distributed, mean and deviation of each feature (the Fréchet distance of
@@ -27,8 +28,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import MotionError, ParameterError
-from kineme.features import Names, body_size, end_effectors, pose_features
+from kineme.features import Names, body_size, distance_features, end_effectors, pose_features
+from kineme.features.distances import SIZE
 from kineme.motion import Motion
+from kineme.operations import resample
 from kineme.report.messages import MatrixHead
 
 Floats = NDArray[np.float64]
@@ -105,14 +108,14 @@ class Matrix:
 
 
 def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matrix:
-    """The matrix of a motion; of its joints around their middle where it has no known body."""
+    """The matrix of a motion; of the distances between its points where it has no known body."""
     try:
         found = end_effectors(motion, names=effectors)
         values = pose_features(motion, effectors=found)
         values /= BODY_SCALE * body_size(motion, found)
     except MotionError:
-        middle = motion.positions.mean(axis=1, keepdims=True)
-        values = _standardised((motion.positions - middle).reshape(motion.n_frames, -1))
+        motion = resample(motion, min(motion.fps, 3 * RATE))  # distances are many
+        values = _distances(motion)
     for start, stop in motion.gaps:
         values[start:stop] = np.nan
     return _pyramid(values, motion.fps, motion.duration)
@@ -141,6 +144,19 @@ def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
     lengths = np.diff(starts, append=len(signal))
     means = np.add.reduceat(signal, starts, axis=0) / lengths[:, None]
     return _pyramid(_standardised(means), fps / block, len(signal) / fps)
+
+
+def _distances(motion: Motion) -> Floats:
+    """The features of a motion without a body, in units of the scale; any where it has a gap."""
+    seen = np.ones(motion.n_frames, np.bool_)
+    for start, stop in motion.gaps:
+        seen[start:stop] = False
+    if motion.skeleton.n_joints < 2 or not seen.any():
+        return np.zeros((motion.n_frames, 1))
+    features, _ = distance_features(motion.positions[seen])
+    values = np.zeros((motion.n_frames, features.shape[1]))
+    values[seen] = features / (BODY_SCALE * SIZE)
+    return values
 
 
 def _standardised(values: Floats) -> Floats:

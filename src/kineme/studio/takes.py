@@ -12,7 +12,7 @@ from collections import OrderedDict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kineme.errors import EndEffectorError, KinemeWarning, ParameterError, ReadError
+from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError
 from kineme.formats import read
 from kineme.motion import Motion
 from kineme.segmentation.presets import DEFAULT, PRESETS, Preset
@@ -119,7 +119,7 @@ class Take:
         """The segments by the default preset, or one for all; and what to know about them."""
         try:
             return self.segment(PRESETS[DEFAULT]), []
-        except EndEffectorError as error:
+        except MotionError as error:  # a single point
             columns: dict[str, list[str] | list[int]] = {
                 "level": ["activity"],
                 "kind": ["activity"],

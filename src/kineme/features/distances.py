@@ -1,0 +1,140 @@
+"""Poses without a body: the distances between their points.
+
+Where ankles, head and wrists cannot all be found, as among the markers of two
+legs or on a wheelchair, a pose is told by how far its points are from each
+other. That depends neither on where they are, nor on the direction they face,
+nor on which axis points up.
+
+Of many points some that lie far apart stand for all. Each distance counts by
+the root of its deviation, halfway between metres, in which the largest movement
+hides all others, and standard deviations, in which noise counts as much as
+movement. What their fifteen main axes hold is scaled so that it varies as the
+fifteen numbers of a pose do, whose methods and constants then apply.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme.errors import MotionError
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+AXES = 15
+"""Numbers in a pose."""
+
+VARIATION, SIZE = 0.52, 1.65
+"""By how much a pose varies, and the body's size, both in metres: subject 86 of the CMU
+database. The first is the root of the summed variances of the fifteen numbers, in the mean."""
+
+MOST_POINTS = 16
+_FRAMES = 200  # enough to tell how points lie and move
+_ALIKE = 0.01  # of the largest distance: two points nearer than this are one
+_CONSTANT = 0.001  # of the largest distance: by less than this, a distance does not vary
+_STILL = 0.01  # of the largest movement: less than this is none
+_APART = 0.5  # of its movement: a point's distance from what it is fixed to varies less
+
+
+def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
+    """Features (frames, at most 15) that vary by `VARIATION` metres, and the points they are of.
+
+    All zero where no distance varies.
+
+    Parameters
+    ----------
+    positions : (frames, points, 3), metres, at least two points
+
+    Raises
+    ------
+    MotionError : a single point
+
+    Notes
+    -----
+    Rows are in time order: what sticks out for one frame is left out. They are
+    centred. Moving, turning and scaling the whole changes no distance between
+    two of them, but what an axis stands for is arbitrary.
+    """
+    held = np.asarray(positions, np.float64)
+    if held.shape[1] < 2:
+        raise MotionError("a single point is in no distance: segment its coordinates as signals")
+    points = spread_points(held)
+    features = _without_spikes(_distances(held[:, points]))
+    largest = float(features.mean(axis=0).max(initial=0))
+    features -= features.mean(axis=0)
+    deviation = features.std(axis=0)
+    varies = deviation > _CONSTANT * largest
+    if not varies.any():
+        return np.zeros((len(held), 1)), points
+    features, deviation = features[:, varies], deviation[varies]
+    features *= VARIATION / np.sqrt(deviation * deviation.sum())
+    if features.shape[1] > AXES:
+        axes = np.linalg.eigh(features.T @ features)[1]
+        features = features @ axes[:, -AXES:]
+    return features, points
+
+
+def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
+    """The points (at most so many, ascending) that lie farthest from each other in the mean.
+
+    Points of the lab, which stay where they are while the others go elsewhere,
+    are left out; so is all but one of those in the same place.
+
+    Parameters
+    ----------
+    positions : (frames, points, 3)
+    """
+    few = positions[:: max(1, len(positions) // _FRAMES)]
+    apart, varying = _mean_and_deviation(few)
+    kept = np.flatnonzero(~_of_the_lab(few, varying))
+    apart, varying = apart[np.ix_(kept, kept)], varying[np.ix_(kept, kept)]
+    chosen = [int(varying.sum(axis=1).argmax())]
+    nearest = apart[chosen[0]]
+    while len(chosen) < most and nearest.max() > _ALIKE * apart.max():
+        chosen.append(int(nearest.argmax()))
+        nearest = np.minimum(nearest, apart[chosen[-1]])
+    return np.sort(kept[chosen])
+
+
+def _of_the_lab(positions: Floats, varying: Floats) -> NDArray[np.bool_]:
+    """Which points never move, though none that move keep their distance from them."""
+    movement = np.linalg.norm(positions - positions.mean(axis=0), axis=2)
+    movement = np.sqrt((movement**2).mean(axis=0))
+    moves = movement > _STILL * movement.max()
+    if moves.sum() < 2:
+        return np.zeros(len(moves), np.bool_)
+    tied = (varying[:, moves] < _APART * movement[moves]).any(axis=1)
+    lonely: NDArray[np.bool_] = ~(moves | tied)
+    return lonely
+
+
+def _mean_and_deviation(positions: Floats) -> tuple[Floats, Floats]:
+    """Mean and standard deviation (points, points) of the distances."""
+    n = positions.shape[1]
+    mean, deviation = np.empty((n, n)), np.empty((n, n))
+    for point in range(n):
+        distances = np.linalg.norm(positions - positions[:, point, None], axis=2)
+        mean[point], deviation[point] = distances.mean(axis=0), distances.std(axis=0)
+    return mean, deviation
+
+
+def _without_spikes(values: Floats) -> Floats:
+    """Each value the median of itself and its two neighbours in time.
+
+    A marker that is taken for another for a moment would outweigh all movement.
+    """
+    before, here, after = values[:-2], values[1:-1], values[2:]
+    middle = np.maximum(np.minimum(before, here), np.minimum(np.maximum(before, here), after))
+    return np.concatenate([values[:1], middle, values[1:][-1:]])
+
+
+def _distances(positions: Floats) -> Floats:
+    """(frames, pairs)"""
+    pairs = list(combinations(range(positions.shape[1]), 2))
+    distances = np.empty((len(positions), len(pairs)))
+    for column, (a, b) in enumerate(pairs):
+        distances[:, column] = np.linalg.norm(positions[:, a] - positions[:, b], axis=1)
+    return distances
