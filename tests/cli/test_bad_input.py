@@ -52,7 +52,7 @@ def test_each_bad_file_is_one_sentence(kineme, tmp_path: Path) -> None:
     assert done.stdout == ""
     lines = [line for line in done.stderr.splitlines() if not line.startswith("warning: ")]
     assert len(lines) == len(BAD) + 2, done.stderr
-    for name, line in zip([*BAD, "missing.bvh", "folder"], lines, strict=True):
+    for name, line in zip(["folder", *BAD, "missing.bvh"], lines, strict=True):
         assert line.startswith(f"error: {name}"), line
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*before, "cuts"])
     assert list((tmp_path / "cuts").iterdir()) == []

@@ -99,6 +99,54 @@ def test_several_files_go_into_a_folder_and_a_bad_one_stops_no_other(
     assert tables == ["again.csv", "exercises.csv"]
 
 
+def test_a_folder_stands_for_the_recordings_in_it(kineme, tmp_path: Path, recording: Path) -> None:
+    folder = tmp_path / "takes"
+    (folder / "deeper").mkdir(parents=True)
+    short = cut(package.read(recording), 0, 300)
+    for name in ("b.bvh", "a.trc", "deeper/c.bvh"):
+        package.write(short, folder / name)
+    (folder / "notes.txt").write_text("two takes")
+    for _ in range(2):  # the second time the tables lie beside the recordings
+        done = kineme("segment", "takes", recording, "-o", "takes")
+        assert (done.returncode, done.stderr) == (0, "")
+        told = [line.split()[0] for line in done.stdout.splitlines() if " at 60 Hz" in line]
+        assert told == ["a.trc", "b.bvh", "exercises.bvh"]
+    done = kineme("info", "takes", "--json")
+    assert len(done.stdout.splitlines()) == 2
+    done = kineme("report", "takes", "-o", "pages")
+    assert {path.name for path in (tmp_path / "pages").iterdir()} == {"a.html", "b.html"}
+
+
+def test_no_table_takes_the_place_of_a_recording(kineme, tmp_path: Path, recording: Path) -> None:
+    package.write(package.read(recording), tmp_path / "take.csv")
+    before = (tmp_path / "take.csv").read_bytes()
+    for place in (".", "take.csv", tmp_path / "{name}.csv"):
+        done = kineme("segment", "take.csv", "-o", place)
+        assert done.returncode == 2
+        assert "place of a recording" in " ".join(done.stderr.split())
+    assert (tmp_path / "take.csv").read_bytes() == before
+
+
+def test_a_folder_without_recordings_is_one_sentence(kineme, tmp_path: Path) -> None:
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "empty" / "cuts.csv").write_text("start_s,stop_s,label\n0,1,walk\n")
+    for command in (("segment",), ("info",), ("report", "-o", "pages")):
+        done = kineme(*command, "empty")
+        assert (done.returncode, done.stdout) == (1, "")
+        assert done.stderr == "error: empty: there is no recording in this folder\n"
+
+
+def test_a_folder_that_is_a_recording_stays_one(kineme, tmp_path: Path) -> None:
+    folder = tmp_path / "video"
+    folder.mkdir()
+    for number in range(40):
+        keypoints = [value for point in range(25) for value in (point, number % 7 * point, 0.9)]
+        frame = {"version": 1.3, "people": [{"pose_keypoints_2d": keypoints}]}
+        (folder / f"video_{number:012}_keypoints.json").write_text(json.dumps(frame))
+    done = kineme("info", "video", "--json", "--fps", 30)
+    assert json.loads(done.stdout)["frames"] == 40
+
+
 def test_a_name_in_braces_is_replaced(kineme, tmp_path: Path, recording: Path) -> None:
     shutil.copy(recording, tmp_path / "again.bvh")
     kineme("segment", "again.bvh", recording, "-q", "-o", "{name}_cuts.json")

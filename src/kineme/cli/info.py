@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme.cli.inputs import recordings_of
 from kineme.cli.messages import Failures
 from kineme.cli.reading import Effectors, Json, effector_names
 from kineme.cli.signals import Columns, SignalOptions, show_signals, signal_facts
@@ -21,7 +22,10 @@ if TYPE_CHECKING:
 def info(
     files: Annotated[
         list[Path],
-        typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz, MOT."),
+        typer.Argument(
+            metavar="FILES",
+            help="Recordings, or folders of them: BVH, AMC, C3D, TRC, tables, npz, MOT.",
+        ),
     ],
     joints: Annotated[bool, typer.Option("--joints", help="Show the tree of joints.")] = False,
     json: Json = False,
@@ -35,7 +39,7 @@ def info(
 
     failures = Failures()
     signals = SignalOptions.of(columns, reading.get("fps"))
-    for path in files:
+    for path in recordings_of(files, failures):
         with failures.caught(path):
             if signals.mean(path):
                 facts = signal_facts(signals.read(path))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme.cli.inputs import recordings_of
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Effectors, Quiet, effector_names
 from kineme.cli.segment import run
@@ -24,7 +25,10 @@ if TYPE_CHECKING:
 def report(
     files: Annotated[
         list[Path],
-        typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz, MOT."),
+        typer.Argument(
+            metavar="FILES",
+            help="Recordings, or folders of them: BVH, AMC, C3D, TRC, tables, npz, MOT.",
+        ),
     ],
     output: Annotated[
         Path,
@@ -61,9 +65,10 @@ def report(
     reading = reading or {}
     signals = SignalOptions.of(columns, reading.get("fps"), emg=emg)
     names = effector_names(effectors)
+    failures = Failures()
+    files = recordings_of(files, failures)
     pages = [page for page in targets("--output", output, files, ".html") if page is not None]
     tables = targets("--segments", segments, files, ".segments.json")
-    failures = Failures()
     for path, page, table in zip(files, pages, tables, strict=True):
         with failures.caught(path):
             check_writable(page=page)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme.cli.inputs import recordings_of
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Effectors, Json, Quiet, effector_names
 from kineme.cli.signals import Columns, Emg, SignalOptions, run_signals
@@ -28,7 +29,10 @@ if TYPE_CHECKING:
 def segment(
     files: Annotated[
         list[Path],
-        typer.Argument(metavar="FILES", help="Recordings: BVH, AMC, C3D, TRC, tables, npz, MOT."),
+        typer.Argument(
+            metavar="FILES",
+            help="Recordings, or folders of them: BVH, AMC, C3D, TRC, tables, npz, MOT.",
+        ),
     ],
     preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
     output: Annotated[
@@ -64,10 +68,11 @@ def segment(
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
     reading = reading or {}
+    failures = Failures()
+    files = recordings_of(files, failures)
     tables = targets("--output", output, files, ".csv")
     pictures = targets("--plot", plot, files, ".png")
     pages = targets("--report", report, files, ".html")
-    failures = Failures()
     names = effector_names(effectors)
     signals = SignalOptions.of(columns, reading.get("fps"), emg=emg)
     source: Motion | Signals

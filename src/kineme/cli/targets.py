@@ -35,6 +35,13 @@ def targets(option: str, given: Path | None, inputs: list[Path], suffix: str) ->
     if len(set(paths)) < len(paths):
         twice = next(path for path in paths if paths.count(path) > 1)
         raise typer.BadParameter(f"several recordings would become {twice}", param_hint=option)
+    given_files = {path.resolve() for path in inputs}
+    for path in paths:
+        if path.resolve() in given_files:
+            raise typer.BadParameter(
+                f"{path} would take the place of a recording; give another folder or name",
+                param_hint=option,
+            )
     return list(paths)
 
 

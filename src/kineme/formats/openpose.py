@@ -61,8 +61,7 @@ def read_openpose(source: Source, data: Any, options: ReadOptions) -> Motion:
 
 def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
     """The motion of one person in a folder with a file for each frame, None if there are none."""
-    found = [(match, file) for file in path.iterdir() if (match := _NUMBER.search(file.name))]
-    numbered = sorted((int(match[1][-18:]), file) for match, file in found)
+    numbered = frame_files(path)
     if not numbered:
         return None
     for (number, file), (following, other) in pairwise(numbered):
@@ -81,6 +80,12 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
         digest.append(source.data)
     source = Source(path, b"".join(digest))
     return _to_motion(source, people, options, [number for number, _ in numbered])
+
+
+def frame_files(folder: Path) -> list[tuple[int, Path]]:
+    """The files in a folder that hold a frame each, with the numbers of the frames, in order."""
+    found = [(match, file) for file in folder.iterdir() if (match := _NUMBER.search(file.name))]
+    return sorted((int(match[1][-18:]), file) for match, file in found)
 
 
 def _frames(data: Any) -> list[tuple[int, Any]]:
