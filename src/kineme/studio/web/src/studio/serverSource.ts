@@ -4,17 +4,28 @@ import type { Source } from "../source";
 import type { Api } from "./api";
 
 export class ServerSource implements Source {
+  private coming: Promise<ArrayBuffer> | undefined;
+
   constructor(
     private readonly api: Api,
     private readonly id: string,
   ) {}
+
+  /** Asks for the motion, which then is on its way while the page shows the rest. */
+  askAhead(): this {
+    this.coming = this.api.motion(this.id);
+    this.coming.catch(() => undefined); // whoever takes it is told
+    return this;
+  }
 
   recording(): Promise<Recording> {
     return this.api.recording(this.id);
   }
 
   motion(): Promise<ArrayBuffer> {
-    return this.api.motion(this.id);
+    const { coming } = this;
+    this.coming = undefined;
+    return coming ?? this.api.motion(this.id);
   }
 
   tile(level: number, row: number, column: number): Promise<Blob | null> {

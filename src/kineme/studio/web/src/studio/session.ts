@@ -140,6 +140,7 @@ export class Session {
   }
 
   private async fetch(id: string): Promise<Opened> {
+    const source = new ServerSource(this.api, id).askAhead();
     const document =
       this.documents.value.find((each) => each.id === id) ??
       (await Document.open(id, {
@@ -151,7 +152,7 @@ export class Session {
     if (!this.documents.value.includes(document))
       this.documents.value = [...this.documents.value, document];
     const opened = {
-      source: new ServerSource(this.api, id),
+      source,
       recording: signal(document.shown.peek()),
       motion: signal<Motion | null>(null),
     };

@@ -36,7 +36,7 @@ export class Director {
     this.strike();
     this.actors = this.chooseActors();
     this.figures = this.actors.map(
-      ({ motion }) => new Figure(motion.head, anatomyOfCached(motion)),
+      ({ motion }) => new Figure(this.stage.haze, motion.head, anatomyOfCached(motion)),
     );
     this.poses = this.actors.map(({ motion }) => new Float32Array(motion.head.joints.length * 3));
     for (const figure of this.figures) this.stage.scene.add(figure.group);
@@ -44,7 +44,7 @@ export class Director {
     if (!lead) return;
     const paths = handsAndFeet(lead.motion).length * this.actors.length;
     if (!lead.segment && paths > 0) {
-      this.trails = new Trails(paths, 0.022 * this.size);
+      this.trails = new Trails(this.stage.haze, paths, 0.022 * this.size);
       this.stage.scene.add(this.trails.mesh);
     }
     const scene = `${this.actors.length} ${lead.segment !== null} ${this.store.current.value}`;

@@ -2,6 +2,7 @@
 import * as THREE from "three";
 import type { MotionHead } from "../messages";
 import { TAPER, type Anatomy } from "./anatomy";
+import { bodyPaint, type Haze } from "./paints";
 
 export interface Colors {
   body: string;
@@ -19,26 +20,28 @@ export class Figure {
   readonly group = new THREE.Group();
   private readonly bones: THREE.InstancedMesh;
   private readonly joints: THREE.InstancedMesh;
-  private readonly skull: THREE.Mesh;
-  private readonly shade = new THREE.Group();
-  private readonly bodyPaint = new THREE.MeshLambertMaterial();
-  private readonly jointPaint = new THREE.MeshLambertMaterial();
-  private readonly shadowPaint = new THREE.MeshBasicMaterial();
-  private readonly skullShadow: THREE.Mesh;
+  private readonly skull: THREE.InstancedMesh;
+  private readonly paints: Record<keyof Colors, THREE.RawShaderMaterial>;
 
   constructor(
+    haze: Haze,
     private readonly head: MotionHead,
     private readonly anatomy: Anatomy,
   ) {
-    this.bones = instanced(bone, this.bodyPaint, head.bones.length);
-    this.joints = instanced(ball, this.jointPaint, head.joints.length);
-    this.skull = new THREE.Mesh(ball, this.bodyPaint);
-    this.skullShadow = new THREE.Mesh(ball, this.shadowPaint);
-    this.skullShadow.matrixAutoUpdate = false;
-    this.shade.matrixAutoUpdate = false;
-    this.shade.matrix.copy(flattening(anatomy.ground + 0.001 * anatomy.size));
-    this.shade.add(this.shadowOf(this.bones), this.shadowOf(this.joints), this.skullShadow);
-    this.group.add(this.bones, this.joints, this.skull, this.shade);
+    const paints = {
+      body: bodyPaint(haze, 1),
+      joint: bodyPaint(haze, 1),
+      shadow: bodyPaint(haze, 0),
+    };
+    this.paints = paints;
+    this.bones = instanced(bone, paints.body, head.bones.length);
+    this.joints = instanced(ball, paints.joint, head.joints.length);
+    this.skull = instanced(ball, paints.body, 1);
+    const shade = new THREE.Group();
+    shade.matrixAutoUpdate = false;
+    shade.matrix.copy(flattening(anatomy.ground + 0.001 * anatomy.size));
+    shade.add(...[this.bones, this.joints, this.skull].map((mesh) => this.shadowOf(mesh)));
+    this.group.add(this.bones, this.joints, this.skull, shade);
   }
 
   /** Puts every joint where the pose has it (x, y, z per joint); NaN hides it and its bones. */
@@ -53,42 +56,36 @@ export class Figure {
       const radius = Number.isNaN(a.x) ? 0 : joints[i]!;
       this.joints.setMatrixAt(i, matrix.makeScale(radius, radius, radius).setPosition(known(a)));
     }
-    this.placeSkull(positions);
-    this.bones.instanceMatrix.needsUpdate = true;
-    this.joints.instanceMatrix.needsUpdate = true;
+    this.skull.setMatrixAt(0, this.skullAt(positions));
+    for (const mesh of [this.bones, this.joints, this.skull])
+      mesh.instanceMatrix.needsUpdate = true;
   }
 
   paint(colors: Colors): void {
-    this.bodyPaint.color.set(colors.body);
-    this.jointPaint.color.set(colors.joint);
-    this.shadowPaint.color.set(colors.shadow);
+    for (const part of ["body", "joint", "shadow"] as const)
+      (this.paints[part].uniforms.color!.value as THREE.Color).set(colors[part]);
   }
 
   dispose(): void {
-    this.bones.dispose();
-    this.joints.dispose();
-    for (const paint of [this.bodyPaint, this.jointPaint, this.shadowPaint]) paint.dispose();
+    for (const mesh of [this.bones, this.joints, this.skull]) mesh.dispose();
+    for (const paint of Object.values(this.paints)) paint.dispose();
   }
 
-  private placeSkull(positions: Float32Array): void {
+  /** Around the bone of the head; nothing where there is none. */
+  private skullAt(positions: Float32Array): THREE.Matrix4 {
     const pair = this.head.bones[this.anatomy.skull];
-    this.skull.visible = this.skullShadow.visible = pair !== undefined;
-    if (!pair) return;
+    if (!pair) return matrix.makeScale(0, 0, 0);
     at(positions, pair[0], a);
     at(positions, pair[1], b);
-    const length = a.distanceTo(b);
-    this.skull.visible = this.skullShadow.visible = length > 0;
-    if (!(length > 0)) return;
+    const length = direction.subVectors(b, a).length();
+    if (!(length > 0)) return matrix.makeScale(0, 0, 0);
     const width = Math.min(HEAD_WIDTH * length, 0.07 * this.anatomy.size);
-    this.skull.quaternion.setFromUnitVectors(UP, b.clone().sub(a).divideScalar(length));
-    this.skull.position.copy(a).lerp(b, 0.55);
-    this.skull.scale.set(width, 0.55 * length, width * 1.1);
-    this.skull.updateMatrix();
-    this.skullShadow.matrix.copy(this.skull.matrix);
+    turn.setFromUnitVectors(UP, direction.divideScalar(length));
+    return matrix.compose(a.lerp(b, 0.55), turn, size.set(width, 0.55 * length, width * 1.1));
   }
 
   private shadowOf(mesh: THREE.InstancedMesh): THREE.InstancedMesh {
-    const shadow = instanced(mesh.geometry, this.shadowPaint, mesh.count);
+    const shadow = instanced(mesh.geometry, this.paints.shadow, mesh.count);
     shadow.instanceMatrix = mesh.instanceMatrix; // one buffer for both
     return shadow;
   }

@@ -29,12 +29,3 @@ export class Sharpness {
     if (late) this.share = Math.max(this.share * 0.8, LEAST);
   }
 }
-
-/** Whether pictures are drawn by the processor, for want of a graphics card. */
-export function drawsInSoftware(): boolean {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  const info = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = gl && info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
-  gl?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
-}

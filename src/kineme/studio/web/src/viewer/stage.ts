@@ -1,8 +1,9 @@
-/** The room: light, ground and camera, and one picture of it when asked. */
+/** The room: ground, haze and camera, and one picture of it when asked. */
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Floor, type RoomColors } from "./floor";
-import { drawsInSoftware, Sharpness } from "./sharpness";
+import { bodyPaint, type Haze, trailPaint } from "./paints";
+import { Sharpness } from "./sharpness";
 
 const FIELD = 32; // degrees from the lower to the upper edge
 
@@ -13,28 +14,30 @@ export class Stage {
   private readonly sharpness: Sharpness;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly floor = new Floor();
-  private readonly fog = new THREE.Fog(0, 1, 10);
+  private readonly prepared: THREE.Mesh<THREE.BufferGeometry, THREE.Material>[];
 
   constructor(canvas: HTMLCanvasElement) {
-    const software = drawsInSoftware();
+    const { context, software } = contextOf(canvas);
     this.sharpness = new Sharpness(software);
-    this.renderer = new THREE.WebGLRenderer({
-      canvas,
-      antialias: !software, // a picture that stands still is drawn larger instead
-      powerPreference: "low-power",
-    });
+    this.renderer = new THREE.WebGLRenderer({ canvas, context });
+    this.renderer.debug.checkShaderErrors = false; // to ask is to wait
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false; // the picture stands still as soon as the hand does
     this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
-    this.scene.fog = this.fog;
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f99, 2.1));
-    const sun = new THREE.DirectionalLight(0xffffff, 1.7);
-    sun.position.set(2, 5, 3);
-    this.scene.add(sun);
     this.scene.add(this.floor.mesh);
+    // The shaders are made ready while the recording is on its way, and stay so.
+    const none = new THREE.BufferGeometry();
+    const body = new THREE.InstancedMesh(none, bodyPaint(this.haze, 1), 1);
+    this.prepared = [body, new THREE.Mesh(none, trailPaint(this.haze))];
+    for (const each of this.prepared) this.renderer.compile(each, this.camera);
   }
 
-  /** Scales ground, fog and limits of the camera to a body's size. */
+  /** What things on the stage fade into. */
+  get haze(): Haze {
+    return this.floor.haze;
+  }
+
+  /** Scales ground and limits of the camera to a body's size. */
   fit(size: number, ground: number): void {
     this.floor.fit(size, ground);
     this.controls.minDistance = 0.5 * size;
@@ -46,7 +49,6 @@ export class Stage {
 
   paint(colors: RoomColors): void {
     this.scene.background = new THREE.Color(colors.sky);
-    this.fog.color.set(colors.sky);
     this.floor.paint(colors);
   }
 
@@ -96,14 +98,31 @@ export class Stage {
     const ratio = this.sharpness.ratio(devicePixelRatio, moving);
     if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
     const { target } = this.controls;
-    const fade = this.floor.lieAround(target, this.camera.position.distanceTo(target));
-    [this.fog.near, this.fog.far] = [fade.x, fade.y];
+    this.floor.lieAround(target, this.camera.position.distanceTo(target));
     this.renderer.render(this.scene, this.camera);
   }
 
   dispose(): void {
     this.controls.dispose();
     this.floor.dispose();
+    for (const { material } of this.prepared) material.dispose();
     this.renderer.dispose();
   }
+}
+
+/** Something to draw with, and whether that is the processor, for want of a graphics card. */
+function contextOf(canvas: HTMLCanvasElement): {
+  context: WebGL2RenderingContext;
+  software: boolean;
+} {
+  [canvas.width, canvas.height] = [canvas.clientWidth, canvas.clientHeight]; // to grow later costs
+  const wishes: WebGLContextAttributes = { alpha: false, powerPreference: "low-power" };
+  const card = { ...wishes, antialias: true, failIfMajorPerformanceCaveat: true };
+  const fast = canvas.getContext("webgl2", card) as WebGL2RenderingContext | null;
+  if (fast) return { context: fast, software: false };
+  // A picture that stands still is drawn larger instead of smoothed.
+  const plain = { ...wishes, antialias: false };
+  const slow = canvas.getContext("webgl2", plain) as WebGL2RenderingContext | null;
+  if (!slow) throw new Error("This browser draws no pictures in 3-D (it has no WebGL 2).");
+  return { context: slow, software: true };
 }

@@ -1,15 +1,17 @@
 /** Where hands and feet have been: ribbons in the colours of their clusters, fading. */
 import * as THREE from "three";
+import { type Haze, trailPaint } from "./paints";
 
 /** Moments a trail is drawn at. */
 const POINTS = 32;
 
 export class Trails {
-  readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>;
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.Material>;
   private readonly positions: THREE.BufferAttribute;
   private readonly colors: THREE.BufferAttribute;
 
   constructor(
+    haze: Haze,
     private readonly n_trails: number,
     private readonly width: number,
   ) {
@@ -20,13 +22,7 @@ export class Trails {
     geometry.setAttribute("position", this.positions);
     geometry.setAttribute("color", this.colors);
     geometry.setIndex(ribbons(n_trails));
-    const paint = new THREE.MeshBasicMaterial({
-      vertexColors: true,
-      transparent: true,
-      depthWrite: false,
-      side: THREE.DoubleSide,
-    });
-    this.mesh = new THREE.Mesh(geometry, paint);
+    this.mesh = new THREE.Mesh(geometry, trailPaint(haze));
     this.mesh.frustumCulled = false;
   }
 
