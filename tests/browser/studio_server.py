@@ -53,4 +53,4 @@ class StudioServer:
 
     def address_of(self, *recordings: Path) -> str:
         """The address that opens recordings of the folder."""
-        return self.address + "#" + "&".join(f"open={file_id(path)}" for path in recordings)
+        return self.address + "".join(f"&open={file_id(path)}" for path in recordings)

@@ -87,12 +87,12 @@ export function Studio({ session, editor, uploads, front }: Props): JSX.Element 
   );
 }
 
-/** The figures; their stage is set up while the first recording is on its way. */
+/** The figures; their stage is set up at once, while the first recording is on its way. */
 function Stage({ session }: { session: Session }): JSX.Element {
   const { store, opening } = session;
   return (
     <>
-      {(store.active.value || opening.value) && <Viewer store={store} />}
+      <Viewer store={store} />
       {!store.active.value && (
         <p class="empty quiet">
           {opening.value || !session.state.value ? (

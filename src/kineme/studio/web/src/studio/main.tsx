@@ -42,7 +42,7 @@ function start(): void {
     <Studio session={session} editor={editor} uploads={new Uploads(session)} front={front} />,
     document.getElementById("page")!,
   );
-  void announceTab().then(() => session.start());
+  void session.start(announceTab());
 }
 
 function onKey(event: KeyboardEvent, editor: Editor, front: Front): void {

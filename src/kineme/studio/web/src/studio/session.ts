@@ -45,9 +45,11 @@ export class Session {
     readonly store: Store,
   ) {}
 
-  async start(): Promise<void> {
+  /** @param announced once other tabs know of this one, which edits are taken over by */
+  async start(announced: Promise<void>): Promise<void> {
     shareToken(this.api);
-    if (await this.refresh()) await this.begin();
+    const [told] = await Promise.all([this.refresh(), announced]);
+    if (told) await this.begin();
   }
 
   /** The folder as it is now; whether the server told. */

@@ -23,7 +23,7 @@ export function Viewer({ store }: { store: Store }): JSX.Element {
     };
   }, [store]);
   return (
-    <div class="viewer">
+    <div class="viewer" inert={!store.active.value}>
       <canvas
         ref={canvas}
         tabIndex={0}

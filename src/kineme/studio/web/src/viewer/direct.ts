@@ -6,7 +6,7 @@ import { ticker } from "../ticker";
 import type { Director } from "./director";
 
 const TURN = Math.PI / 24; // of one key press
-const REST = 150; // milliseconds
+const REST = 400; // milliseconds
 const CLICK = 4; // pixels a click may wander before it is a drag
 
 /** Keeps the picture up to date; call the result to stop. */
@@ -46,7 +46,7 @@ export function direct(store: Store, director: Director, canvas: HTMLCanvasEleme
     ticker.add((seconds) => {
       if (stale.cast) director.cast();
       if (stale.paint) director.paint();
-      if (!stale.picture && !stale.edges) return;
+      if (!store.active.value || (!stale.picture && !stale.edges)) return;
       const moving = stale.picture;
       if (moving) director.pose(seconds);
       stale.cast = stale.paint = stale.picture = stale.edges = false; // pose() turned the camera

@@ -155,9 +155,9 @@ export class Director {
 
   private drawTrails(): void {
     if (!this.trails) return;
-    this.trails.mesh.visible = this.store.trails.value;
-    if (!this.store.trails.value) return;
     const { playhead, primitives, fps } = this.store;
+    this.trails.mesh.visible = this.store.trails.value && playhead.value > 0;
+    if (!this.trails.mesh.visible) return;
     const moments = Trails.moments(playhead.value, TRAIL_LENGTH);
     const colors = moments.map((moment) => {
       const segment = segmentAt(primitives.value, Math.floor(moment * fps.value));

@@ -1,7 +1,8 @@
-/** How many pixels the viewer draws: as many as the screen has, fewer while that is too slow. */
+/** How many pixels the viewer draws: enough for smooth edges, fewer while that is too slow. */
 
 const ENOUGH = 36; // pictures per second: more make no smoother motion that pays for blurred edges
 const LEAST = 0.5;
+const SMOOTH = 2;
 const SETTLE = 24; // pictures between two changes
 
 /** Pixels per CSS pixel, chosen from how long pictures take. */
@@ -15,8 +16,8 @@ export class Sharpness {
 
   /** The ratio for a moving picture, or for one that stands still. */
   ratio(screen: number, moving: boolean): number {
-    if (!moving) return this.software ? Math.max(screen, 1.5) : Math.min(screen, 2);
-    return Math.min(screen, this.software ? 1 : 2) * this.share;
+    if (!moving) return this.software ? Math.max(screen, 1.5) : SMOOTH;
+    return this.share * (this.software ? Math.min(screen, 1) : SMOOTH);
   }
 
   /** Learns from the seconds that passed since the last moving picture. */

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Floor, type RoomColors } from "./floor";
-import { bodyPaint, type Haze, trailPaint } from "./paints";
+import { bodyPaint, type Haze } from "./paints";
 import { Sharpness } from "./sharpness";
 
 const FIELD = 32; // degrees from the lower to the upper edge
@@ -14,7 +14,7 @@ export class Stage {
   private readonly sharpness: Sharpness;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly floor = new Floor();
-  private readonly prepared: THREE.Mesh<THREE.BufferGeometry, THREE.Material>[];
+  private readonly prepared: THREE.InstancedMesh<THREE.BufferGeometry, THREE.Material>;
 
   constructor(canvas: HTMLCanvasElement) {
     const { context, software } = contextOf(canvas);
@@ -25,11 +25,9 @@ export class Stage {
     this.controls.enableDamping = false; // the picture stands still as soon as the hand does
     this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
     this.scene.add(this.floor.mesh);
-    // The shaders are made ready while the recording is on its way, and stay so.
-    const none = new THREE.BufferGeometry();
-    const body = new THREE.InstancedMesh(none, bodyPaint(this.haze, 1), 1);
-    this.prepared = [body, new THREE.Mesh(none, trailPaint(this.haze))];
-    for (const each of this.prepared) this.renderer.compile(each, this.camera);
+    // What the first picture needs is made ready while the recording is on its way, and stays so.
+    this.prepared = new THREE.InstancedMesh(new THREE.BufferGeometry(), bodyPaint(this.haze, 1), 1);
+    for (const each of [this.floor.mesh, this.prepared]) this.renderer.compile(each, this.camera);
   }
 
   /** What things on the stage fade into. */
@@ -105,24 +103,25 @@ export class Stage {
   dispose(): void {
     this.controls.dispose();
     this.floor.dispose();
-    for (const { material } of this.prepared) material.dispose();
+    this.prepared.material.dispose();
     this.renderer.dispose();
   }
 }
 
-/** Something to draw with, and whether that is the processor, for want of a graphics card. */
+/**
+ * Something to draw with, and whether that is the processor, for want of a graphics card.
+ *
+ * Edges are smooth because pictures are drawn larger than they are shown.
+ */
 function contextOf(canvas: HTMLCanvasElement): {
   context: WebGL2RenderingContext;
   software: boolean;
 } {
   [canvas.width, canvas.height] = [canvas.clientWidth, canvas.clientHeight]; // to grow later costs
-  const wishes: WebGLContextAttributes = { alpha: false, powerPreference: "low-power" };
-  const card = { ...wishes, antialias: true, failIfMajorPerformanceCaveat: true };
-  const fast = canvas.getContext("webgl2", card) as WebGL2RenderingContext | null;
-  if (fast) return { context: fast, software: false };
-  // A picture that stands still is drawn larger instead of smoothed.
-  const plain = { ...wishes, antialias: false };
-  const slow = canvas.getContext("webgl2", plain) as WebGL2RenderingContext | null;
-  if (!slow) throw new Error("This browser draws no pictures in 3-D (it has no WebGL 2).");
-  return { context: slow, software: true };
+  const wishes = { alpha: false, antialias: false, powerPreference: "low-power" };
+  const context = canvas.getContext("webgl2", wishes) as WebGL2RenderingContext | null;
+  if (!context) throw new Error("This browser draws no pictures in 3-D (it has no WebGL 2).");
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  return { context, software: /swiftshader|llvmpipe|software|basic render/i.test(name) };
 }
