@@ -32,17 +32,21 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
     along = np.empty(count)
     at, pull = np.empty(dims), np.empty(dims)
     for i in range(start, stop):
-        at[:] = 0
+        for d in range(dims):
+            at[d] = 0
         for k in range(count):
+            along[k] = 0
             for d in range(dims):
                 across[k, d] = points[neighbors[i, k], d] - points[i, d]
-            along[k] = np.dot(across[k], directions[i])
-            across[k] -= along[k] * directions[i]
-            at += across[k] / count
+                along[k] += across[k, d] * directions[i, d]
+            for d in range(dims):
+                across[k, d] -= along[k] * directions[i, d]
+                at[d] += across[k, d] / count
         for _ in range(MOST_STEPS):
-            weights = distances = 0.0
+            weights = distances = strength = 0.0
             met = 0
-            pull[:] = 0
+            for d in range(dims):
+                pull[d] = 0
             for k in range(count):
                 square = along[k] * along[k]
                 for d in range(dims):
@@ -55,11 +59,15 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
                 weights += 1 / distance
                 for d in range(dims):
                     pull[d] += (across[k, d] - at[d]) / distance
-            strength = np.sqrt(np.dot(pull, pull))
+            for d in range(dims):
+                strength += pull[d] * pull[d]
+            strength = np.sqrt(strength)
             if strength <= met:
                 break
             share = (1 - met / strength) / weights
-            at += share * pull
+            for d in range(dims):
+                at[d] += share * pull[d]
             if share * strength <= PRECISION * distances / count:
                 break
-        moved[i] = points[i] + at
+        for d in range(dims):
+            moved[i, d] = points[i, d] + at[d]

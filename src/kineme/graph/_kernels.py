@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 
 from kineme._compiled import OPTIONS
+from kineme._selection import smallest
 
 # Columns are screened in runs of this many, so that the far ones, which are
 # most, cost one vectorised comparison each.
@@ -81,44 +82,27 @@ def nearest_mask(indptr, distances, k):
     """Which entries are among the k nearest of their row, ties to the earlier entry.
 
     Row i is ``distances[indptr[i] - indptr[0]:indptr[i + 1] - indptr[0]]``.
-    Entries are counted into bins of distance; only the bin in which the k-th
-    falls is sorted.
     """
-    n_bins = 64
-    mask = np.empty(distances.shape[0], np.bool_)
-    bins = np.empty(n_bins + 1, np.int64)
-    for i in range(indptr.shape[0] - 1):
-        first, last = indptr[i] - indptr[0], indptr[i + 1] - indptr[0]
-        if last - first <= k:
-            mask[first:last] = True
+    mask = np.ones(len(distances), np.bool_)
+    longest = 0
+    for i in range(len(indptr) - 1):
+        longest = max(longest, indptr[i + 1] - indptr[i])
+    values = np.empty(longest, np.float32)
+    for i in range(len(indptr) - 1):
+        first = indptr[i] - indptr[0]
+        count = indptr[i + 1] - indptr[i]
+        if count <= k:
             continue
-        row = distances[first:last]
-        low = row.min()
-        span = row.max() - low
-        scale = n_bins / span if span > 0 else 0.0
-        bins[:] = 0
-        for distance in row:
-            bins[int((distance - low) * scale)] += 1
-        nearer = 0
-        edge = 0
-        while nearer + bins[edge] <= k:
-            nearer += bins[edge]
-            edge += 1
-        ties = np.empty(bins[edge], np.float32)
-        count = 0
-        for distance in row:
-            if int((distance - low) * scale) == edge:
-                ties[count] = distance
-                count += 1
-        rest = k - nearer
-        limit = np.sort(ties)[rest - 1] if rest > 0 else np.float32(-1)
-        rest -= (ties < limit).sum()
-        for e in range(first, last):
-            place = int((distances[e] - low) * scale)
-            mask[e] = place < edge or (place == edge and distances[e] < limit)
-            if place == edge and distances[e] == limit and rest > 0:
-                mask[e] = True
-                rest -= 1
+        for e in range(count):
+            values[e] = distances[first + e]
+        limit = smallest(values, count, k - 1) if k > 0 else np.float32(-1)
+        ties = k
+        for e in range(first, first + count):
+            ties -= distances[e] < limit
+        for e in range(first, first + count):
+            tie = distances[e] == limit and ties > 0
+            ties -= tie
+            mask[e] = tie or distances[e] < limit
     return mask
 
 

@@ -20,8 +20,10 @@ def group_pairs(indptr, indices, by_later):
         for e in range(indptr[i], indptr[i + 1]):
             key = max(i, indices[e]) if by_later else min(i, indices[e])
             grouped[key + 1] += 1
-    grouped = np.cumsum(grouped)
-    position = grouped[:-1].copy()
+    position = np.empty(n, np.int64)
+    for i in range(n):
+        position[i] = grouped[i]
+        grouped[i + 1] += grouped[i]
     others = np.empty(len(indices), np.int32)
     for i in range(n):
         for e in range(indptr[i], indptr[i + 1]):
@@ -30,6 +32,15 @@ def group_pairs(indptr, indices, by_later):
             others[position[key]] = other
             position[key] += 1
     return grouped, others
+
+
+@njit("int64(int64[::1], int64, int64)", **OPTIONS)
+def most(counts, first, last):
+    """The largest of the counts from first to last, both inclusive."""
+    largest = counts[first]
+    for i in range(first + 1, last + 1):
+        largest = max(largest, counts[i])
+    return largest
 
 
 @njit("int64[::1](int64[::1], int32[::1], int64, int64)", **OPTIONS)
@@ -51,7 +62,7 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
             continue
         still += 1
         if still == min_gap:
-            if counts[last : i + 1].max() > min_count:
+            if most(counts, last, i) > min_count:
                 last = i - still
                 start = i
                 found = 0
@@ -84,7 +95,7 @@ def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
             still += 1
             if still == min_gap:
                 still = 0
-                restart = counts[i : last + 1].max() > min_count
+                restart = most(counts, i, last) > min_count
         if restart:
             last = end = i
             found = 0
