@@ -18,13 +18,16 @@ MODULES = {
     for path in sorted(ROOT.rglob("*.py"))
 }
 
-BASE = {"errors", "_version", "_threads", "_files", "_rotations", "_compiled", "_checks"}
+BASE = {
+    "errors", "_version", "_threads", "_files", "_rotations", "_compiled", "_rank_kernels", "_checks",
+}  # fmt: skip
 MOTION = {"motion", "kinematics", "operations"}
 # For each room of the way of the data, all that it may import besides itself.
 DOWNHILL = {
     "errors": set(),
     "_checks": {"errors"},
     "_threads": set(),
+    "_rank_kernels": {"_compiled"},
     "_files": {"errors"},
     "_rotations": set(),
     "motion": BASE | MOTION,
@@ -32,7 +35,7 @@ DOWNHILL = {
     "operations": BASE | MOTION,
     "formats": BASE | MOTION,
     "features": BASE | MOTION,
-    "graph": {"errors", "_checks", "_threads", "_compiled"},
+    "graph": {"errors", "_checks", "_threads", "_compiled", "_rank_kernels"},
     "segmentation": BASE | MOTION | {"features", "graph"},
     "signals": BASE | {"motion", "features", "formats", "segmentation"},
 }

@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 
 from kineme._compiled import OPTIONS
-from kineme._selection import smallest
+from kineme._rank_kernels import smallest
 
 # Columns are screened in runs of this many, so that the far ones, which are
 # most, cost one vectorised comparison each.

@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 
 from kineme._compiled import OPTIONS
-from kineme._selection import smallest
+from kineme._rank_kernels import smallest
 
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 FAR = np.float32(np.inf)
