@@ -18,9 +18,8 @@ MODULES = {
     for path in sorted(ROOT.rglob("*.py"))
 }
 
-BASE = {
-    "errors", "_version", "_threads", "_files", "_rotations", "_compiled", "_rank_kernels", "_checks",
-}  # fmt: skip
+COMPILED = {"_compiled", "_rank_kernels"}
+BASE = {"errors", "_version", "_threads", "_files", "_rotations", "_checks"} | COMPILED
 MOTION = {"motion", "kinematics", "operations"}
 # For each room of the way of the data, all that it may import besides itself.
 DOWNHILL = {
@@ -35,7 +34,7 @@ DOWNHILL = {
     "operations": BASE | MOTION,
     "formats": BASE | MOTION,
     "features": BASE | MOTION,
-    "graph": {"errors", "_checks", "_threads", "_compiled", "_rank_kernels"},
+    "graph": {"errors", "_checks", "_threads"} | COMPILED,
     "segmentation": BASE | MOTION | {"features", "graph"},
     "signals": BASE | {"motion", "features", "formats", "segmentation"},
 }
