@@ -710,11 +710,6 @@ def coverage(near, width, scales, g, h, gap, softness):
     return total / len(g)
 
 
-def mean_similarity(alike, width, g, h, gap):
-    values = [alike[i, j] for i in g for j in h if gap < abs(i - j) <= width]
-    return sum(values) / len(values) if values else 0.0
-
-
 def division_cost(alike, borders, penalty):
     """What a division costs: per segment its length, less its mean sum of likeness, and more."""
     return sum(
@@ -750,34 +745,37 @@ def labels_cost(costs, labels, switch_cost):
     return sum(costs[t][label] for t, label in enumerate(labels)) + switch_cost * changes
 
 
-def nearest_within(features, step, window, stride, g, h):
-    """Distances of moments of g to the nearest frame in the phase window around moments of h."""
+def nearest_around(poses, frames, centers, reach):
+    """Distance from each of the frames to the nearest one within reach of each center."""
     return np.array(
         [
             [
                 min(
-                    np.linalg.norm(features[i * step] - row)
-                    for f, row in enumerate(features)
-                    if abs(f - j * step) <= window * step
+                    np.linalg.norm(poses[i] - row)
+                    for f, row in enumerate(poses)
+                    if abs(f - center) <= reach
                 )
-                for j in h[::stride]
+                for center in centers
             ]
-            for i in g[::stride]
+            for i in frames
         ]
     )
 
 
-def distant_similarity(features, scales, step, windows, stride, softness, g, h):
+def mean_likeness(poses, frames, others, reaches, scales, other_scales, softness, gap):
     values = []
-    for window in windows:
-        there = nearest_within(features, step, window, stride, g, h)
-        back = nearest_within(features, step, window, stride, h, g)
+    for reach in reaches:
+        there = nearest_around(poses, frames, others, reach)
+        back = nearest_around(poses, others, frames, reach)
         values += [
-            np.exp(-(max(there[r, c], back[c, r]) ** 2) / (softness**2 * scales[i] * scales[j]))
-            for r, i in enumerate(g[::stride])
-            for c, j in enumerate(h[::stride])
+            np.exp(
+                -(max(there[r, c], back[c, r]) ** 2) / (softness**2 * scales[r] * other_scales[c])
+            )
+            for r, i in enumerate(frames)
+            for c, j in enumerate(others)
+            if abs(i - j) > gap
         ]
-    return sum(values) / len(values)
+    return sum(values) / len(values) if values else 0.0
 
 
 def dips(row, least):

@@ -11,7 +11,7 @@ import naive
 from bands import one_sided, points, to_matrix, two_sided
 from kineme.segmentation import _distance_kernels as distant
 from kineme.segmentation import _recurrence_kernels as kernels
-from kineme.segmentation.recurrence import phase_windows, recurrence
+from kineme.segmentation.recurrence import recurrence
 from loops import swing
 
 seconds = settings(deadline=None, max_examples=120)
@@ -70,17 +70,14 @@ def test_similarities_are_those_of_the_naive_version(features, width, softness) 
 
 @given(points(), WIDTHS, GAPS, st.data())
 @seconds
-def test_means_over_stretches_are_those_of_the_naive_version(features, width, gap, data) -> None:
+def test_coverage_is_that_of_the_naive_version(features, width, gap, data) -> None:
     n = len(features)
     near = naive.nearest_in_bins(features, 1, width)
     scales = np.linspace(0.5, 2, n).astype(np.float32)
-    alike = naive.similarities(near, scales, width, 1.0)
     g, h = (stretch(data, n) for _ in range(2))
     ends = (g.start, g.stop, h.start, h.stop)
     covered = kernels.coverage(two_sided(near, width), scales, *ends, gap, 1.5)
     assert covered == pytest.approx(naive.coverage(near, width, scales, g, h, gap, 1.5), abs=1e-6)
-    mean = kernels.mean_similarity(one_sided(alike, width), *ends, gap)
-    assert mean == pytest.approx(naive.mean_similarity(alike, width, g, h, gap), abs=1e-6)
 
 
 @given(points(), WIDTHS, GAPS, st.data())
@@ -97,25 +94,21 @@ def test_distances_to_classes_are_those_of_the_naive_version(features, width, ga
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
-@given(points(), STEPS, st.lists(st.integers(0, 20), min_size=1, max_size=3), st.data())
+@given(points(), st.lists(st.integers(0, 20), min_size=1, max_size=3), GAPS, st.data())
 @seconds
-def test_stretches_far_apart_are_compared_as_in_the_naive_version(
-    features, step, windows, data
-) -> None:
-    windows, stride = sorted(windows, reverse=True), data.draw(st.integers(1, 4))
-    bins = -(-len(features) // step)
-    g, h = (stretch(data, bins) for _ in range(2))
-    ends = (g.start, g.stop, h.start, h.stop)
-    nearest = distant.nearest_within(features, step, np.array(windows), stride, *ends)
-    for window, found in zip(windows, nearest):
-        expected = naive.nearest_within(features, step, window, stride, g, h)
+def test_stretches_are_as_alike_as_in_the_naive_version(poses, reaches, gap, data) -> None:
+    reaches = sorted(reaches, reverse=True)
+    some = st.lists(st.integers(0, len(poses) - 1), min_size=1, max_size=6, unique=True)
+    frames, others = (np.array(sorted(data.draw(some))) for _ in range(2))
+    nearest = distant.nearest_around(poses, frames, others, np.array(reaches))
+    for reach, found in zip(reaches, nearest):
+        expected = naive.nearest_around(poses, frames, others, reach)
         np.testing.assert_allclose(found, expected, rtol=1e-6)
-    scales = np.linspace(0.5, 2, bins).astype(np.float32)
-    similarity = distant.distant_similarity(
-        features, scales, step, np.array(windows), stride, 1.5, *ends
-    )
-    assert similarity == pytest.approx(
-        naive.distant_similarity(features, scales, step, windows, stride, 1.5, g, h), abs=1e-5
+    scales = np.linspace(0.5, 2, len(poses)).astype(np.float32)
+    given_to_both = reaches, scales[frames], scales[others], 1.5, gap
+    likeness = distant.mean_likeness(poses, frames, others, np.array(reaches), *given_to_both[1:])
+    assert likeness == pytest.approx(
+        naive.mean_likeness(poses, frames, others, *given_to_both), abs=1e-5
     )
 
 
@@ -135,20 +128,6 @@ def test_moments_of_one_movement_are_alike_whatever_their_phase() -> None:
     assert alike[:84, :84].min() > 0.5
     assert alike[108:, 108:].min() > 0.5
     assert np.median(alike[:84, 108:]) < 0.1
-
-
-def test_far_apart_is_as_alike_as_near_by() -> None:
-    rows = np.concatenate(
-        [swing(14, period=1.4), swing(10, period=2.1, axis=1), swing(12, period=1.7)]
-    )
-    band = recurrence(rows, **OPTIONS)
-    windows = np.array(phase_windows(band.phase))
-    for g, h in [((20, 80), (420, 480)), ((20, 80), (220, 280)), ((220, 280), (420, 480))]:
-        near_by = kernels.mean_similarity(band.similarity, *g, *h, band.phase)
-        far = distant.distant_similarity(
-            band.features, band.scales, band.step, windows, 2, band.softness, *g, *h
-        )
-        assert far == pytest.approx(near_by, abs=0.03)
 
 
 def test_a_band_is_no_wider_than_the_recording() -> None:

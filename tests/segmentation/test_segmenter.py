@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kineme.datasets import random_recording
+from kineme.datasets import Action, random_recording, synthesize
 from kineme.errors import ParameterError
 from kineme.features import end_effectors
 from kineme.motion import Motion
@@ -113,6 +113,18 @@ def test_cuts_are_those_of_the_analysis_in_frames_of_the_source(preset: str) -> 
     np.testing.assert_allclose(found.primitives.start_s, analysis.segments[:-1] / 30)
     repeats = analysis.labels >= 0 if preset == "kineme" else analysis.repeats
     np.testing.assert_array_equal(found.activities.kind == "activity", repeats)
+
+
+def test_slow_and_fast_are_one_action_unless_pace_is_to_count() -> None:
+    slow, fast = Action("squat", 4, speed=0.6), Action("squat", 5, speed=1.7)
+    made = synthesize([slow, Action("walk", 4), fast, Action("walk", 5)], fps=60, seed=1)
+
+    def clusters(**overrides: bool) -> list[int]:
+        rows = segment(made.motion, **overrides).activities
+        return [row.cluster for row in rows if row.kind == "activity"]
+
+    assert clusters() == [0, 1, 0, 1]
+    assert clusters(any_pace=False) == [0, 1, 2, 1]
 
 
 def test_provenance_says_how_it_was_made() -> None:

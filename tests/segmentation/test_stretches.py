@@ -99,19 +99,12 @@ def test_an_action_is_known_again() -> None:
     walk, turn = swing(8, period=1), swing(10, period=1.2, axis=2)
     found = measured(walk, turn, walk, turn, turn)
     borders = np.array([0, 80, 200, 280, 400, 520])
-    assert link(borders, found, likeness=0.5, max_lag=None).tolist() == [0, 1, 0, 1, 1]
+    options = {"likeness": 0.6, "softness": 1.3}
+    linked = link(borders, found, found.features, **options, max_lag=None)
+    assert linked.tolist() == [0, 1, 0, 1, 1]
     # 12 s away is too far to be compared, 0 s is not.
-    assert link(borders, found, likeness=0.5, max_lag=60).tolist() == [0, 1, 2, 3, 3]
-
-
-def test_beyond_the_band_as_within() -> None:
-    walk, turn = swing(20, period=1), swing(20, period=1.2, axis=2)
-    rows = np.concatenate([walk, turn, walk, turn])
-    borders = np.array([0, 200, 440, 640, 880])
-    options = {"step": 3, "phase": 12, "rank": 30, "low": 0.08, "high": 0.16, "softness": 1.6}
-    for width in (100, 300, 1000):
-        found = recurrence(rows, width=width, **options)
-        assert link(borders, found, likeness=0.5, max_lag=None).tolist() == [0, 1, 0, 1]
+    near_by = link(borders, found, found.features, **options, max_lag=60)
+    assert near_by.tolist() == [0, 1, 2, 3, 3]
 
 
 def test_what_recurs_nowhere_does_not_repeat() -> None:

@@ -108,7 +108,8 @@ def test_lengths_of_published_presets_are_those_of_a_body() -> None:
     assert signal_preset("voegele2014").radius == pytest.approx(0.734, abs=1e-3)
     assert signal_preset("voegele2014", radius=0.5).radius == 0.5
     assert signal_preset(VOEGELE2014).max_neighbors == VOEGELE2014.max_neighbors
-    assert signal_preset("kineme") == KINEME
+    assert signal_preset("kineme") == KINEME.replace(any_pace=False)
+    assert signal_preset("kineme", any_pace=True) == KINEME
 
 
 def test_the_unit_of_kineme_is_the_distance_of_recurrence() -> None:

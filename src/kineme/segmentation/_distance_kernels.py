@@ -14,56 +14,56 @@ SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 FAR = np.float32(np.inf)
 
 
-@njit(
-    "float32[:, :, ::1](float32[:, ::1], int64, int64[::1], int64, int64, int64, int64, int64)",
-    **SUMS,
-)
-def nearest_within(features, step, windows, stride, g_start, g_stop, h_start, h_stop):
-    """Distances from moments of g to the nearest frame in each phase window around those of h.
+@njit("float32[:, :, ::1](float32[:, ::1], int64[::1], int64[::1], int64[::1])", **SUMS)
+def nearest_around(poses, frames, centers, reaches):
+    """Distance from each of the frames to the nearest one within each reach of each center.
 
-    Moments are every ``stride``-th bin; the widest window is the first.
+    Ascending frames and centers; the widest reach is the first.
     """
-    frames, dims = features.shape
-    low = max(0, (h_start - windows[0]) * step)
-    high = min(frames, (h_stop + windows[0]) * step)
+    dims = poses.shape[1]
+    low = max(0, centers[0] - reaches[0])
+    high = min(len(poses), centers[-1] + reaches[0] + 1)
     line = np.empty(high - low, np.float32)
-    rows, columns = -(-(g_stop - g_start) // stride), -(-(h_stop - h_start) // stride)
-    nearest = np.full((len(windows), rows, columns), FAR)
-    for r in range(rows):
-        row = features[(g_start + r * stride) * step]
+    nearest = np.full((len(reaches), len(frames), len(centers)), FAR)
+    for r in range(len(frames)):
         for f in range(len(line)):
             square = np.float32(0)
             for d in range(dims):
-                difference = row[d] - features[low + f, d]
+                difference = poses[frames[r], d] - poses[low + f, d]
                 square += difference * difference
             line[f] = square
-        for w in range(len(windows)):
-            reach = windows[w] * step
-            for c in range(columns):
-                center = (h_start + c * stride) * step - low
-                for f in range(max(0, center - reach), min(len(line), center + reach + 1)):
-                    nearest[w, r, c] = min(nearest[w, r, c], line[f])
-                nearest[w, r, c] = np.sqrt(nearest[w, r, c])
+        for w in range(len(reaches)):
+            for c in range(len(centers)):
+                first = max(centers[c] - reaches[w], low) - low
+                last = min(centers[c] + reaches[w], high - 1) - low
+                square = FAR
+                for f in range(first, last + 1):
+                    square = min(square, line[f])
+                nearest[w, r, c] = np.sqrt(square)
     return nearest
 
 
 @njit(
-    "float64(float32[:, ::1], float32[::1], int64, int64[::1], int64, float32, int64, int64, int64,"
-    " int64)",
+    "float64(float32[:, ::1], int64[::1], int64[::1], int64[::1], float32[::1], float32[::1],"
+    " float64, int64)",
     **SUMS,
 )
-def distant_similarity(
-    features, scales, step, windows, stride, softness, g_start, g_stop, h_start, h_stop
-):
-    """Mean similarity of two stretches that the band does not reach across."""
-    there = nearest_within(features, step, windows, stride, g_start, g_stop, h_start, h_stop)
-    back = nearest_within(features, step, windows, stride, h_start, h_stop, g_start, g_stop)
+def mean_likeness(poses, frames, others, reaches, scales, other_scales, softness, gap):
+    """Mean similarity of the pairs of frames and others that lie apart by more than the gap."""
+    there = nearest_around(poses, frames, others, reaches)
+    back = nearest_around(poses, others, frames, reaches)
     total = 0.0
-    for w, r, c in np.ndindex(there.shape):
-        distance = max(there[w, r, c], back[w, c, r])
-        unit = scales[g_start + r * stride] * scales[h_start + c * stride]
-        total += np.exp(-distance * distance / (softness * softness * unit))
-    return total / there.size
+    count = 0
+    for r in range(len(frames)):
+        for c in range(len(others)):
+            if abs(frames[r] - others[c]) <= gap:
+                continue
+            count += len(reaches)
+            unit = softness * softness * scales[r] * other_scales[c]
+            for w in range(len(reaches)):
+                distance = max(there[w, r, c], back[w, c, r])
+                total += np.exp(-distance * distance / unit)
+    return total / count if count else 0.0
 
 
 @njit("float32[:, ::1](float32[:, ::1], int64[::1], int64, int64)", **SUMS)

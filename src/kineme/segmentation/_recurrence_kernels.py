@@ -131,18 +131,3 @@ def coverage(near, scales, g_start, g_stop, h_start, h_stop, gap, softness):
         if nearest < FAR:
             total += np.exp(-((nearest / (softness * scales[i])) ** 2))
     return total / (g_stop - g_start)
-
-
-@njit("float64(float32[:, ::1], int64, int64, int64, int64, int64)", **SUMS)
-def mean_similarity(similarity, g_start, g_stop, h_start, h_stop, gap):
-    """Mean similarity of the pairs of g and h that lie apart by more than the gap."""
-    width = similarity.shape[1]
-    total = 0.0
-    count = 0
-    for i in range(g_start, g_stop):
-        for j in range(h_start, h_stop):
-            lag = abs(j - i)
-            if gap < lag < width:
-                total += similarity[min(i, j), lag]
-                count += 1
-    return total / count if count else 0.0

@@ -133,7 +133,9 @@ def find_actions(likeness: Recurrence, preset: ActionPreset) -> Actions:
     labels = stretches.link(
         borders,
         likeness,
+        _poses(likeness.features, preset.offsets) if preset.any_pace else likeness.features,
         likeness=preset.likeness,
+        softness=preset.likeness_softness,
         max_lag=None if preset.max_lag is None else preset.moments(preset.max_lag),
     )
     repeats = stretches.repeating(
@@ -147,6 +149,16 @@ def find_actions(likeness: Recurrence, preset: ActionPreset) -> Actions:
         no_action_cost=preset.no_action_cost,
         min_length=max(1, preset.moments(preset.min_action)),
     )
+
+
+def _poses(features: NDArray[np.float32], offsets: tuple[float, ...]) -> NDArray[np.float32]:
+    """The poses without their neighbours in time; all, if they were not stacked at the offsets."""
+    dims, rest = divmod(features.shape[1], len(offsets))
+    if rest:
+        return features
+    first = dims * int(np.argmin(np.abs(offsets)))
+    poses: NDArray[np.float32] = features[:, first : first + dims] * len(offsets) ** 0.5
+    return poses
 
 
 def _blocks(

@@ -78,7 +78,15 @@ def merge_parts(
     return np.array(cuts, np.int64)
 
 
-def link(borders: Bins, recurrence: Recurrence, *, likeness: float, max_lag: int | None) -> Bins:
+def link(
+    borders: Bins,
+    recurrence: Recurrence,
+    poses: NDArray[np.float32],
+    *,
+    likeness: float,
+    softness: float,
+    max_lag: int | None,
+) -> Bins:
     """One label per stretch: equal where the moments of two stretches are alike.
 
     Average linkage on the mean similarity of two stretches, relative to that
@@ -88,7 +96,9 @@ def link(borders: Bins, recurrence: Recurrence, *, likeness: float, max_lag: int
     ----------
     borders : bins, ends included
     recurrence : Recurrence
+    poses : (frames, dims) by which stretches are compared, in the unit of the scales
     likeness : relative similarity from which stretches are one action, 0 to 1
+    softness : scales at which similarity has fallen to 1/e
     max_lag : bins; stretches farther apart are not compared, and differ
     """
     from scipy.cluster.hierarchy import fcluster, linkage
@@ -99,45 +109,38 @@ def link(borders: Bins, recurrence: Recurrence, *, likeness: float, max_lag: int
         return np.zeros(1, np.int64)
     reach = borders[-1] if max_lag is None else max_lag
     within_reach = np.searchsorted(borders[:-1], borders[1:] + reach, side="right")
+    step = recurrence.step
+    gap = recurrence.phase * step
+    reaches = step * np.array(phase_windows(recurrence.phase))
+    bins = [_spread(start, stop) for start, stop in pairwise(borders.tolist())]
+    scales = [recurrence.scales[each] for each in bins]
     mean = np.zeros((k, k))
 
     def compare(g: int) -> None:
         for h in range(g, within_reach[g]):
-            mean[g, h] = mean[h, g] = _similarity(borders, recurrence, g, h)
+            mean[g, h] = mean[h, g] = _distance_kernels.mean_likeness(
+                poses, step * bins[g], step * bins[h], reaches, scales[g], scales[h],
+                softness, gap,
+            )  # fmt: skip
 
     map_threads(compare, range(k))
-    within = np.sqrt(np.maximum(mean.diagonal(), 1e-9))
+    within = np.sqrt(np.maximum(mean.diagonal(), LEAST))
     distance = 1 - np.clip(mean / np.outer(within, within), 0, 1)
     np.fill_diagonal(distance, 0)
     tree = linkage(squareform(distance, checks=False), "average")
     return by_first_appearance(fcluster(tree, 1 - likeness, "distance"))
 
 
-# Of stretches that the band does not reach across, so many bins are compared.
-EXCERPT = 60
-STRIDE = 3
+# Stretches are compared by so many of their moments.
+MOMENTS = 20
+# A stretch is taken to be at least so much alike within.
+LEAST = 0.05
 
 
-def _similarity(borders: Bins, recurrence: Recurrence, g: int, h: int) -> float:
-    """Mean similarity of two stretches, g not after h: from the band, else measured anew."""
-    g_start, g_stop, h_start, h_stop = borders[[g, g + 1, h, h + 1]].tolist()
-    width = recurrence.similarity.shape[1]
-    if g == h or h_start - g_stop < width - EXCERPT:
-        in_band: float = kernels.mean_similarity(
-            recurrence.similarity, g_start, g_stop, h_start, h_stop, recurrence.phase
-        )
-        return in_band
-    excerpts = (*_excerpt(g_start, g_stop), *_excerpt(h_start, h_stop))
-    distant: float = _distance_kernels.distant_similarity(
-        recurrence.features, recurrence.scales, recurrence.step,
-        np.array(phase_windows(recurrence.phase)), STRIDE, recurrence.softness, *excerpts,
-    )  # fmt: skip
-    return distant
-
-
-def _excerpt(start: int, stop: int) -> tuple[int, int]:
-    middle = (start + stop) // 2
-    return max(start, middle - EXCERPT // 2), min(stop, middle + EXCERPT // 2)
+def _spread(start: int, stop: int) -> Bins:
+    """Moments of a stretch, evenly spread."""
+    n = min(stop - start, MOMENTS)
+    return start + (2 * np.arange(n) + 1) * (stop - start) // (2 * n)
 
 
 def repeating(

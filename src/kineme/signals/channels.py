@@ -111,6 +111,9 @@ def search_vectors(
 def signal_preset(preset: str | Preset, **overrides: Any) -> Preset:
     """The preset with its lengths as standard deviations; overrides are taken as such.
 
+    Few channels at one moment tell little, so pace counts: what is the same at
+    another pace is another action, as running is to a sensor that walks.
+
     Raises
     ------
     ParameterError : no such preset or constant, or a value it cannot take
@@ -121,6 +124,8 @@ def signal_preset(preset: str | Preset, **overrides: Any) -> Preset:
         lengths = {name: getattr(chosen, name) for name in _LENGTHS}
         scaled = {name: v / per_channel for name, v in lengths.items() if v is not None}
         overrides = {**scaled, **overrides}
+    if isinstance(chosen, ActionPreset):
+        overrides = {"any_pace": False, **overrides}
     return resolve_preset(chosen, **overrides)
 
 

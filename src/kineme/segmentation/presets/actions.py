@@ -33,6 +33,8 @@ class ActionPreset(Preset):
     part_softness : scales at which recurrence in a neighbour has fallen to 1/e
     part_share : share of a stretch that must recur in its neighbour to be part of it
     likeness : similarity, relative to that within, from which stretches are one action
+    likeness_softness : scales at which that similarity has fallen to 1/e
+    any_pace : whether the same at another pace is the same action
     min_repetition : share of a stretch that must recur for it to be an activity
     switch_cost : seconds of unlikeness that a change of action costs
     no_action_cost : unlikeness at which a moment is better in no action
@@ -55,6 +57,8 @@ class ActionPreset(Preset):
     part_softness: float
     part_share: float
     likeness: float
+    likeness_softness: float
+    any_pace: bool
     min_repetition: float
     switch_cost: float
     no_action_cost: float
@@ -65,7 +69,8 @@ class ActionPreset(Preset):
     def __post_init__(self) -> None:
         positive = [
             "working_fps", "max_lag", "resolution", "window", "recurrence_time", "min_scale",
-            "max_scale", "softness", "part_softness", "part_share", "transition_factor",
+            "max_scale", "softness", "part_softness", "part_share", "likeness_softness",
+            "transition_factor",
         ]  # fmt: skip
         not_negative = [
             "phase", "border_cost", "min_stretch", "part_gap", "switch_cost", "min_action",
@@ -104,7 +109,9 @@ KINEME = ActionPreset(
     part_gap=0.75,
     part_softness=2.0,
     part_share=0.3,
-    likeness=0.5,
+    likeness=0.6,
+    likeness_softness=1.3,
+    any_pace=True,
     min_repetition=0.5,
     switch_cost=0.6,
     no_action_cost=0.55,
