@@ -44,7 +44,7 @@ NEAR = 0.5
 # Cost of the repetition that the others are compared with, per share of the activity.
 LENGTH = 1.5
 # Where more than this share stays unexplained, likeness is chance.
-CHANCE = 0.75
+CHANCE = 0.7
 # Ways that cost little more than the best say with it how long the ends are,
 # and those that cost somewhat more whether the count is certain.
 SAME, RIVAL = 0.1, 0.3
