@@ -52,11 +52,9 @@ def scores(cases: Sequence[Case], preset: ActionPreset) -> Scores:
 def nudged(preset: ActionPreset) -> Iterator[tuple[str, ActionPreset]]:
     for name in CONSTANTS:
         for factor in NUDGES:
-            try:
-                other = preset.replace(**{name: factor * getattr(preset, name)})
-            except ParameterError:
-                continue
-            yield f"{name} x {factor:g}", other
+            other = stepped(preset, name, factor)
+            if other is not None:
+                yield f"{name} x {factor:g}", other
 
 
 class Judge:
@@ -66,7 +64,7 @@ class Judge:
         self._groups = groups
         self._known: dict[ActionPreset, list[NDArray[np.float64]]] = {}
 
-    def goodness(self, preset: ActionPreset, out: Case | None) -> float:
+    def goodness(self, preset: ActionPreset, out: Case) -> float:
         """Mean over the groups, each of equal weight, of what is judged; without one case."""
         if preset not in self._known:
             self._known[preset] = [np.array([judged(c, preset) for c in g]) for g in self._groups]

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from json import dumps
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import recordings_of
+from kineme.cli.inputs import Files, recordings_of
 from kineme.cli.messages import Failures
 from kineme.cli.reading import Effectors, Json, effector_names
 from kineme.cli.signals import Columns, SignalOptions, show_signals, signal_facts
@@ -20,13 +19,7 @@ if TYPE_CHECKING:
 
 
 def info(
-    files: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="FILES",
-            help="Recordings, or folders of them: BVH, AMC, C3D, TRC, tables, npz, MOT.",
-        ),
-    ],
+    files: Files,
     joints: Annotated[bool, typer.Option("--joints", help="Show the tree of joints.")] = False,
     json: Json = False,
     effectors: Effectors = None,

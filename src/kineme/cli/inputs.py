@@ -3,8 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated
+
+import typer
 
 from kineme.cli.messages import Failures
+
+Files = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="FILES",
+        help="Recordings, or folders of them: BVH, AMC, C3D, TRC, tables, npz, MOT.",
+    ),
+]
 
 
 def recordings_of(given: list[Path], failures: Failures) -> list[Path]:

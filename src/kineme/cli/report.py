@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import recordings_of
+from kineme.cli.inputs import Files, recordings_of
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Effectors, Quiet, effector_names
 from kineme.cli.segment import run
@@ -23,13 +23,7 @@ if TYPE_CHECKING:
 
 
 def report(
-    files: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="FILES",
-            help="Recordings, or folders of them: BVH, AMC, C3D, TRC, tables, npz, MOT.",
-        ),
-    ],
+    files: Files,
     output: Annotated[
         Path,
         typer.Option(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import recordings_of
+from kineme.cli.inputs import Files, recordings_of
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Effectors, Json, Quiet, effector_names
 from kineme.cli.signals import Columns, Emg, SignalOptions, run_signals
@@ -27,13 +27,7 @@ if TYPE_CHECKING:
 
 
 def segment(
-    files: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="FILES",
-            help="Recordings, or folders of them: BVH, AMC, C3D, TRC, tables, npz, MOT.",
-        ),
-    ],
+    files: Files,
     preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
     output: Annotated[
         Path | None,

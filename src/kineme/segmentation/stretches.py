@@ -114,12 +114,13 @@ def link(
     reaches = step * np.array(phase_windows(recurrence.phase))
     bins = [_spread(start, stop) for start, stop in pairwise(borders.tolist())]
     scales = [recurrence.scales[each] for each in bins]
+    frames = [step * each for each in bins]
     mean = np.zeros((k, k))
 
     def compare(g: int) -> None:
         for h in range(g, within_reach[g]):
             mean[g, h] = mean[h, g] = _distance_kernels.mean_likeness(
-                poses, step * bins[g], step * bins[h], reaches, scales[g], scales[h],
+                poses, frames[g], frames[h], reaches, scales[g], scales[h],
                 softness, gap,
             )  # fmt: skip
 

@@ -37,7 +37,7 @@ in mat4 instanceMatrix;
 in vec3 normal;
 uniform vec3 color;
 uniform float lit;
-out vec3 paint;
+out vec4 paint;
 out float far;
 const vec3 SUN = normalize(vec3(2.0, 5.0, 3.0));
 const vec3 GROUND = vec3(0.254, 0.275, 0.318);
@@ -46,18 +46,11 @@ void main() {
   vec3 size = vec3(dot(turn[0], turn[0]), dot(turn[1], turn[1]), dot(turn[2], turn[2]));
   vec3 up = normalize(turn * (normal / max(size, 1e-12)) + vec3(0.0, 1e-9, 0.0));
   vec3 light = 0.67 * mix(GROUND, vec3(1.0), 0.5 + 0.5 * up.y) + 0.54 * max(dot(up, SUN), 0.0);
-  paint = color * mix(vec3(1.0), light, lit);
+  paint = vec4(color * mix(vec3(1.0), light, lit), 1.0);
   vec4 seen = viewMatrix * modelMatrix * instanceMatrix * vec4(position, 1.0);
   far = -seen.z;
   gl_Position = projectionMatrix * seen;
 }`;
-const BODY_FRAGMENT = `${HEAD}
-in vec3 paint;
-in float far;
-void main() {
-  pixel = onScreen(mix(paint, sky, smoothstep(fade.x, fade.y, far)), 1.0);
-}`;
-
 const TRAIL_VERTEX = `${PLACED}
 in vec4 color;
 out vec4 paint;
@@ -68,7 +61,9 @@ void main() {
   far = -seen.z;
   gl_Position = projectionMatrix * seen;
 }`;
-const TRAIL_FRAGMENT = `${HEAD}
+
+// What is painted fades into the sky with its distance.
+const HAZY_FRAGMENT = `${HEAD}
 in vec4 paint;
 in float far;
 void main() {
@@ -101,12 +96,12 @@ void main() {
 /** For instances of one colour; `lit` is 1 for bodies and 0 for shadows. */
 export function bodyPaint(haze: Haze, lit: 0 | 1): THREE.RawShaderMaterial {
   const uniforms = { ...haze, color: { value: new THREE.Color() }, lit: { value: lit } };
-  return paint(BODY_VERTEX, BODY_FRAGMENT, uniforms);
+  return paint(BODY_VERTEX, HAZY_FRAGMENT, uniforms);
 }
 
 /** For ribbons whose vertices have colours that one can see through. */
 export function trailPaint(haze: Haze): THREE.RawShaderMaterial {
-  const made = paint(TRAIL_VERTEX, TRAIL_FRAGMENT, { ...haze });
+  const made = paint(TRAIL_VERTEX, HAZY_FRAGMENT, { ...haze });
   made.setValues({ transparent: true, depthWrite: false, side: THREE.DoubleSide });
   return made;
 }
