@@ -58,7 +58,7 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=7)
     runs = range(parser.parse_args().runs)
     for name in PRESETS:
-        segment = ("-m", "kineme.cli", "segment", "--preset", name, RECORDING)
+        segment = ("-m", "kineme", "segment", "--preset", name, RECORDING)
         with tempfile.TemporaryDirectory() as cache:
             first = process(*segment, cache=cache)
             again = middle(process(*segment, cache=cache) for _ in runs)

@@ -60,7 +60,7 @@ class Studio(NamedTuple):
 
 def start(folder: Path) -> Studio:
     """``kineme studio`` of a folder, once it has said its address."""
-    command = [sys.executable, "-m", "kineme.cli", "studio", str(folder)]
+    command = [sys.executable, "-m", "kineme", "studio", str(folder)]
     process = subprocess.Popen(
         [*command, "--no-browser", "--port", "0"], stdout=subprocess.PIPE, text=True
     )

@@ -102,7 +102,7 @@ def save(page: Page, name: str) -> None:
 @contextmanager
 def studio(folder: Path) -> Iterator[str]:
     """The studio of a folder; its address."""
-    command = [sys.executable, "-m", "kineme.cli", "studio", str(folder), "--no-browser"]
+    command = [sys.executable, "-m", "kineme", "studio", str(folder), "--no-browser"]
     process = subprocess.Popen(  # noqa: S603 (our own command)
         [*command, "--port", "0"], stdout=subprocess.PIPE, text=True
     )

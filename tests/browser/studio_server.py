@@ -30,7 +30,7 @@ class StudioServer:
 
     def start(self) -> None:
         """A new server, on the port of the one before."""
-        command = [sys.executable, "-m", "kineme.cli", "studio", str(self.folder)]
+        command = [sys.executable, "-m", "kineme", "studio", str(self.folder)]
         self._process = subprocess.Popen(
             [*command, "--no-browser", "--port", str(self._port)],
             stdout=subprocess.PIPE,

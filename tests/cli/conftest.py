@@ -19,7 +19,7 @@ def kineme(tmp_path: Path) -> Kineme:
 
     def run(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
-            [sys.executable, "-m", "kineme.cli", *map(str, arguments)],
+            [sys.executable, "-m", "kineme", *map(str, arguments)],
             capture_output=True,
             text=True,
             encoding="utf-8",

@@ -135,7 +135,7 @@ def test_control_c_ends_quietly_with_130(tmp_path: Path) -> None:
     os.mkfifo(pipe)
     with (
         subprocess.Popen(
-            [sys.executable, "-m", "kineme.cli", "segment", pipe, "-o", tmp_path / "cuts.csv"],
+            [sys.executable, "-m", "kineme", "segment", pipe, "-o", tmp_path / "cuts.csv"],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,

@@ -56,7 +56,7 @@ class Process(Studio):
 
     def __init__(self, folder: Path, *arguments: str):
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "kineme.cli", "studio", str(folder), "--no-browser"]
+            [sys.executable, "-m", "kineme", "studio", str(folder), "--no-browser"]
             + (["--port", "0"] if "--port" not in arguments else [])
             + list(arguments),
             stdout=subprocess.PIPE,

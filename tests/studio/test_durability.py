@@ -18,6 +18,9 @@ from hypothesis import strategies as st
 import kineme
 from kineme.errors import ParameterError
 from kineme.segmentation import editing
+from kineme.studio import server
+from kineme.studio.documents import Documents
+from kineme.studio.folder import Folder
 from kineme.studio.history import LONGEST, History
 from kineme.studio.uploads import FORGOTTEN, forget_drafts
 
@@ -249,3 +252,18 @@ def test_undo_and_redo_are_each_others_inverse(steps: list[int | str]) -> None:
         assert len(history.past) <= LONGEST
         if history.past:
             assert history.undone().redone() == history
+
+
+def test_what_fails_after_the_end_is_not_said(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def failing(*presets: str) -> None:
+        raise RuntimeError("cannot schedule new futures after interpreter shutdown")
+
+    monkeypatch.setattr(server, "load_code", failing)
+    documents = Documents(Folder(folder, None), lambda name, revision: None)
+    ended = threading.Event()
+    with pytest.raises(RuntimeError):
+        server.make_ready(documents, ended)
+    ended.set()
+    server.make_ready(documents, ended)

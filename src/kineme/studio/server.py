@@ -6,7 +6,6 @@ import logging
 import os
 import socket
 import threading
-import time
 import webbrowser
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -92,10 +91,14 @@ def serve(
             proxy_headers=False,
             timeout_graceful_shutdown=PATIENCE,
         )
+        ended = threading.Event()
         threading.Thread(
-            target=make_ready, args=[documents], name="make ready", daemon=True
+            target=make_ready, args=[documents, ended], name="make ready", daemon=True
         ).start()
-        Server(config, hub).run(sockets=[opened])
+        try:
+            Server(config, hub).run(sockets=[opened])
+        finally:
+            ended.set()
 
 
 def listening(port: int | None) -> socket.socket:
@@ -118,26 +121,36 @@ def listening(port: int | None) -> socket.socket:
     raise ParameterError(f"port {which} not free ({reason}): name another with --port")
 
 
-def make_ready(documents: Documents) -> None:
+def make_ready(documents: Documents, ended: threading.Event) -> None:
     """Open the only recording, which every page shows, and load or build the compiled code.
 
-    That of the default preset first.
+    That of the default preset first. What fails once the server has ended is not said: an
+    interpreter that ends lets nobody start threads.
     """
+    from kineme.segmentation.presets import DEFAULT, PRESETS
+
+    try:
+        names = list(documents.folder.recordings())
+        if len(names) == 1:
+            documents.prepare(names)
+        load_code(DEFAULT)
+        if not ended.wait(HEAD_START):
+            load_code(*(name for name in PRESETS if name != DEFAULT))
+    except KinemeError:  # it will be said where it matters
+        return
+    except Exception:
+        if not ended.is_set():
+            raise
+
+
+def load_code(*presets: str) -> None:
+    """Show and segment the bundled recording."""
     from kineme.datasets import bundled_recording
     from kineme.formats import read
     from kineme.report.recording import footage
-    from kineme.segmentation.presets import DEFAULT, PRESETS
     from kineme.segmentation.segmenter import segment
 
-    names = list(documents.folder.recordings())
-    if len(names) == 1:
-        documents.prepare(names)
-    try:
-        motion = read(bundled_recording())
-        footage(motion)
-        for number, name in enumerate([DEFAULT, *(name for name in PRESETS if name != DEFAULT)]):
-            if number == 1:
-                time.sleep(HEAD_START)
-            segment(motion, preset=name)
-    except KinemeError:  # it will be said where it matters
-        return
+    motion = read(bundled_recording())
+    footage(motion)
+    for name in presets:
+        segment(motion, preset=name)

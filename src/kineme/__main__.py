@@ -1,0 +1,5 @@
+"""``python -m kineme``: the console script."""
+
+from kineme.cli import main
+
+main()
