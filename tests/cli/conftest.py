@@ -6,27 +6,52 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
+
+from kineme.cli.app import app
 
 Kineme = Callable[..., subprocess.CompletedProcess[str]]
 
 
-@pytest.fixture
-def kineme(tmp_path: Path) -> Kineme:
-    """Run ``kineme ARGUMENTS`` in an empty folder."""
+@pytest.fixture(scope="session")
+def kineme_in() -> Kineme:
+    """Run ``kineme ARGUMENTS`` in the folder that comes first."""
 
-    def run(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
+    def run(
+        folder: Path, *arguments: object, **environment: str
+    ) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
             [sys.executable, "-m", "kineme", *map(str, arguments)],
             capture_output=True,
             text=True,
             encoding="utf-8",
-            cwd=tmp_path,
+            cwd=folder,
             env={**os.environ, "COLUMNS": "120", "NO_COLOR": "1", **environment},
             timeout=120,
             check=False,
         )
+
+    return run
+
+
+@pytest.fixture
+def kineme(kineme_in: Kineme, tmp_path: Path) -> Kineme:
+    """Run ``kineme ARGUMENTS`` in an empty folder."""
+    return partial(kineme_in, tmp_path)
+
+
+@pytest.fixture
+def kineme_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Kineme:
+    """The same without a process of its own: sooner, for the many ways to be refused."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments: object) -> subprocess.CompletedProcess[str]:
+        given = [*map(str, arguments)]
+        done = CliRunner(env={"COLUMNS": "120", "NO_COLOR": "1"}).invoke(app, given)
+        return subprocess.CompletedProcess(given, done.exit_code, done.stdout, done.stderr)
 
     return run

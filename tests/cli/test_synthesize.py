@@ -13,15 +13,22 @@ from kineme.datasets import bundled_recording
 from kineme.datasets.bundled import bundled_truth
 
 
-@pytest.fixture
-def graph(kineme, tmp_path: Path) -> Path:
-    """A graph of labelled primitives beside a copy of its recording."""
-    shutil.copy(bundled_recording(), tmp_path / "take.bvh")
-    shutil.copy(bundled_truth(), tmp_path / "take.json")
-    done = kineme("graph", "take.bvh", "-o", "graph.json", "--segments", "{name}.json")
+@pytest.fixture(scope="module")
+def made(kineme_in, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a graph of labelled primitives and its recording."""
+    folder = tmp_path_factory.mktemp("made")
+    shutil.copy(bundled_recording(), folder / "take.bvh")
+    shutil.copy(bundled_truth(), folder / "take.json")
+    done = kineme_in(folder, "graph", "take.bvh", "-o", "graph.json", "--segments", "{name}.json")
     assert done.returncode == 0, done.stderr
     assert "jump: 4 primitives, then walk, squat, arm circles, jump, run, kick" in done.stdout
-    return tmp_path / "graph.json"
+    return folder
+
+
+@pytest.fixture
+def graph(made: Path, tmp_path: Path) -> Path:
+    """The graph beside its recording, copies of one's own."""
+    return shutil.copytree(made, tmp_path, dirs_exist_ok=True) / "graph.json"
 
 
 def test_from_a_recording_to_a_new_one(kineme, graph: Path, tmp_path: Path) -> None:
@@ -68,22 +75,22 @@ def test_a_random_walk_and_a_picture(kineme, graph: Path, tmp_path: Path) -> Non
     ],
 )
 def test_what_cannot_be_played_is_one_clear_error(
-    kineme, graph: Path, tmp_path: Path, arguments: list[str], message: str
+    kineme_here, graph: Path, tmp_path: Path, arguments: list[str], message: str
 ) -> None:
-    done = kineme("synthesize", "graph.json", *arguments, "-o", "new.bvh")
+    done = kineme_here("synthesize", "graph.json", *arguments, "-o", "new.bvh")
     assert done.returncode in (1, 2)
     assert message in " ".join(done.stderr.replace("│", " ").split())
     assert not (tmp_path / "new.bvh").exists()
 
 
 def test_graphs_that_cannot_be_used_are_one_clear_error(
-    kineme, graph: Path, tmp_path: Path
+    kineme_here, graph: Path, tmp_path: Path
 ) -> None:
     whole = json.loads(graph.read_text())
 
     def refused(text: str) -> str:
         (tmp_path / "bad.json").write_text(text)
-        done = kineme("synthesize", "bad.json", "--actions", "walk", "-o", "new.bvh")
+        done = kineme_here("synthesize", "bad.json", "--actions", "walk", "-o", "new.bvh")
         assert done.returncode == 1
         assert len(done.stderr.splitlines()) == 1
         assert "bad.json" in done.stderr

@@ -19,13 +19,21 @@ def recording(tmp_path: Path) -> Path:
     return Path(shutil.copy(bundled_recording(), tmp_path / "exercises.bvh"))
 
 
-@pytest.fixture
-def taught(kineme, tmp_path: Path, recording: Path) -> Path:
-    base = tmp_path / "base.npz"
-    done = kineme("label", recording, "--labels", bundled_truth(), "--knowledge", base)
+@pytest.fixture(scope="module")
+def base(kineme_in, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What the true segments of the recording teach."""
+    folder = tmp_path_factory.mktemp("base")
+    path = folder / "base.npz"
+    recording = shutil.copy(bundled_recording(), folder / "exercises.bvh")
+    done = kineme_in(folder, "label", recording, "--labels", bundled_truth(), "--knowledge", path)
     assert done.returncode == 0, done.stderr
-    assert f"{len(KnowledgeBase.load(base))} primitives in all" in done.stdout
-    return base
+    assert f"{len(KnowledgeBase.load(path))} primitives in all" in done.stdout
+    return path
+
+
+@pytest.fixture
+def taught(base: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copy(base, tmp_path))
 
 
 def test_what_was_taught_is_found_again(kineme, tmp_path, recording, taught) -> None:
