@@ -124,3 +124,36 @@ def test_a_dropped_file_is_taken_into_the_folder_and_opened(new_tab, server, tak
     screen = Screen(page)
     screen.wait(f"k.name === 'dropped_{take.name}' && k.hasMotion")
     assert (server.folder / f"dropped_{take.name}").read_text().strip() == take.read_text().strip()
+
+
+@pytest.mark.parametrize("place", [".lanes canvas", ".matrix canvas"])
+def test_two_fingers_zoom_to_what_is_between_them(page, place):
+    screen = Screen(page)
+    before = screen.state
+    box = page.locator(place).bounding_box()
+    middle, y = box["x"] + 0.6 * box["width"], box["y"] + 0.6 * box["height"]
+    touches = page.context.new_cdp_session(page)
+
+    def touch(kind: str, *apart: float) -> None:
+        points = [{"x": middle + x, "y": y, "id": i} for i, x in enumerate(apart)]
+        touches.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    touch("touchStart", -30)
+    touch("touchStart", -30, 30)
+    for wide in (40, 60, 90, 120):
+        touch("touchMove", -wide, wide)
+    touch("touchEnd", -120)
+    touch("touchEnd")
+    screen.wait(f"k.range.stop_s - k.range.start_s < {0.3 * before['duration']}")
+    after = screen.state
+    assert after["range"]["stop_s"] - after["range"]["start_s"] > 0.2 * before["duration"]
+    assert (after["selected"], after["playhead"]) == (None, before["playhead"])
+    touch("touchStart", 0)
+    touch("touchMove", 50)
+    touch("touchMove", 100)
+    touch("touchEnd")
+    screen.wait(f"k.range.start_s < {after['range']['start_s']}")
+    moved = screen.state["range"]
+    assert moved["stop_s"] - moved["start_s"] == pytest.approx(
+        after["range"]["stop_s"] - after["range"]["start_s"]
+    )

@@ -33,7 +33,7 @@ export function Timeline({ store }: { store: Store }): JSX.Element {
     <div class="timeline">
       <div class="lanes">
         <Canvas
-          label="Segments over time. Click one to go there; use the wheel to zoom, drag to pan."
+          label="Segments over time. Click one to go there; use the wheel or two fingers to zoom, drag to pan."
           watch={() => {
             void [given(), store.range.value, store.selected.value, store.hovered.value];
             void [store.loop.value, drag.value];

@@ -1,4 +1,5 @@
-/** What the pointer does on the lanes: scrub, select, pan, drag a border. */
+/** What pointers do on the lanes: scrub, select, pan, drag a border; two fingers zoom. */
+import { Fingers, type Pinch } from "../canvas/fingers";
 import { indexAt } from "../segments";
 import type { Store } from "../store";
 import { toSeconds } from "../view";
@@ -21,10 +22,12 @@ type Doing =
   | { what: "scrub" }
   | { what: "press"; x: number; y: number; last: number }
   | { what: "pan"; last: number }
+  | { what: "pinch" }
   | { what: "border"; lane: Lane; drag: Drag };
 
 export class Gestures {
   private doing: Doing | null = null;
+  private readonly fingers = new Fingers();
 
   constructor(
     private readonly store: Store,
@@ -36,6 +39,12 @@ export class Gestures {
     if (event.button !== 0) return;
     const spot = spotOf(event);
     (event.currentTarget as Element).setPointerCapture(event.pointerId);
+    this.fingers.press(event.pointerId, spot);
+    if (this.fingers.count > 1) {
+      this.onDrag(null);
+      this.doing = { what: "pinch" };
+      return;
+    }
     const border = this.borderAt(spot);
     if (spot.y < RULER) {
       this.doing = { what: "scrub" };
@@ -46,6 +55,8 @@ export class Gestures {
 
   move(event: PointerEvent): void {
     const spot = spotOf(event);
+    const pinch = this.fingers.move(event.pointerId, spot);
+    if (this.doing?.what === "pinch") return this.pinched(pinch, spot);
     if (this.doing?.what === "press" && Math.abs(spot.x - this.doing.x) > CLICK)
       this.doing = { what: "pan", last: this.doing.last };
     const { doing } = this;
@@ -64,6 +75,8 @@ export class Gestures {
 
   up(event: PointerEvent): void {
     const { doing } = this;
+    this.fingers.lift(event.pointerId);
+    if (doing?.what === "pinch" && this.fingers.count) return;
     this.doing = null;
     if (doing?.what === "press") this.click(spotOf(event));
     if (doing?.what !== "border") return;
@@ -74,6 +87,7 @@ export class Gestures {
   }
 
   cancel(): void {
+    this.fingers.clear();
     this.doing = null;
     this.onDrag(null);
   }
@@ -89,6 +103,14 @@ export class Gestures {
     if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY))
       this.store.panBy((sideways / (spot.width - GUTTER)) * (stop_s - start_s));
     else this.store.zoomBy(Math.exp(0.0015 * event.deltaY), this.secondsAt(spot));
+  }
+
+  /** What lies between two fingers stays there. */
+  private pinched(pinch: Pinch | null, spot: Spot): void {
+    if (!pinch) return;
+    const at = this.secondsAt({ ...spot, ...pinch.from });
+    this.store.zoomBy(pinch.factor, at);
+    this.store.panBy(at - this.secondsAt({ ...spot, ...pinch.to }));
   }
 
   private click(spot: Spot): void {
