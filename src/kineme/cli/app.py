@@ -42,7 +42,7 @@ app.command()(with_reading_options(label))
 app.command()(with_reading_options(transfer))
 app.command()(with_reading_options(graph))
 app.command()(synthesize)
-app.command()(studio)
+app.command()(with_reading_options(studio))
 
 
 def _show_version(wanted: bool) -> None:

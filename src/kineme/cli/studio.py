@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from kineme.cli.messages import Failures
+from kineme.cli.reading import Effectors, effector_names
 from kineme.errors import ParameterError
 
 
@@ -26,6 +27,8 @@ def studio(
     browser: Annotated[
         bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
     ] = True,
+    effectors: Effectors = None,
+    reading: dict[str, Any] | None = None,
 ) -> None:
     """See recordings and correct their segments, in the browser.
 
@@ -36,11 +39,15 @@ def studio(
     with failures.caught("studio"):
         root, recordings = _opened(files or [Path()])
         from kineme.studio.server import serve
+        from kineme.studio.takes import Reading
+
+        given = {name: value for name, value in (reading or {}).items() if value is not None}
+        said = Reading(given, effector_names(effectors))
 
         def announce(address: str) -> None:
             typer.echo(f"kineme studio: {address} (Ctrl+C ends it)")
 
-        serve(root, recordings, port=port, browser=browser, announce=announce)
+        serve(root, recordings, reading=said, port=port, browser=browser, announce=announce)
     failures.exit()
 
 

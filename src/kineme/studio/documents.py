@@ -22,9 +22,10 @@ from kineme.studio.edits import edited
 from kineme.studio.folder import Folder
 from kineme.studio.history import History
 from kineme.studio.storage import ChangedOnDiskError, saved_table
-from kineme.studio.takes import Sources, Take
+from kineme.studio.takes import Reading, Sources, Take
 
 Listener = Callable[[str, int], None]
+AS_IT_IS = Reading()
 
 
 class UnknownError(Exception):
@@ -153,12 +154,13 @@ class Documents:
     Parameters
     ----------
     changed : called with id and revision when a table has changed
+    reading : what the files do not say themselves
     """
 
-    def __init__(self, folder: Folder, changed: Listener):
+    def __init__(self, folder: Folder, changed: Listener, reading: Reading = AS_IT_IS):
         self.folder = folder
         self._changed = changed
-        self._sources = Sources()
+        self._sources = Sources(reading)
         self._open: dict[str, Document] = {}
         self._lock = threading.Lock()
         self._opening: dict[str, threading.Lock] = {}

@@ -10,6 +10,7 @@ from pathlib import Path
 from kineme.errors import ParameterError
 from kineme.export import FORMATS, write_segments
 from kineme.export.split import split
+from kineme.features import Names
 from kineme.motion import Motion
 from kineme.report.page import write_report
 from kineme.report.recording import Source
@@ -61,12 +62,13 @@ def motion_files(
         return _one_file(Path(folder), stem)
 
 
-def report_file(source: Source, segmentation: Segmentation, recording: Path) -> tuple[str, bytes]:
+def report_file(
+    source: Source, segmentation: Segmentation, recording: Path, effectors: Names | None
+) -> tuple[str, bytes]:
     """Name and bytes of a page that shows the recording and its segments."""
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        write_report(
-            source, segmentation, Path(folder) / f"{recording.stem}.html", name=recording.name
-        )
+        page = Path(folder) / f"{recording.stem}.html"
+        write_report(source, segmentation, page, name=recording.name, effectors=effectors)
         return _one_file(Path(folder), recording.stem)
 
 

@@ -185,11 +185,11 @@ class Api:
         from kineme.studio import downloads
 
         document = self._documents.get(name)
-        stem = document.path.stem
+        take, stem = document.take, document.path.stem
         if kind == choices.CLIPS:
-            return downloads.motion_files(document.take.motion, document.table, stem, level)
+            return downloads.motion_files(take.motion, document.table, stem, level)
         if kind == choices.REPORT:
-            return downloads.report_file(document.take.source, document.table, document.path)
+            return downloads.report_file(take.source, document.table, take.path, take.effectors)
         return downloads.table_file(document.table, stem, kind, level)
 
 

@@ -21,6 +21,7 @@ from kineme.studio.security import new_token
 
 if TYPE_CHECKING:
     from kineme.studio.documents import Documents
+    from kineme.studio.takes import Reading
 
 HOST = "127.0.0.1"
 PORT = 8750
@@ -48,6 +49,7 @@ def serve(
     root: Path,
     files: Iterable[Path] | None,
     *,
+    reading: Reading,
     port: int | None,
     browser: bool,
     announce: Callable[[str], None],
@@ -58,6 +60,7 @@ def serve(
     ----------
     root : the folder
     files : the recordings of it to list; None for all
+    reading : what they do not say themselves
     port : to listen on; None for the first free one from 8750, 0 for any
     browser : open the address there
     announce : called with the address
@@ -80,7 +83,7 @@ def serve(
         from kineme.studio.uploads import forget_drafts
 
         hub = Hub()
-        documents = Documents(Folder(root, files), hub.tell)
+        documents = Documents(Folder(root, files), hub.tell, reading)
         forget_drafts(root)
         config = uvicorn.Config(
             create_app(documents, token=token, port=number, hub=hub),

@@ -9,8 +9,10 @@ from __future__ import annotations
 import threading
 import warnings
 from collections import OrderedDict
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError
 from kineme.formats import read
@@ -19,6 +21,7 @@ from kineme.segmentation.presets import DEFAULT, PRESETS, Preset
 from kineme.segmentation.result import Segmentation
 
 if TYPE_CHECKING:
+    from kineme.features import Names
     from kineme.report.recording import Footage
     from kineme.signals import Signals
     from kineme.transfer import KnowledgeBase
@@ -29,10 +32,25 @@ Mark = tuple[int, int]
 Known = tuple["Motion | Signals", list[str]]
 
 
+@dataclass(frozen=True)
+class Reading:
+    """What the files do not say themselves.
+
+    Parameters
+    ----------
+    options : keywords for `kineme.read`
+    effectors : the names of head, hands and feet, as `kineme.end_effectors` takes them
+    """
+
+    options: Mapping[str, Any] = field(default_factory=dict)
+    effectors: Names | None = None
+
+
 class Sources:
     """What the files used last hold, motion or signals, with the warnings their reading gave."""
 
-    def __init__(self) -> None:
+    def __init__(self, reading: Reading) -> None:
+        self.reading = reading
         self._lock = threading.Lock()
         self._known: OrderedDict[tuple[Path, Mark], Known] = OrderedDict()
 
@@ -46,7 +64,7 @@ class Sources:
             if key not in self._known:
                 with warnings.catch_warnings(record=True) as caught:
                     warnings.simplefilter("always")
-                    found = _read(path)
+                    found = _read(path, self.reading.options)
                 said = [str(w.message) for w in caught if issubclass(w.category, KinemeWarning)]
                 self._known[key] = found, said
             self._known.move_to_end(key)
@@ -66,6 +84,7 @@ class Take:
     def __init__(self, path: Path, sources: Sources):
         self.path = path
         self._sources = sources
+        self.effectors = sources.reading.effectors
         self._mark = mark_of(path)
         found, self.warnings = sources.read(path)
         self.n_frames, self.fps = found.n_frames, found.fps
@@ -101,7 +120,7 @@ class Take:
 
         with self._lock:
             if self._footage is None:
-                self._footage = footage(self.source)
+                self._footage = footage(self.source, effectors=self.effectors)
             return self._footage
 
     def segment(self, preset: Preset) -> Segmentation:
@@ -110,7 +129,7 @@ class Take:
         if isinstance(found, Motion):
             from kineme.segmentation.segmenter import segment_and_analysis
 
-            return segment_and_analysis(found, preset)[0]
+            return segment_and_analysis(found, preset, effectors=self.effectors)[0]
         from kineme.signals import segment_signals_and_analysis, signal_preset
 
         return segment_signals_and_analysis(found, signal_preset(preset))[0]
@@ -147,7 +166,7 @@ class Take:
         """The segments with labels from a knowledge base."""
         from kineme.transfer import transfer_features, transfer_labels
 
-        features = transfer_features(self.motion)
+        features = transfer_features(self.motion, effectors=self.effectors)
         return transfer_labels(segmentation, features, base, threshold=threshold, spread=spread)
 
     def fits(self, segmentation: Segmentation) -> bool:
@@ -161,11 +180,13 @@ class Take:
         return said["sha256"] == self.provenance.sha256 or name == self.path.name
 
 
-def _read(path: Path) -> Motion | Signals:
+def _read(path: Path, options: Mapping[str, Any]) -> Motion | Signals:
     """What a file holds; a table of channels without a body is signals."""
     from kineme.signals import is_signal_file, read_signals
 
-    return read_signals(path) if is_signal_file(path) else read(path)
+    if is_signal_file(path):
+        return read_signals(path, fps=options.get("fps"))
+    return read(path, **options)
 
 
 def mark_of(path: Path) -> Mark:
