@@ -1,4 +1,4 @@
-"""Shared fixtures: where the real recordings are."""
+"""For all tests: where the real recordings are, and how laws are tried."""
 
 from __future__ import annotations
 
@@ -6,6 +6,13 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
+
+# How long an example takes is the machine's affair. All else is as hypothesis has it here.
+settings.register_profile(
+    "kineme", settings(), deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("kineme")
 
 
 def find_data_dir() -> Path | None:

@@ -98,4 +98,4 @@ def test_set_up_commands_are_the_first_of_the_readme() -> None:
     commands = [line for line in lines if line.startswith("python3 -m venv ")]
     assert len(commands) == 2
     assert commands[0].endswith("kineme demo")
-    assert commands[1].endswith("-m pytest")
+    assert commands[1].endswith("-m pytest -n 2")

@@ -95,7 +95,7 @@ def test_parts_and_gaps_tile_the_motion(gaps: tuple) -> None:
         assert np.array_equal(part.positions, motion.positions[start : start + part.n_frames])
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.sampled_from([".csv", ".trc", ".npz"]), spans(apart=11))
 @pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
 def test_files_of_positions_hold_gaps(suffix: str, gaps: tuple) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from kineme.errors import ParameterError
@@ -45,7 +45,6 @@ def test_a_whole_ratio_takes_frames_as_they_are(n: int) -> None:
     assert thin.provenance.notes == ("resampled from 120 to 30 Hz",)
 
 
-@settings(deadline=None)
 @given(st.integers(1, 50), st.sampled_from([25.0, 29.97, 30.0, 59.94, 100.0, 240.0]), st.booleans())
 def test_times_of_the_new_frames(n: int, fps: float, rotations: bool) -> None:
     old = motion(n, 120, rotations=rotations)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
@@ -38,7 +38,6 @@ def two_movements(rounds: int = 4) -> np.ndarray:
     return np.concatenate([circle, other] * (rounds // 2)) + noise
 
 
-@settings(deadline=None)
 @given(SEEDS, st.integers(3, 14), st.integers(1, 6))
 def test_propagation_matches_its_naive_twin(seed, n, longest):
     kernel = random_kernel(seed, n)
@@ -47,7 +46,6 @@ def test_propagation_matches_its_naive_twin(seed, n, longest):
     )
 
 
-@settings(deadline=None)
 @given(SEEDS, st.integers(2, 14), st.integers(1, 6), st.data())
 def test_window_alignments_are_the_dtak_of_every_window(seed, n, longest, data):
     kernel = random_kernel(seed, n)
@@ -62,7 +60,6 @@ def test_window_alignments_are_the_dtak_of_every_window(seed, n, longest, data):
             assert found[v, length - 1] == pytest.approx(expected, rel=1e-12)
 
 
-@settings(deadline=None)
 @given(SEEDS, st.integers(1, 10), st.integers(1, 4), st.integers(0, 3))
 def test_cheapest_lengths_are_the_cheapest_cover(seed, n, shortest, more):
     longest = shortest + more
@@ -75,7 +72,6 @@ def test_cheapest_lengths_are_the_cheapest_cover(seed, n, shortest, more):
         assert found == min(ways, key=lambda way: naive.cover_cost(costs, way))
 
 
-@settings(deadline=None)
 @given(SEEDS, st.integers(1, 3), st.integers(1, 4))
 def test_first_segmentation_repeats_the_programs_slip(seed, shortest, more):
     labels = np.random.default_rng(seed).integers(0, 3, 24)

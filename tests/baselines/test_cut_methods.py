@@ -52,7 +52,7 @@ def test_uniform_cuts_are_evenly_spaced(n_frames, seconds, fps):
     assert lengths[-1] <= seconds * fps + 1
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(SEEDS)
 def test_pca_cuts_match_the_naive_twin(seed):
     features = changing(seed)
@@ -63,7 +63,7 @@ def test_pca_cuts_match_the_naive_twin(seed):
         assert cut is None or start + cut == stop
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(SEEDS)
 def test_ppca_cuts_match_the_naive_twin(seed):
     features = changing(seed)
@@ -76,7 +76,7 @@ def test_ppca_cuts_match_the_naive_twin(seed):
 
 @pytest.mark.parametrize("method", [pca, ppca])
 @given(seed=SEEDS)
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 def test_turned_moved_and_scaled_features_are_cut_alike(method, seed):
     features = changing(seed)
     turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(6, 6)))[0]

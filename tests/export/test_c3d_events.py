@@ -67,7 +67,7 @@ def test_cycles_between_events_of_one_name(tmp_path) -> None:
     st.sets(st.integers(0, 199), min_size=1, max_size=12),
     st.sampled_from([25.0, 59.94, 100.0, 119.88, 200.0]),
 )
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_events_come_at_their_frames_and_go_through_other_formats(
     tmp_path_factory, frames, fps
 ) -> None:
@@ -93,7 +93,7 @@ def test_files_without_events_and_other_files(tmp_path) -> None:
 
 
 @given(st.integers(0, 3000))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_truncated_files_are_read_or_refused(tmp_path_factory, size) -> None:
     path = tmp_path_factory.getbasetemp() / "whole.c3d"
     data = path.read_bytes() if path.exists() else c3d(path, GAIT).read_bytes()

@@ -119,7 +119,6 @@ def example(labels: list[str], fps: float = 119.88) -> Segmentation:
 
 
 @pytest.mark.parametrize("name", LABEL_FORMATS)
-@settings(deadline=None)
 @given(result=segmentations(), level=st.sampled_from(["activity", "primitive"]))
 def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> None:
     assume(len(result.level(level)))
@@ -140,7 +139,6 @@ def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> N
 
 
 @pytest.mark.parametrize("name", BOTH_LEVELS)
-@settings(deadline=None)
 @given(result=segmentations())
 def test_both_levels_come_back_together(folder, name, result) -> None:
     assume(name != "elan" or result.fps < 1000)
@@ -474,7 +472,7 @@ def test_a_document_type_is_refused_before_it_can_grow(tmp_path) -> None:
 
 
 @pytest.mark.parametrize("name", LABEL_FORMATS)
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(data=st.data())
 def test_a_damaged_file_is_read_or_refused(folder, name, data) -> None:
     path = place(folder, name, "damaged")
@@ -493,7 +491,7 @@ def test_a_damaged_file_is_read_or_refused(folder, name, data) -> None:
 
 
 @pytest.mark.parametrize("name", LABEL_FORMATS)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     content=st.binary(max_size=300)
     | st.text(max_size=300).map(lambda t: t.encode(errors="replace"))

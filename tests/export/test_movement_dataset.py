@@ -60,7 +60,7 @@ def test_without_rotations_the_borders_are_the_same() -> None:
     ),
     st.sampled_from([25.0, 29.97, 60.0, 119.88]),
 )
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_any_points_come_back(positions, fps) -> None:
     skeleton = Skeleton(("a", "b", "c"), (-1, -1, -1), np.zeros((3, 3)))
     back = from_movement(to_movement(Motion(skeleton, positions, fps)))
@@ -70,7 +70,7 @@ def test_any_points_come_back(positions, fps) -> None:
 
 
 @given(segmentations())
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_segments_go_with_their_frames(result) -> None:
     skeleton = Skeleton(("a",), (-1,), np.zeros((1, 3)))
     motion = Motion(skeleton, np.zeros((result.n_frames, 1, 3)), result.fps)

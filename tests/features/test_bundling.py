@@ -19,7 +19,7 @@ from kineme.features import pose_features, stack
 from kineme.features.bundling import bundle
 
 SQUATS = stack(pose_features(synthesize([Action("squat", 6)], fps=30, seed=2).motion), (-5, 0, 5))
-few = settings(deadline=None, max_examples=20)
+few = settings(max_examples=20)
 
 
 @pytest.mark.parametrize("trial", ["86_01", "86_09", "86_10", "86_11", "86_14"])
@@ -66,7 +66,7 @@ def test_turning_moving_and_scaling_do_the_same_to_the_result(seed, shift, facto
 
 
 @given(features(max_frames=60))
-@settings(deadline=None, max_examples=200)
+@settings(max_examples=200)
 def test_any_features_stay_among_their_neighbours(points: np.ndarray) -> None:
     bundled = bundle(points)
     assert bundled.shape == points.shape

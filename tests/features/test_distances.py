@@ -23,7 +23,7 @@ SHAPE = pdist(distance_features(WALK)[0])
     st.tuples(*[st.floats(-50, 50)] * 3),
     st.floats(0.1, 10),
 )
-@settings(deadline=None, max_examples=25)
+@settings(max_examples=25)
 def test_moving_turning_and_scaling_change_nothing(quaternion, offset, scale) -> None:
     turned = WALK @ Rotation.from_quat(quaternion).as_matrix()
     features, _ = distance_features(scale * turned + offset)

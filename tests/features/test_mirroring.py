@@ -17,7 +17,7 @@ from kineme.features import end_effectors, mirror, mirror_features, pose_feature
 from kineme.motion import Motion, Skeleton, forward_kinematics
 
 KICKS = synthesize([Action("walk", 2), Action("kick", 3, side="left")], fps=30, seed=4).motion
-few = settings(deadline=None, max_examples=10)
+few = settings(max_examples=10)
 
 
 def without_rotations(motion: Motion) -> Motion:

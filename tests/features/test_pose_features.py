@@ -49,7 +49,7 @@ def test_equal_to_the_naive_version() -> None:
 
 
 @given(st.floats(-7, 7), st.tuples(*[st.floats(-100, 100)] * 3), st.sampled_from([True, False]))
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 def test_moving_and_turning_change_nothing(
     angle: float, shift: tuple[float, float, float], with_rotations: bool
 ) -> None:
@@ -74,7 +74,7 @@ def test_moving_and_turning_change_nothing(
 
 
 @given(st.floats(0.01, 100))
-@settings(deadline=None, max_examples=20)
+@settings(max_examples=20)
 def test_scaling_scales(scale: float) -> None:
     skeleton = RECORDING.skeleton
     larger = Motion(
@@ -190,13 +190,11 @@ def test_effectors_can_be_named() -> None:
     arrays(float, st.tuples(st.integers(1, 12), st.integers(1, 4)), elements=st.floats(-9, 9)),
     OFFSETS,
 )
-@settings(deadline=None)
 def test_stacking_equals_the_naive_version(features: np.ndarray, offsets: list[int]) -> None:
     np.testing.assert_allclose(stack(features, offsets), naive.stack(features, offsets), atol=1e-9)
 
 
 @given(st.integers(1, 50), OFFSETS)
-@settings(deadline=None)
 def test_a_straight_line_stays_one_beyond_the_ends(frames: int, offsets: list[int]) -> None:
     line = np.arange(frames, dtype=float)[:, None]
     expected = line + sorted(offsets) if frames > 1 else np.zeros((1, len(offsets)))

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from format_samples import PLAIN, motions
-from hypothesis import given, settings
+from hypothesis import given
 
 from kineme.errors import WriteError
 from kineme.formats import read, supported_formats, write
@@ -33,7 +33,6 @@ def assert_same_joints(one: Motion, other: Motion, names: list[str]) -> None:
     assert other.fps == pytest.approx(one.fps, rel=1e-12)
 
 
-@settings(deadline=None)
 @given(motions())
 def test_bvh(motion: Motion) -> None:
     again = written_and_read(motion, ".bvh")
@@ -46,7 +45,6 @@ def test_bvh(motion: Motion) -> None:
         assert np.abs(again.positions[0] - position).max(axis=1).min() < 1e-7
 
 
-@settings(deadline=None)
 @given(motions(names=PLAIN))
 def test_amc(motion: Motion) -> None:
     again = written_and_read(motion, ".amc")

@@ -265,7 +265,7 @@ def test_mot_is_refused_with_what_to_do(tmp_path: Path) -> None:
         read(tmp_path, "a.mot", text)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(motions())
 def test_npz_round_trip(motion: kineme.Motion) -> None:
     with tempfile.TemporaryDirectory() as folder:
@@ -279,7 +279,7 @@ def test_npz_round_trip(motion: kineme.Motion) -> None:
     assert np.array_equal(again.rotations, motion.rotations)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(
     st.sampled_from([".csv", ".trc"]),
     st.sampled_from([25.0, 29.97, 120.0, 59.94, 29.476]),
@@ -357,7 +357,7 @@ SOUND = {
 }
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 @given(st.data())
 def test_nothing_raises_anything_else(data: st.DataObject) -> None:
     name = data.draw(st.sampled_from(sorted(SOUND)))
@@ -371,7 +371,7 @@ def test_nothing_raises_anything_else(data: st.DataObject) -> None:
             assert "\n" not in str(error)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.data())
 def test_damaged_parquet(data: st.DataObject) -> None:
     pa = pytest.importorskip("pyarrow")

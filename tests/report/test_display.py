@@ -81,7 +81,7 @@ def test_gaps_show_nothing() -> None:
     np.testing.assert_array_equal(np.flatnonzero(missing), np.arange(50, 61))
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(
     hnp.arrays(
         np.float64,

@@ -21,7 +21,7 @@ from kineme.segmentation.presets import KINEME, resolve_preset
 from kineme.segmentation.segmenter import motion_features
 from loops import swing
 
-few = settings(deadline=None, max_examples=8)
+few = settings(max_examples=8)
 
 
 @cache
@@ -63,7 +63,7 @@ def sequences(draw: st.DrawFn) -> list[tuple[int, float, int]]:
 
 
 @given(sequences())
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_actions_their_borders_and_counts_are_found(sequence) -> None:
     parts = [swing(times, period=period, axis=2 * axis) for axis, period, times in sequence]
     rows = np.concatenate(parts)
@@ -171,7 +171,7 @@ def test_activities_alternate_and_are_counted_by_first_appearance() -> None:
     st.integers(1, 90), st.integers(1, 4), st.integers(0, 2**32 - 1),
     st.sampled_from(["held", "noise", "drift", "far"]),
 )  # fmt: skip
-@settings(deadline=None, max_examples=80)
+@settings(max_examples=80)
 def test_nothing_is_too_short_or_too_strange(frames, dims, seed, kind) -> None:
     rng = np.random.default_rng(seed)
     rows = {
@@ -223,7 +223,7 @@ def constants(draw: st.DrawFn) -> dict[str, float | None]:
 
 
 @given(constants(), st.integers(1, 400))
-@settings(deadline=None, max_examples=150)
+@settings(max_examples=150)
 def test_segments_tile_whatever_the_constants(overrides, frames) -> None:
     rows = np.concatenate([swing(5, period=1), swing(6, period=1.2, axis=2)])[:frames]
     found = analyze_actions(rows, resolve_preset("kineme", **overrides))

@@ -14,7 +14,7 @@ from graphs import as_graph, as_pairs, block_graphs, sparse_graphs
 from kineme.segmentation import _kernels
 from kineme.segmentation.activities import ActivityCuts, _peaks, scan_line_cuts, square_cuts
 
-seconds = settings(deadline=None, max_examples=150)
+seconds = settings(max_examples=150)
 GAPS = st.integers(1, 6)
 COUNTS = st.integers(0, 30)
 

@@ -23,7 +23,7 @@ from kineme.segmentation.presets import PUBLISHED, RegionPreset, resolve_preset
 from kineme.segmentation.segmenter import motion_features
 
 presets = pytest.mark.parametrize("preset", PUBLISHED.values(), ids=PUBLISHED.keys())
-few = settings(deadline=None, max_examples=10)
+few = settings(max_examples=10)
 
 
 @cache
@@ -169,7 +169,7 @@ def constants(draw: st.DrawFn) -> RegionPreset:
 
 
 @given(features(max_frames=60), constants())
-@settings(deadline=None, max_examples=300)
+@settings(max_examples=300)
 def test_segments_tile_whatever_the_constants(points, preset) -> None:
     assert_tiles(analyze(points, preset, mirror=np.negative), len(points))
 

@@ -66,7 +66,7 @@ def test_real_recordings_are_found_as_people_annotated_them(data_dir: Path) -> N
 
 
 @given(st.integers(0, 3), st.floats(0.5, 2))
-@settings(deadline=None, max_examples=8)
+@settings(max_examples=8)
 def test_the_size_of_a_body_changes_no_cut(seed, factor) -> None:
     found, expected = segment(scale(recording(seed), factor)), found_in(seed)
     for name in ("start_frame", "stop_frame", "kind", "cluster"):

@@ -83,7 +83,7 @@ def test_many_gaps_do_not_stretch_the_time() -> None:
     assert abs(last - n_frames * per_frame) <= 2
 
 
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=5)
 @given(st.data())
 def test_a_gap_anywhere_is_a_transition(data: st.DataObject) -> None:
     motion = kineme.read(bundled_recording())

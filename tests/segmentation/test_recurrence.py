@@ -14,7 +14,7 @@ from kineme.segmentation import _recurrence_kernels as kernels
 from kineme.segmentation.recurrence import recurrence
 from loops import swing
 
-seconds = settings(deadline=None, max_examples=120)
+seconds = settings(max_examples=120)
 STEPS = st.integers(1, 7)
 WIDTHS = st.integers(0, 12)
 BLURS = GAPS = st.integers(0, 15)

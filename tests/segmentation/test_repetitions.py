@@ -16,7 +16,7 @@ from kineme.segmentation import _way_kernels as way_kernels
 from kineme.segmentation.repetitions import Repetitions, repetitions
 from loops import nod, swing
 
-seconds = settings(deadline=None, max_examples=150)
+seconds = settings(max_examples=150)
 
 
 @given(points(), st.data())
@@ -79,7 +79,7 @@ def test_repetitions_begin_at_equal_phase(movement) -> None:
 
 
 @given(st.integers(2, 9), st.integers(0, 2**32 - 1))
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_people_are_not_clocks(times: int, seed: int) -> None:
     """Pace and size differ by up to a sixth from one repetition to the next, and joints shake."""
     rng = np.random.default_rng(seed)
@@ -138,7 +138,7 @@ def test_left_and_right_are_halves_of_one_repetition() -> None:
 
 
 @given(st.integers(20, 300), st.integers(0, 2**32 - 1))
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 def test_what_merely_shakes_is_not_repeated(frames: int, seed: int) -> None:
     rows = np.random.default_rng(seed).normal(0, 0.01, (frames, 15))
     assert len(count(rows).cuts) == 0
@@ -160,7 +160,7 @@ def test_matched_lengths_are_those_of_the_naive_version(gained) -> None:
 
 
 @given(st.integers(0, 2**32 - 1))
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_ways_are_judged_as_by_the_naive_versions(seed: int) -> None:
     rng = np.random.default_rng(seed)
     poses = rng.normal(0, 1, (12, 3))

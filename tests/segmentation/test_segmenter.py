@@ -23,7 +23,7 @@ from kineme.segmentation.segmenter import segment, segment_and_analysis
 from kineme.signals import segment_signals
 
 presets = pytest.mark.parametrize("preset", PRESETS)
-few = settings(deadline=None, max_examples=5)
+few = settings(max_examples=5)
 
 
 @cache

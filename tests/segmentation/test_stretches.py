@@ -20,7 +20,7 @@ from kineme.segmentation.stretches import (
 )
 from loops import swing
 
-seconds = settings(deadline=None, max_examples=120)
+seconds = settings(max_examples=120)
 
 
 @st.composite

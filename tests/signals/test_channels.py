@@ -82,7 +82,7 @@ def recording(fps: float = 60.0, seconds: float = 20) -> np.ndarray:
     swap=st.booleans(),
     preset=st.sampled_from(["kineme", "krueger2017"]),
 )
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 def test_units_zeros_signs_and_order_of_channels_change_no_cut(gain, offset, swap, preset) -> None:
     x = recording()
     other = (gain * x + offset)[:, ::-1] if swap else gain * x + offset

@@ -204,7 +204,7 @@ def test_recordings_of_bodies_are_no_signals(tmp_path) -> None:
 
 
 @given(st.binary(max_size=200), st.sampled_from([".csv", ".txt", ".mot", ".parquet", ".c3d"]))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_anything_else_is_one_clear_error(tmp_path_factory, data, suffix) -> None:
     path = tmp_path_factory.getbasetemp() / f"fuzz{suffix}"
     path.write_bytes(data)
@@ -217,7 +217,7 @@ def test_anything_else_is_one_clear_error(tmp_path_factory, data, suffix) -> Non
 
 
 @given(st.text(alphabet="ab,;\t\n 0123456789.-#\"'xyz", max_size=60))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_odd_tables_are_read_or_refused(tmp_path_factory, text) -> None:
     path = tmp_path_factory.getbasetemp() / "odd.csv"
     path.write_text("endheader\n" * ("#" in text) + text, encoding="utf-8")

@@ -59,7 +59,7 @@ def primitives(draw: st.DrawFn, most: int = 5) -> Primitives:
     return Primitives(rng.normal(size=(lengths.sum(), DIMS)), lengths, stretches)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(primitives(), primitives())
 def test_equal_to_the_naive_version(unknown: Primitives, known: Primitives) -> None:
     codes = known.stretches % 3
@@ -68,7 +68,7 @@ def test_equal_to_the_naive_version(unknown: Primitives, known: Primitives) -> N
     np.testing.assert_allclose(costs, expected, rtol=1e-5, atol=1e-5)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(primitives(), primitives(9), st.integers(1, 40))
 def test_blocks_change_nothing(unknown: Primitives, known: Primitives, frames: int) -> None:
     codes = known.stretches % 4
