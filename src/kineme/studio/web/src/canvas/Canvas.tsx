@@ -13,14 +13,23 @@ interface Props extends Omit<HTMLAttributes<HTMLCanvasElement>, "label"> {
   watch: () => void;
   /** Draws everything anew; sizes in CSS pixels. */
   draw: Draw;
-  /** Called without the browser's own reaction, which would scroll or zoom the page. */
-  onWheelZoom?: (event: WheelEvent) => void;
+  /** What pointers and the wheel do; the browser's own reaction would scroll or zoom the page. */
+  gestures?: Gestures;
 }
 
-export function Canvas({ label, watch, draw, onWheelZoom, ...rest }: Props): JSX.Element {
+export interface Gestures {
+  down(event: PointerEvent): void;
+  move(event: PointerEvent): void;
+  up(event: PointerEvent): void;
+  cancel(): void;
+  leave(): void;
+  wheel(event: WheelEvent): void;
+}
+
+export function Canvas({ label, watch, draw, gestures, ...rest }: Props): JSX.Element {
   const ref = useRef<HTMLCanvasElement>(null);
-  const latest = useRef({ watch, draw, onWheelZoom });
-  latest.current = { watch, draw, onWheelZoom };
+  const latest = useRef({ watch, draw, gestures });
+  latest.current = { watch, draw, gestures };
   useEffect(() => {
     const canvas = ref.current!;
     const size = signal({ width: 0, height: 0 });
@@ -36,9 +45,9 @@ export function Canvas({ label, watch, draw, onWheelZoom, ...rest }: Props): JSX
       () => paint(canvas, size.value, latest.current.draw),
     );
     const onWheel = (event: WheelEvent): void => {
-      if (!latest.current.onWheelZoom) return;
+      if (!latest.current.gestures) return;
       event.preventDefault();
-      latest.current.onWheelZoom(event);
+      latest.current.gestures.wheel(event);
     };
     canvas.addEventListener("wheel", onWheel, { passive: false });
     return () => {
@@ -47,7 +56,14 @@ export function Canvas({ label, watch, draw, onWheelZoom, ...rest }: Props): JSX
       canvas.removeEventListener("wheel", onWheel);
     };
   }, []);
-  return <canvas ref={ref} role="img" aria-label={label} {...rest} />;
+  const pointers = gestures && {
+    onPointerDown: (event: PointerEvent) => gestures.down(event),
+    onPointerMove: (event: PointerEvent) => gestures.move(event),
+    onPointerUp: (event: PointerEvent) => gestures.up(event),
+    onPointerCancel: () => gestures.cancel(),
+    onPointerLeave: () => gestures.leave(),
+  };
+  return <canvas ref={ref} role="img" aria-label={label} {...pointers} {...rest} />;
 }
 
 function paint(

@@ -32,12 +32,7 @@ export function Matrix({ store }: { store: Store }): JSX.Element {
             const frame = { side: width - EDGE, down: rows.value, across: store.range.value };
             if (head && head.sizes.length) drawMatrix(pen, head, tiles, frame, store);
           }}
-          onPointerDown={(event) => gestures.down(event)}
-          onPointerMove={(event) => gestures.move(event)}
-          onPointerUp={(event) => gestures.up(event)}
-          onPointerCancel={() => gestures.cancel()}
-          onPointerLeave={() => gestures.leave()}
-          onWheelZoom={(event) => gestures.wheel(event)}
+          gestures={gestures}
         />
         <Cross store={store} rows={rows} />
       </div>

@@ -42,12 +42,7 @@ export function Timeline({ store }: { store: Store }): JSX.Element {
             lanes.current = layOut(given(), height);
             drawLanes(pen, lanes.current, store, drag.value, width);
           }}
-          onPointerDown={(event) => gestures.down(event)}
-          onPointerMove={(event) => gestures.move(event)}
-          onPointerUp={(event) => gestures.up(event)}
-          onPointerCancel={() => gestures.cancel()}
-          onPointerLeave={() => gestures.leave()}
-          onWheelZoom={(event) => gestures.wheel(event)}
+          gestures={gestures}
         />
         <Playhead store={store} />
       </div>
