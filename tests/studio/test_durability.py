@@ -257,7 +257,7 @@ def test_undo_and_redo_are_each_others_inverse(steps: list[int | str]) -> None:
 def test_what_fails_after_the_end_is_not_said(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def failing(*presets: str) -> None:
+    def failing(ended: threading.Event) -> None:
         raise RuntimeError("cannot schedule new futures after interpreter shutdown")
 
     monkeypatch.setattr(server, "load_code", failing)

@@ -41,8 +41,7 @@ def studio(
         from kineme.studio.server import serve
         from kineme.studio.takes import Reading
 
-        given = {name: value for name, value in (reading or {}).items() if value is not None}
-        said = Reading(given, effector_names(effectors))
+        said = Reading(reading or {}, effector_names(effectors))
 
         def announce(address: str) -> None:
             typer.echo(f"kineme studio: {address} (Ctrl+C ends it)")

@@ -127,18 +127,14 @@ def listening(port: int | None) -> socket.socket:
 def make_ready(documents: Documents, ended: threading.Event) -> None:
     """Open the only recording, which every page shows, and load or build the compiled code.
 
-    That of the default preset first. What fails once the server has ended is not said: an
-    interpreter that ends lets nobody start threads.
+    What fails once the server has ended is not said: an interpreter that ends lets nobody start
+    threads.
     """
-    from kineme.segmentation.presets import DEFAULT, PRESETS
-
     try:
         names = list(documents.folder.recordings())
         if len(names) == 1:
             documents.prepare(names)
-        load_code(DEFAULT)
-        if not ended.wait(HEAD_START):
-            load_code(*(name for name in PRESETS if name != DEFAULT))
+        load_code(ended)
     except KinemeError:  # it will be said where it matters
         return
     except Exception:
@@ -146,14 +142,17 @@ def make_ready(documents: Documents, ended: threading.Event) -> None:
             raise
 
 
-def load_code(*presets: str) -> None:
-    """Show and segment the bundled recording."""
+def load_code(ended: threading.Event) -> None:
+    """Show and segment the bundled recording; by the default preset first."""
     from kineme.datasets import bundled_recording
     from kineme.formats import read
     from kineme.report.recording import footage
+    from kineme.segmentation.presets import DEFAULT, PRESETS
     from kineme.segmentation.segmenter import segment
 
     motion = read(bundled_recording())
     footage(motion)
-    for name in presets:
-        segment(motion, preset=name)
+    segment(motion, preset=DEFAULT)
+    if not ended.wait(HEAD_START):
+        for name in (name for name in PRESETS if name != DEFAULT):
+            segment(motion, preset=name)

@@ -1,13 +1,11 @@
 /** What pointers do on the matrix: go to a moment, pan, zoom; two fingers zoom, too. */
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
-import { Fingers, type Point } from "../canvas/fingers";
+import { CLICK, Fingers, placeOf, wheelFactor, type Point } from "../canvas/pointers";
 import { segmentAt } from "../segments";
 import type { Span, Store } from "../store";
 import { panned, toSeconds, zoomed } from "../view";
 import { EDGE } from "./drawing";
 import { rowsFor } from "./pyramid";
-
-const CLICK = 4; // pixels a click may wander before it is a drag
 
 export class MatrixGestures {
   /** The two moments under the pointer, in seconds. */
@@ -68,8 +66,7 @@ export class MatrixGestures {
   }
 
   wheel(event: WheelEvent): void {
-    const factor = Math.exp(0.0015 * event.deltaY);
-    this.zoom(factor, this.momentsAt(placeOf(event), sideOf(event)));
+    this.zoom(wheelFactor(event), this.momentsAt(placeOf(event), sideOf(event)));
   }
 
   private zoom(factor: number, at: Point): void {
@@ -91,11 +88,6 @@ export class MatrixGestures {
       y: toSeconds(this.rows.value, side, y - EDGE),
     };
   }
-}
-
-function placeOf(event: MouseEvent): Point {
-  const { left, top } = (event.currentTarget as Element).getBoundingClientRect();
-  return { x: event.clientX - left, y: event.clientY - top };
 }
 
 /** Pixels from edge to edge of what is drawn. */

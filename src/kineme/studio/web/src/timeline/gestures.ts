@@ -1,12 +1,11 @@
 /** What pointers do on the lanes: scrub, select, pan, drag a border; two fingers zoom. */
-import { Fingers, type Pinch } from "../canvas/fingers";
+import { CLICK, Fingers, placeOf, wheelFactor, type Pinch } from "../canvas/pointers";
 import { indexAt } from "../segments";
 import type { Store } from "../store";
 import { toSeconds } from "../view";
 import type { Drag } from "./drawing";
 import { borderNear, GUTTER, laneAt, roomFor, RULER, type Lane } from "./lanes";
 
-const CLICK = 4; // pixels a click may wander before it is a drag
 const GRIP = 5; // pixels to either side of a border
 const FINGER = 12;
 
@@ -56,7 +55,7 @@ export class Gestures {
   move(event: PointerEvent): void {
     const spot = spotOf(event);
     const pinch = this.fingers.move(event.pointerId, spot);
-    if (this.doing?.what === "pinch") return this.pinched(pinch, spot);
+    if (pinch) this.pinched(pinch, spot);
     if (this.doing?.what === "press" && Math.abs(spot.x - this.doing.x) > CLICK)
       this.doing = { what: "pan", last: this.doing.last };
     const { doing } = this;
@@ -102,12 +101,11 @@ export class Gestures {
     const sideways = event.shiftKey ? event.deltaY : event.deltaX;
     if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY))
       this.store.panBy((sideways / (spot.width - GUTTER)) * (stop_s - start_s));
-    else this.store.zoomBy(Math.exp(0.0015 * event.deltaY), this.secondsAt(spot));
+    else this.store.zoomBy(wheelFactor(event), this.secondsAt(spot));
   }
 
   /** What lies between two fingers stays there. */
-  private pinched(pinch: Pinch | null, spot: Spot): void {
-    if (!pinch) return;
+  private pinched(pinch: Pinch, spot: Spot): void {
     const at = this.secondsAt({ ...spot, ...pinch.from });
     this.store.zoomBy(pinch.factor, at);
     this.store.panBy(at - this.secondsAt({ ...spot, ...pinch.to }));
@@ -149,8 +147,7 @@ export class Gestures {
 }
 
 function spotOf(event: PointerEvent | WheelEvent): Spot {
-  const box = (event.currentTarget ?? event.target) as HTMLElement;
-  const { left, top, width } = box.getBoundingClientRect();
+  const { width } = (event.currentTarget as Element).getBoundingClientRect();
   const grip = "pointerType" in event && event.pointerType === "touch" ? FINGER : GRIP;
-  return { x: event.clientX - left, y: event.clientY - top, width, grip };
+  return { ...placeOf(event), width, grip };
 }

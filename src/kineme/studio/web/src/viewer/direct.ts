@@ -1,5 +1,6 @@
 /** Tells the director when something changed, and turns what the user does into changes. */
 import { effect } from "@preact/signals";
+import { CLICK } from "../canvas/pointers";
 import type { Store } from "../store";
 import { theme } from "../theme";
 import { ticker } from "../ticker";
@@ -7,7 +8,6 @@ import type { Director } from "./director";
 
 const TURN = Math.PI / 24; // of one key press
 const REST = 400; // milliseconds
-const CLICK = 4; // pixels a click may wander before it is a drag
 
 /** Keeps the picture up to date; call the result to stop. */
 export function direct(store: Store, director: Director, canvas: HTMLCanvasElement): () => void {

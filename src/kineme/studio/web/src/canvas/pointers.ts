@@ -1,4 +1,7 @@
-/** Fingers on a canvas; two of them zoom. */
+/** Where pointers are on a canvas, and how they zoom: the wheel, and two fingers. */
+
+/** Pixels a click may wander before it is a drag. */
+export const CLICK = 4;
 
 export interface Point {
   x: number;
@@ -11,6 +14,17 @@ export interface Pinch {
   to: Point;
   /** Below 1 when the fingers part, to show less. */
   factor: number;
+}
+
+/** Pixels from the left and the top of what the event is for. */
+export function placeOf(event: MouseEvent): Point {
+  const { left, top } = (event.currentTarget as Element).getBoundingClientRect();
+  return { x: event.clientX - left, y: event.clientY - top };
+}
+
+/** How much more is to be seen after a turn of the wheel. */
+export function wheelFactor(event: WheelEvent): number {
+  return Math.exp(0.0015 * event.deltaY);
 }
 
 const CLOSE = 24; // pixels between two fingers, at the least
