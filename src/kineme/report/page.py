@@ -1,6 +1,6 @@
 """The report: one page of HTML with everything in it, for any browser, without a network.
 
-The page itself is built from the sources in ``studio/web`` and comes with the
+The page itself is built from the sources in ``web/pages`` and comes with the
 package. It has three marked places for data, which become script elements that
 no browser runs: the :class:`Recording` message, the binary motion, and the
 tiles of the similarity matrix.
@@ -17,9 +17,9 @@ from pathlib import Path
 from kineme._files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
-from kineme.report.messages import Recording
-from kineme.report.recording import Source, footage, recording
-from kineme.segmentation.result import Segmentation
+from kineme.segments.segmentation import Segmentation
+from kineme.web.messages import Recording
+from kineme.web.recording import Source, footage, recording
 
 SUFFIXES = (".html", ".htm")
 
@@ -89,4 +89,4 @@ def _base64(data: bytes) -> str:
 
 
 def _template() -> str:
-    return (files("kineme") / "studio" / "static" / "report.html").read_text(encoding="utf-8")
+    return (files("kineme") / "web" / "static" / "report.html").read_text(encoding="utf-8")

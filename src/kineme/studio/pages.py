@@ -8,7 +8,7 @@ from pathlib import Path
 from starlette.requests import Request
 from starlette.responses import Response
 
-STATIC = Path(__file__).parent / "static"
+STATIC = Path(__file__).parents[1] / "web" / "static"
 PAGE = "studio.html"
 TYPES = {
     ".css": "text/css; charset=utf-8",
