@@ -30,7 +30,8 @@ from kineme.evaluation.tables import markdown, shown
 from kineme.evaluation.trials import find_folder, load_trials
 from kineme.features import end_effectors, pose_features
 from kineme.methods.presets import PRESETS
-from kineme.recordings.motion import Motion, world_rotations
+from kineme.recordings import Motion
+from kineme.recordings.kinematics import world_rotations
 from kineme.recordings.operations import resample
 from kineme.segmentation import channels
 
@@ -50,7 +51,7 @@ def sensors(motion: Motion, places: Iterable[int], *, gyroscopes: bool = True) -
     rng = np.random.default_rng(0)
     ends = end_effectors(motion).indices
     worn = resample(motion, FPS)
-    turned = world_rotations(worn)
+    turned = world_rotations(worn.skeleton, worn.rotations)
     columns: list[Floats] = []
     for place in places:
         joint = ends[place]

@@ -47,9 +47,12 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
         neighbor_graph as neighbor_graph,
         warping_paths as warping_paths,
     )
-    from kineme.recordings.motion import (
+    from kineme.recordings import (
         Motion as Motion,
+        Note as Note,
         Provenance as Provenance,
+        Recording as Recording,
+        Signals as Signals,
         Skeleton as Skeleton,
     )
     from kineme.recordings.operations import resample as resample
@@ -66,7 +69,6 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
         segment_and_analysis as segment_and_analysis,
     )
     from kineme.segments.table import Segment as Segment, SegmentTable as SegmentTable
-    from kineme.recordings.signals import Signals as Signals
     from kineme.formats.channels.reading import read_signals as read_signals
     from kineme.segmentation.signals import segment_signals as segment_signals
     from kineme.segmentation.estimator import Segmenter as Segmenter
@@ -98,7 +100,14 @@ _HOMES = {
     "kineme.features.bundling": ("bundle",),
     "kineme.formats": ("read", "supported_formats", "write"),
     "kineme.graph": ("NeighborGraph", "WarpingPaths", "neighbor_graph", "warping_paths"),
-    "kineme.recordings.motion": ("Motion", "Provenance", "Skeleton"),
+    "kineme.recordings": (
+        "Motion",
+        "Note",
+        "Provenance",
+        "Recording",
+        "Signals",
+        "Skeleton",
+    ),
     "kineme.recordings.operations": ("resample",),
     "kineme.plot.segmentation": ("plot_segmentation",),
     "kineme.report.page": ("write_report",),
@@ -107,7 +116,6 @@ _HOMES = {
     "kineme.segments.segmentation": ("Segmentation",),
     "kineme.segmentation.segmenter": ("segment", "segment_and_analysis"),
     "kineme.segments.table": ("Segment", "SegmentTable"),
-    "kineme.recordings.signals": ("Signals",),
     "kineme.formats.channels.reading": ("read_signals",),
     "kineme.segmentation.signals": ("segment_signals",),
     "kineme.segmentation.estimator": ("Segmenter",),

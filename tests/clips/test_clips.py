@@ -15,7 +15,7 @@ import kineme
 from kineme.clips.loops import Carry, loop
 from kineme.clips.split import split
 from kineme.errors import MotionError, ParameterError, WriteError
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import cut, move, turn
 
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import kineme
 from kineme.errors import KinemeWarning, MotionError
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 from kineme.recordings.operations import cut, move, resample, split_at_gaps
 
 NAMES = ("pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head")
@@ -52,7 +52,7 @@ def hidden(motion: Motion) -> np.ndarray:
 
 @pytest.mark.parametrize("gaps", [((5, 5),), ((-1, 3),), ((3, 101),), ((5, 9), (9, 12))])
 def test_gaps_are_checked(gaps: tuple[tuple[int, int], ...]) -> None:
-    with pytest.raises(MotionError, match="is not a stretch of 100 frames"):
+    with pytest.raises(MotionError, match="is not a span of 100 frames"):
         body(gaps=gaps)
 
 

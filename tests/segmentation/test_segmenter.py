@@ -16,7 +16,7 @@ from kineme.datasets import Action, random_recording, synthesize
 from kineme.errors import ParameterError
 from kineme.features import end_effectors
 from kineme.methods.presets import PRESETS
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import cut, move, resample, turn
 from kineme.segmentation.segmenter import segment, segment_and_analysis
 from kineme.segmentation.signals import segment_signals

@@ -17,8 +17,7 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT, PRESETS, resolve_preset
 
 if TYPE_CHECKING:
-    from kineme.recordings.motion import Motion
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
 

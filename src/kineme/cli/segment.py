@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from kineme.features import Names
     from kineme.methods.recurrence.analysis import ActionAnalysis
     from kineme.methods.region_growing.analysis import Analysis
-    from kineme.recordings.motion import Motion
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
 

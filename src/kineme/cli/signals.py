@@ -13,7 +13,7 @@ from kineme.cli.messages import progress
 if TYPE_CHECKING:
     from kineme.methods.recurrence.analysis import ActionAnalysis
     from kineme.methods.region_growing.analysis import Analysis
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Signals
     from kineme.segments.segmentation import Segmentation
 
 PANEL = "Signals without a skeleton"

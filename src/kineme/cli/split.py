@@ -16,7 +16,7 @@ from kineme.segments.table import Level
 if TYPE_CHECKING:
     from kineme.features import Names
     from kineme.methods.presets import Preset
-    from kineme.recordings.motion import Motion
+    from kineme.recordings import Motion
     from kineme.segments.segmentation import Segmentation
 
 

@@ -34,7 +34,7 @@ from kineme.clips.loops import loop
 from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.formats import write
 from kineme.labels.spans import text_of
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import cut
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
 from kineme.evaluation.annotations import read_trials
 from kineme.evaluation.labelling import Annotation
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 

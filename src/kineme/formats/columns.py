@@ -27,7 +27,7 @@ from kineme.formats.gaps import split_at
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import ReadOptions
 from kineme.formats.timing import UNITS_OF_TIME, Timing, is_date, seconds, timing_of
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from kineme._files import atomic_write
 from kineme.errors import KinemeWarning, ReadError
-from kineme.recordings.motion import Provenance
+from kineme.recordings import Provenance
 
 MOST_EXPANSION = 100
 """Times that a compressed file may grow in memory; recordings compress to a half or a tenth."""
@@ -41,7 +41,7 @@ class Source:
         return self.data.decode("utf-8", errors="replace").removeprefix("\ufeff")
 
     def provenance(self, name: str, notes: Iterable[str]) -> Provenance:
-        return Provenance(str(self.path), name, self.digest, tuple(notes))
+        return Provenance(str(self.path), name, self.digest).noted(*notes)
 
     def line_at(self, offset: int) -> int:
         """The line, counted from 1, that a byte stands in."""

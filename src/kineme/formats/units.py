@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme.formats.files import warn
-from kineme.recordings.motion import Motion, Provenance, Skeleton, forward_kinematics
+from kineme.recordings import Motion, Provenance, Skeleton
+from kineme.recordings.kinematics import forward_kinematics
 
 Floats = NDArray[np.float64]
 

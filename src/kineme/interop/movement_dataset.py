@@ -27,7 +27,7 @@ from kineme.formats.files import Source
 from kineme.formats.gaps import split_at
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import Timing, timing_of
-from kineme.recordings.motion import Motion, Provenance
+from kineme.recordings import Motion, Provenance
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -136,7 +136,7 @@ def from_movement(
         up or attributes.get("up") or ("-y" if flat else None),
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
-    said = Provenance(str(source.path), name, None, (*timing.notes, *notes))
+    said = Provenance(str(source.path), name).noted(*timing.notes, *notes)
     return split_at(to_motion(points, said), timing.gaps)
 
 

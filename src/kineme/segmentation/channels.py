@@ -20,9 +20,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import check_rates
+from kineme._interpolation import at_frames
 from kineme.features import offsets_in_frames, stack
 from kineme.methods.presets import ActionPreset, Preset, RegionPreset, resolve_preset
-from kineme.recordings.signals import Signals
+from kineme.recordings import Signals
 from kineme.segmentation.parts import Part
 
 Floats = NDArray[np.float64]
@@ -72,7 +73,7 @@ def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float = SMO
     half = max(smoothing, 1 / fps, 1 / new) / 2
     starts = np.clip((times - half) * fps + 0.5, 0, len(held))
     stops = np.clip((times + half) * fps + 0.5, 0, len(held))
-    means = (_at(sums, stops) - _at(sums, starts)) / (stops - starts)[:, None]
+    means = (at_frames(sums, stops) - at_frames(sums, starts)) / (stops - starts)[:, None]
     return np.asarray(means + middle, np.float64)
 
 
@@ -97,7 +98,7 @@ def search_vectors(
     """
     working = preset.working_fps
     parts, rows = [], []
-    for start, stop in signals.stretches():
+    for start, stop in signals.spans():
         row = at_rate(signals.values[start:stop], signals.fps, working, smoothing=smoothing)
         rows.append(row)
         parts.append(Part(start, stop, len(row)))
@@ -148,11 +149,3 @@ def recurrence_unit(features: Floats, preset: ActionPreset) -> float:
     ).scales
     known = scales[scales < _HUGE / 2]
     return max(float(np.median(known)), NEAREST) / RECURS_AT if len(known) else 1.0
-
-
-def _at(sums: Floats, at: Floats) -> Floats:
-    """Running sums at fractional frames."""
-    before = np.minimum(at.astype(np.intp), len(sums) - 2)
-    share = (at - before)[:, None]
-    between: Floats = (1 - share) * sums[before] + share * sums[before + 1]
-    return between

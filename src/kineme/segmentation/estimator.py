@@ -14,7 +14,7 @@ from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.utils.validation import validate_data
 
 from kineme.methods.presets import DEFAULT, Preset
-from kineme.recordings.signals import Signals
+from kineme.recordings import Signals
 from kineme.segmentation.channels import SMOOTHING, signal_preset
 from kineme.segmentation.signals import segment_signals_and_analysis
 

@@ -30,7 +30,7 @@ from kineme.methods.presets import (
     resolve_preset,
 )
 from kineme.methods.stages import Progress
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import resample, split_at_gaps
 from kineme.segmentation.from_features import segment_features
 from kineme.segmentation.parts import Part

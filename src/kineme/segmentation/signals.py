@@ -10,7 +10,7 @@ from kineme.errors import ParameterError
 from kineme.features.emg import emg_envelope
 from kineme.methods.presets import DEFAULT, ActionPreset, Preset
 from kineme.methods.stages import Progress
-from kineme.recordings.signals import Signals
+from kineme.recordings import Signals
 from kineme.segmentation.channels import (
     SMOOTHING,
     recurrence_unit,

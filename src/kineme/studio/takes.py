@@ -17,12 +17,12 @@ from typing import TYPE_CHECKING, Any
 from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError
 from kineme.formats import read
 from kineme.methods.presets import DEFAULT, PRESETS, Preset
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Signals
     from kineme.transfer import KnowledgeBase
     from kineme.web.recording import Footage
 

@@ -24,7 +24,7 @@ from kineme.errors import ParameterError
 from kineme.features.point_clouds import fit_clouds
 from kineme.graph import neighbor_graph
 from kineme.methods.presets import KINEME
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import resample
 from kineme.segmentation.segmenter import motion_features, segment
 from kineme.segments.segmentation import Segmentation

@@ -31,7 +31,7 @@ from typing import Any
 from kineme._files import atomic_write
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import read
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 
 SCHEMA = "kineme.recordings.motion-graph/1"

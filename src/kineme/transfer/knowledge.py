@@ -23,7 +23,7 @@ from kineme.errors import ParameterError, ReadError
 from kineme.features import end_effectors
 from kineme.features.effectors import Names
 from kineme.methods.presets import KINEME
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segmentation.segmenter import motion_features
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable

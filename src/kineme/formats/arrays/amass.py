@@ -26,7 +26,7 @@ from kineme import _rotations as rot
 from kineme.formats.files import Source
 from kineme.formats.registry import ReadOptions
 from kineme.formats.units import metres, up_rotation
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 

@@ -30,7 +30,7 @@ from kineme.formats.arrays.named_arrays import (
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import MOST_EXPANSION, Source
 from kineme.formats.registry import Format, ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 
 def read_npz(source: Source, options: ReadOptions) -> Motion:

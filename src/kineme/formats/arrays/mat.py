@@ -21,7 +21,7 @@ from kineme.formats.arrays.named_arrays import Array, arrays_to_motion
 from kineme.formats.files import Source
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 _RATES = (
     "fps",

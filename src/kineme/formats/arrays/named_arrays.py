@@ -23,7 +23,7 @@ from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import Source, unique
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 Array = np.ndarray[Any, np.dtype[Any]]
 Arrays = Mapping[str, Array]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._interpolation import bridge_line
 from kineme.formats.files import Source
 from kineme.formats.gaps import LONGEST_S, covered, spans_of
 from kineme.formats.timing import Timing
@@ -38,9 +39,7 @@ def without_gaps(
     filled = np.array(values)
     long = np.zeros(len(values), np.bool_)
     for channel in np.flatnonzero(missing.any(axis=0)).tolist():
-        seen = np.flatnonzero(~missing[:, channel])
-        at = np.flatnonzero(missing[:, channel])
-        filled[at, channel] = np.interp(at, seen, values[seen, channel])
+        bridge_line(filled[:, channel], missing[:, channel])
         for start, stop in spans_of(missing[:, channel]).tolist():
             if stop - start > LONGEST_S * timing.fps + 1e-9:
                 long[start:stop] = True

@@ -30,7 +30,7 @@ from kineme.formats.channels.tables import KINDS, kind_of, read_muscles
 from kineme.formats.columns import joint_names
 from kineme.formats.files import load
 from kineme.formats.tables.pose_tables import is_pose_table
-from kineme.recordings.signals import Signals
+from kineme.recordings import Signals
 
 _SUFFIXES = (".csv", ".tsv", ".txt", ".dat", ".mot", ".sto", ".parquet")
 _SENSOR = re.compile(

@@ -27,7 +27,7 @@ from kineme.formats.keypoints.keypoints import (
     video_to_motion,
 )
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 SURE = 0.3
 

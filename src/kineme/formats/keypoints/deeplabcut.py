@@ -12,7 +12,7 @@ from kineme.formats.columns import columns_to_motion
 from kineme.formats.delimited import rows_of
 from kineme.formats.files import Source
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 LIKELY = 0.6
 

@@ -20,7 +20,7 @@ from kineme.formats.files import Source
 from kineme.formats.keypoints.people import Detections, rows_of_person
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 

@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 from kineme.formats.files import Source, warn
 from kineme.formats.keypoints.keypoints import Person, Video, video_to_motion
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 

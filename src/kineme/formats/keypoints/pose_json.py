@@ -12,7 +12,7 @@ from kineme.formats.keypoints.openpose import (
     read_openpose_folder,
 )
 from kineme.formats.registry import Format, ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 
 def read_pose_json(source: Source, options: ReadOptions) -> Motion:

@@ -18,7 +18,7 @@ from kineme.formats.files import Source
 from kineme.formats.keypoints.keypoints import Person, Video, video_to_motion
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.tables.pose_tables import SLEAP_SURE
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 

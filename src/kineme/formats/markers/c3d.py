@@ -20,7 +20,7 @@ from kineme.formats.markers.c3d_file import C3D, parse_c3d
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.units import AXES, unit_named
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 _MODELLED = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
 _NAMELESS = re.compile(r"\*.*|unlabel+ed.*|c_\d{3,}|\d+", re.IGNORECASE)

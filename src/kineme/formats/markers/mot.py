@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from kineme.formats.files import Source
 from kineme.formats.registry import Format, ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 
 def read_mot(source: Source, options: ReadOptions) -> Motion:  # noqa: ARG001

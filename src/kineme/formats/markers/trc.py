@@ -21,7 +21,7 @@ from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.timing import Timing, timing_of
 from kineme.formats.units import unit_named
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 

@@ -29,7 +29,7 @@ from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.skeletons.amc_writer import write_amc
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
 from kineme.formats.units import metres, place
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 

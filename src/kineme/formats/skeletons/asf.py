@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.formats.files import Source, numbers
 from kineme.formats.units import INCH
-from kineme.recordings.motion import Skeleton
+from kineme.recordings import Skeleton
 
 Floats = NDArray[np.float64]
 Line = tuple[int, list[str]]

@@ -33,7 +33,7 @@ from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.skeletons.bvh_hierarchy import Joint, read_joints
 from kineme.formats.skeletons.bvh_writer import write_bvh
 from kineme.formats.units import place, rate_from_period
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 

@@ -24,7 +24,7 @@ from kineme.formats.keypoints.keypoints import Person, Video, video_to_motion
 from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion
 from kineme.formats.registry import ReadOptions
 from kineme.formats.timing import Timing
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 

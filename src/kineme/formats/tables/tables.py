@@ -21,7 +21,7 @@ from kineme.formats.gaps import unseen
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut, read_deeplabcut
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.tables.pose_tables import POSE_TABLES, PoseTable
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 
 def read_table(source: Source, options: ReadOptions) -> Motion:
