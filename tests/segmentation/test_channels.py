@@ -186,7 +186,7 @@ def test_signals_that_contradict_themselves() -> None:
     assert signals.names == ("1", "2", "3")
     assert signals.select(["3", "1"]).names == ("3", "1")
     with pytest.raises(ParameterError, match="no channel '4'; there are 1, 2, 3"):
-        signals.select("4")
+        signals.select(["4"])
 
 
 def test_a_rate_beyond_all_measure_is_refused() -> None:
