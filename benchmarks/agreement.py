@@ -32,7 +32,7 @@ from scipy.optimize import linear_sum_assignment
 
 import kineme
 from kineme.features import mirror_features
-from kineme.segmentation.analysis import Analysis, analyze
+from kineme.segmentation.analysis import Analysis, analyze_regions
 from kineme.segmentation.presets import KRUEGER2017, VOEGELE2014, RegionPreset
 from kineme.segmentation.segmenter import motion_features
 
@@ -101,7 +101,7 @@ def compare(data: Path, configuration: str, trial: str) -> dict[str, Agreement]:
             features = stored["features"].T / 100.0
     else:
         features = motion_features(kineme.read(data / "cmu86" / f"{trial}.amc"), preset)
-    found = analyze(features, preset, mirror=mirror_features)
+    found = analyze_regions(features, preset, mirror=mirror_features)
     activities = set((found.activity_cuts.all + 1).tolist())
     inner = set((found.segments[1:-1] + 1).tolist()) - activities
     return {

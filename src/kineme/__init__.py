@@ -48,7 +48,8 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
     from kineme.operations import resample as resample
     from kineme.plot import plot_segmentation as plot_segmentation
     from kineme.report.page import write_report as write_report
-    from kineme.segmentation.analysis import Analysis as Analysis, analyze as analyze
+    from kineme.segmentation.analysis import Analysis as Analysis
+    from kineme.segmentation.from_features import analyze as analyze
     from kineme.segmentation.presets import PRESETS as PRESETS, Preset as Preset
     from kineme.segmentation.result import Segmentation as Segmentation
     from kineme.segmentation.segmenter import (
@@ -94,7 +95,8 @@ _HOMES = {
     "kineme.operations": ("resample",),
     "kineme.plot": ("plot_segmentation",),
     "kineme.report.page": ("write_report",),
-    "kineme.segmentation.analysis": ("Analysis", "analyze"),
+    "kineme.segmentation.analysis": ("Analysis",),
+    "kineme.segmentation.from_features": ("analyze",),
     "kineme.segmentation.presets": ("PRESETS", "Preset"),
     "kineme.segmentation.result": ("Segmentation",),
     "kineme.segmentation.segmenter": ("segment", "segment_and_analysis"),

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._checks import as_floats, is_number
 from kineme.errors import ParameterError
 from kineme.motion import Provenance
 
@@ -38,7 +39,7 @@ class Signals:
     provenance: Provenance = field(default_factory=Provenance)
 
     def __post_init__(self) -> None:
-        values = np.array(self.values, np.float64)
+        values = np.array(as_floats(self.values, "signals"))
         if values.ndim == 1:
             values = values[:, None]
         if values.ndim != 2 or 0 in values.shape:
@@ -46,9 +47,9 @@ class Signals:
         if not np.isfinite(values).all():
             frame = int(np.argmin(np.isfinite(values).all(axis=1)))
             raise ParameterError(f"signals hold a value that is not finite, first in frame {frame}")
-        if not (np.isfinite(self.fps) and self.fps > 0):
-            raise ParameterError(f"the frame rate is {self.fps}: it must be a positive number")
-        names = tuple(self.names) or tuple(str(i) for i in range(1, values.shape[1] + 1))
+        if not (is_number(self.fps) and self.fps > 0):
+            raise ParameterError(f"the frame rate is {self.fps!r}: it must be a positive number")
+        names = _names(self.names) or tuple(str(i) for i in range(1, values.shape[1] + 1))
         if len(names) != values.shape[1] or len(set(names)) < len(names):
             raise ParameterError(
                 f"{values.shape[1]} channels need as many different names, not {', '.join(names)}"
@@ -90,6 +91,16 @@ class Signals:
         starts = [0, *(stop for _, stop in self.gaps)]
         stops = [*(start for start, _ in self.gaps), self.n_frames]
         return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
+
+
+def _names(names: Sequence[str]) -> tuple[str, ...]:
+    if isinstance(names, str) or not isinstance(names, Iterable):
+        raise ParameterError(f"names must be a list of one per channel, not {names!r}")
+    found = tuple(names)
+    for name in found:
+        if not isinstance(name, str):
+            raise ParameterError(f"names of channels are texts, not {name!r}")
+    return found
 
 
 def _checked(gaps: Sequence[tuple[int, int]], n_frames: int) -> tuple[tuple[int, int], ...]:

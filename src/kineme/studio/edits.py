@@ -11,7 +11,6 @@ from kineme.errors import ParameterError
 from kineme.report.messages import Edit
 from kineme.segmentation import editing
 from kineme.segmentation.result import Segmentation
-from kineme.studio.choices import preset_of
 from kineme.studio.takes import Take
 
 BY_HAND: Mapping[str, tuple[Callable[..., Segmentation], tuple[str, ...]]] = {
@@ -46,7 +45,7 @@ def edited(
         function, arguments = BY_HAND[edit["kind"]]
         return _counted(function(table, *(sent[name] for name in arguments))), []
     if edit["kind"] == "segment":
-        found = take.segment(preset_of(edit["preset"], edit["parameters"]))
+        found = take.segment(edit["preset"], edit["parameters"])
         return found, list(found.provenance["notes"])
     if edit["kind"] == "transfer":
         from kineme.transfer import THRESHOLD, KnowledgeBase
