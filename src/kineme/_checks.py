@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Iterable
 from numbers import Real
+from operator import index
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -28,14 +31,60 @@ def is_number(value: object) -> bool:
     return isinstance(value, Real) and math.isfinite(value)
 
 
-def check_type(value: object, kind: type | tuple[type, ...], door: str, advice: str) -> None:
-    """ParameterError with advice where a public function was given something else."""
+def is_one_of(value: object, known: Collection[str]) -> bool:
+    """Whether it is one of the known texts; anything at all may be asked about."""
+    return isinstance(value, str) and value in known
+
+
+def check_type(
+    value: object,
+    kind: type | tuple[type, ...],
+    door: str,
+    advice: str,
+    *,
+    error: type[ParameterError | MotionError] = ParameterError,
+) -> None:
+    """``error`` with advice where a public function was given something else."""
     if not isinstance(value, kind):
         kinds = kind if isinstance(kind, tuple) else (kind,)
         wanted = " or ".join(known.__name__ for known in kinds)
         if not wanted.endswith("s"):  # Signals are many
             wanted = f"{'an' if wanted[0] in 'AEIOU' else 'a'} {wanted}"
-        raise ParameterError(f"{door} takes {wanted}, not {type(value).__name__}: {advice}")
+        raise error(f"{door} takes {wanted}, not {type(value).__name__}: {advice}")
+
+
+def check_path(path: object, door: str) -> None:
+    """ParameterError where a public function was given no path."""
+    check_type(path, (str, PathLike), door, "give the path of a file")
+
+
+def as_indices(values: Any, name: str) -> list[int]:
+    """The values as whole numbers; ParameterError where they are not."""
+    try:
+        return [index(value) for value in values]
+    except TypeError:
+        raise ParameterError(f"{name} must be whole numbers, not {values!r:.60}") from None
+
+
+def as_texts(
+    values: Any, name: str, *, error: type[ParameterError | MotionError] = ParameterError
+) -> tuple[str, ...]:
+    """The values as texts; ``error`` where they are one text or something else."""
+    if isinstance(values, Iterable) and not isinstance(values, str):
+        found = tuple(values)
+        if all(isinstance(value, str) for value in found):
+            return found
+    raise error(f"{name} must be a list of texts, not {values!r:.60}")
+
+
+def as_spans(
+    gaps: Any, *, error: type[ParameterError | MotionError] = ParameterError
+) -> tuple[tuple[int, int], ...]:
+    """The gaps as pairs of frames (start, stop); ``error`` where they are not."""
+    try:
+        return tuple((index(start), index(stop)) for start, stop in gaps)
+    except (TypeError, ValueError):
+        raise error(f"gaps are pairs of frames (start, stop), not {gaps!r:.60}") from None
 
 
 def as_floats(

@@ -216,9 +216,11 @@ def test_signals_that_contradict_themselves() -> None:
         Signals(np.zeros(4), 10, gaps=[(0, 4)])
     with pytest.raises(ParameterError, match=r"frame rate is \['a', 'b'\]: it must be a positive"):
         Signals(np.zeros((4, 2)), ["a", "b"], 10)
-    with pytest.raises(ParameterError, match="one per channel, not 'ab'"):
+    with pytest.raises(ParameterError, match="names of channels must be a list of texts, not 'ab'"):
         Signals(np.zeros((4, 2)), 10, "ab")
-    with pytest.raises(ParameterError, match="names of channels are texts, not 1"):
+    with pytest.raises(
+        ParameterError, match=r"names of channels must be a list of texts, not \[1, 2\]"
+    ):
         Signals(np.zeros((4, 2)), 10, [1, 2])
     with pytest.raises(ParameterError, match="signals must be an array of numbers, not 'imu.csv'"):
         Signals("imu.csv", 10)

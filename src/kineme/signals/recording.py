@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import as_floats, is_number
+from kineme._checks import as_floats, as_spans, as_texts, is_number
 from kineme.errors import ParameterError
 from kineme.motion import Provenance
 
@@ -49,7 +49,9 @@ class Signals:
             raise ParameterError(f"signals hold a value that is not finite, first in frame {frame}")
         if not (is_number(self.fps) and self.fps > 0):
             raise ParameterError(f"the frame rate is {self.fps!r}: it must be a positive number")
-        names = _names(self.names) or tuple(str(i) for i in range(1, values.shape[1] + 1))
+        names = as_texts(self.names, "names of channels") or tuple(
+            str(i) for i in range(1, values.shape[1] + 1)
+        )
         if len(names) != values.shape[1] or len(set(names)) < len(names):
             raise ParameterError(
                 f"{values.shape[1]} channels need as many different names, not {', '.join(names)}"
@@ -93,18 +95,8 @@ class Signals:
         return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
 
 
-def _names(names: Sequence[str]) -> tuple[str, ...]:
-    if isinstance(names, str) or not isinstance(names, Iterable):
-        raise ParameterError(f"names must be a list of one per channel, not {names!r}")
-    found = tuple(names)
-    for name in found:
-        if not isinstance(name, str):
-            raise ParameterError(f"names of channels are texts, not {name!r}")
-    return found
-
-
 def _checked(gaps: Sequence[tuple[int, int]], n_frames: int) -> tuple[tuple[int, int], ...]:
-    found = tuple((int(start), int(stop)) for start, stop in gaps)
+    found = as_spans(gaps)
     borders = [0, *(frame for gap in found for frame in gap), n_frames]
     if sorted(borders) != borders or any(start == stop for start, stop in found):
         raise ParameterError(f"gaps must be stretches in time order inside {n_frames} frames")

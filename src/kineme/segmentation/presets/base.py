@@ -57,11 +57,24 @@ class Preset:
         return replace(self, **overrides)
 
     def _check(self, positive: Iterable[str], not_negative: Iterable[str]) -> None:
+        if not _are_numbers(self.offsets):
+            raise ParameterError(f"offsets must be seconds, at least one, not {self.offsets!r:.60}")
+        optional = [field.name for field in fields(self) if "None" in str(field.type)]
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if field.type == "bool" and not isinstance(value, bool):
+                raise ParameterError(f"{field.name} is on or off, True or False, not {value!r:.60}")
         for name in positive:
             value = getattr(self, name)
-            if value is not None and not (is_number(value) and value > 0):
+            if value is None and name in optional:
+                continue
+            if not (is_number(value) and value > 0):
                 raise ParameterError(f"{name} must be a positive number, not {value!r}")
         for name in not_negative:
             value = getattr(self, name)
             if not (is_number(value) and value >= 0):
                 raise ParameterError(f"{name} must be a number from 0, not {value!r}")
+
+
+def _are_numbers(values: object) -> bool:
+    return isinstance(values, tuple | list) and bool(values) and all(map(is_number, values))
