@@ -14,7 +14,7 @@ import pytest
 
 import kineme
 from kineme.datasets import bundled_truth
-from kineme.operations import cut
+from kineme.recordings.operations import cut
 from kineme.transfer import transfer_features
 
 HEAVY = {

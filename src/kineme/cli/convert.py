@@ -9,8 +9,8 @@ import typer
 
 from kineme.cli.messages import Failures
 from kineme.errors import WriteError
-from kineme.export import FORMATS, read_segments, write_segments
-from kineme.segmentation.table import Level
+from kineme.labels import FORMATS, read_segments, write_segments
+from kineme.segments.table import Level
 
 
 def _known(name: str | None) -> str | None:

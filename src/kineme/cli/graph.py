@@ -44,8 +44,8 @@ def graph(
     with failures.caught(output), progress(output.name, quiet=quiet) as stage:
         check_writable(output, plot)
         stage("reading")
-        from kineme.export import read_segments
         from kineme.formats import read
+        from kineme.labels import read_segments
         from kineme.segmentation.segmenter import segment
         from kineme.synthesis import motion_graph, write_graph
 

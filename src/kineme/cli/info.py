@@ -15,7 +15,7 @@ from kineme.errors import EndEffectorError
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.motion import Motion
+    from kineme.recordings.motion import Motion
 
 
 def info(

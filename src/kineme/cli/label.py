@@ -37,8 +37,8 @@ def label(
     failures = Failures()
     with failures.caught(file), progress(file.name, quiet=quiet) as stage:
         stage("reading")
-        from kineme.export import read_segments
         from kineme.formats import read
+        from kineme.labels import read_segments
         from kineme.segmentation.segmenter import segment
         from kineme.transfer import KnowledgeBase, name_primitives
 

@@ -14,12 +14,12 @@ from kineme.cli.segment import run
 from kineme.cli.signals import Columns, Emg, SignalOptions, run_signals
 from kineme.cli.targets import check_writable, targets
 from kineme.errors import ParameterError
-from kineme.segmentation.presets import DEFAULT, PRESETS, resolve_preset
+from kineme.methods.presets import DEFAULT, PRESETS, resolve_preset
 
 if TYPE_CHECKING:
-    from kineme.motion import Motion
-    from kineme.segmentation.result import Segmentation
-    from kineme.signals import Signals
+    from kineme.recordings.motion import Motion
+    from kineme.recordings.signals import Signals
+    from kineme.segments.segmentation import Segmentation
 
 
 def report(
@@ -92,8 +92,8 @@ def _read(
     """A recording and the segments in a file."""
     with progress(path.name, quiet=quiet) as stage:
         stage("reading")
-        from kineme.export import read_segments
         from kineme.formats import read
+        from kineme.labels import read_segments
 
         is_signal = signals.mean(path)
         source = signals.drawn(signals.read(path)) if is_signal else read(path, **reading)

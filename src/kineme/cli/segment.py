@@ -14,16 +14,16 @@ from kineme.cli.reading import Effectors, Json, Quiet, effector_names
 from kineme.cli.signals import Columns, Emg, SignalOptions, run_signals
 from kineme.cli.targets import check_writable, targets
 from kineme.errors import ParameterError
-from kineme.segmentation.presets import DEFAULT, PRESETS, Preset, resolve_preset
-from kineme.segmentation.table import Level
+from kineme.methods.presets import DEFAULT, PRESETS, Preset, resolve_preset
+from kineme.segments.table import Level
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.motion import Motion
-    from kineme.segmentation.action_analysis import ActionAnalysis
-    from kineme.segmentation.analysis import Analysis
-    from kineme.segmentation.result import Segmentation
-    from kineme.signals import Signals
+    from kineme.methods.recurrence.analysis import ActionAnalysis
+    from kineme.methods.region_growing.analysis import Analysis
+    from kineme.recordings.motion import Motion
+    from kineme.recordings.signals import Signals
+    from kineme.segments.segmentation import Segmentation
 
 
 def segment(
@@ -85,7 +85,7 @@ def segment(
 
                 write_report(source, result, page, effectors=names)
             if json:
-                from kineme.export.json_table import as_object
+                from kineme.labels.json_table import as_object
 
                 typer.echo(dumps(as_object(result)))
             elif not quiet:
@@ -122,10 +122,10 @@ def write_results(
 ) -> None:
     """The table and the picture, where wanted."""
     if table is not None:
-        from kineme.export import write_segments
+        from kineme.labels import write_segments
 
         write_segments(result, table)
     if picture is not None:
-        from kineme.plot import plot_segmentation
+        from kineme.plot.segmentation import plot_segmentation
 
         plot_segmentation(result, analysis.graph, picture)

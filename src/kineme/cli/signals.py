@@ -11,10 +11,10 @@ import typer
 from kineme.cli.messages import progress
 
 if TYPE_CHECKING:
-    from kineme.segmentation.action_analysis import ActionAnalysis
-    from kineme.segmentation.analysis import Analysis
-    from kineme.segmentation.result import Segmentation
-    from kineme.signals import Signals
+    from kineme.methods.recurrence.analysis import ActionAnalysis
+    from kineme.methods.region_growing.analysis import Analysis
+    from kineme.recordings.signals import Signals
+    from kineme.segments.segmentation import Segmentation
 
 PANEL = "Signals without a skeleton"
 
@@ -52,13 +52,13 @@ class SignalOptions:
 
     def mean(self, path: Path) -> bool:
         """Whether a file is to be read as signals."""
-        from kineme.signals import is_signal_file
+        from kineme.formats.channels.reading import is_signal_file
 
         return self.columns is not None or self.emg or is_signal_file(path)
 
     def read(self, path: Path) -> Signals:
         """The signals in a file."""
-        from kineme.signals import read_signals
+        from kineme.formats.channels.reading import read_signals
 
         return read_signals(path, columns=self.columns, fps=self.fps)
 
@@ -66,7 +66,7 @@ class SignalOptions:
         """The signals as a page compares their moments: muscles by their envelopes."""
         if not self.emg:
             return signals
-        from kineme.signals import emg_envelope
+        from kineme.features.emg import emg_envelope
 
         return replace(signals, values=emg_envelope(signals.values, signals.fps))
 
@@ -77,7 +77,8 @@ def run_signals(
     """The segments of a file of signals, what each stage found, and the signals to draw."""
     with progress(path.name, quiet=quiet) as stage:
         stage("reading")
-        from kineme.signals import segment_signals_and_analysis, signal_preset
+        from kineme.segmentation.channels import signal_preset
+        from kineme.segmentation.signals import segment_signals_and_analysis
 
         signals = options.read(path)
         chosen = signal_preset(preset, **overrides)

@@ -10,14 +10,14 @@ import typer
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Effectors, Quiet, effector_names
 from kineme.errors import ParameterError
-from kineme.segmentation.presets import DEFAULT, PRESETS, resolve_preset
-from kineme.segmentation.table import Level
+from kineme.methods.presets import DEFAULT, PRESETS, resolve_preset
+from kineme.segments.table import Level
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.motion import Motion
-    from kineme.segmentation.presets import Preset
-    from kineme.segmentation.result import Segmentation
+    from kineme.methods.presets import Preset
+    from kineme.recordings.motion import Motion
+    from kineme.segments.segmentation import Segmentation
 
 
 def split(
@@ -56,7 +56,7 @@ def split(
         motion, cuts = _cuts(
             file, reading, chosen, effector_names(effectors), segments, quiet=quiet
         )
-        from kineme.export.split import split as write_clips
+        from kineme.clips.split import split as write_clips
 
         clips = write_clips(motion, cuts, output, level=level, cluster=cluster, loops=loop)
         if not quiet:
@@ -80,7 +80,7 @@ def _cuts(
 
         motion = read(file, **reading)
         if table is not None:
-            from kineme.export import read_segments
+            from kineme.labels import read_segments
 
             return motion, read_segments(table, fps=motion.fps, n_frames=motion.n_frames)
         from kineme.segmentation.segmenter import segment_and_analysis

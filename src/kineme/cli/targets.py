@@ -8,7 +8,7 @@ from pathlib import Path
 import typer
 
 from kineme.errors import WriteError
-from kineme.export import SUFFIXES as TABLES
+from kineme.labels import SUFFIXES as TABLES
 
 NAME = "{name}"
 PICTURES = (".png", ".pdf", ".svg")

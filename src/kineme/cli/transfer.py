@@ -11,11 +11,11 @@ import typer
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Effectors, Json, Quiet, effector_names
 from kineme.cli.targets import check_writable, targets
-from kineme.segmentation.table import Level
+from kineme.segments.table import Level
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.segmentation.result import Segmentation
+    from kineme.segments.segmentation import Segmentation
     from kineme.transfer import KnowledgeBase
 
 
@@ -73,11 +73,11 @@ def transfer(
             check_writable(table, None)
             result = run(path, reading, base, names, options, quiet=quiet)
             if table is not None:
-                from kineme.export import write_segments
+                from kineme.labels import write_segments
 
                 write_segments(result, table)
             if json:
-                from kineme.export.json_table import as_object
+                from kineme.labels.json_table import as_object
 
                 typer.echo(dumps(as_object(result)))
             elif not quiet:

@@ -17,7 +17,7 @@ from kineme._checks import as_floats, as_indices
 from kineme.errors import ParameterError
 from kineme.features.body_frame import body_frame
 from kineme.features.effectors import EndEffectors, Names, end_effectors
-from kineme.motion import Motion, check_motion
+from kineme.recordings.motion import Motion, check_motion
 
 Floats = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ import zipfile
 from pathlib import Path
 
 from kineme.errors import ReadError
-from kineme.formats.openpose import frame_files
+from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.registry import supported_formats
 
 LABELS = (".csv", ".tsv", ".json", ".parquet", ".txt", ".eaf", ".textgrid")

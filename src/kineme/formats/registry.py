@@ -18,7 +18,7 @@ from kineme._checks import check_path, is_number, is_one_of
 from kineme.errors import MotionError, ParameterError, ReadError, WriteError
 from kineme.formats.files import Source, load
 from kineme.formats.units import AXES, UNITS
-from kineme.motion import Motion, check_motion
+from kineme.recordings.motion import Motion, check_motion
 
 AnyPath = str | PathLike[str]
 

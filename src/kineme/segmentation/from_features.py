@@ -15,21 +15,21 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._version import __version__
 from kineme.errors import ParameterError
-from kineme.segmentation.numbering import by_first_appearance
-from kineme.segmentation.parts import Columns, Part, gaps_between, in_source_frames
-from kineme.segmentation.presets import (
+from kineme.methods.numbering import by_first_appearance
+from kineme.methods.presets import (
     DEFAULT,
     ActionPreset,
     Preset,
     RegionPreset,
     resolve_preset,
 )
-from kineme.segmentation.result import Segmentation
-from kineme.segmentation.stages import Progress
+from kineme.methods.stages import Progress
+from kineme.segmentation.parts import Columns, Part, gaps_between, in_source_frames
+from kineme.segments.segmentation import Segmentation
 
 if TYPE_CHECKING:
-    from kineme.segmentation.action_analysis import ActionAnalysis
-    from kineme.segmentation.analysis import Analysis, Mirror
+    from kineme.methods.recurrence.analysis import ActionAnalysis
+    from kineme.methods.region_growing.analysis import Analysis, Mirror
 
 # Scores below which a result is to be looked at: activities whose moments are nearly as
 # much like another action's, and counts that others fit nearly as well.
@@ -66,11 +66,11 @@ def analyze(
     chosen = resolve_preset(preset)
     # Each method brings compiled code of its own, loaded only where it is used.
     if isinstance(chosen, ActionPreset):
-        from kineme.segmentation.action_analysis import analyze_actions
+        from kineme.methods.recurrence.analysis import analyze_actions
 
         return analyze_actions(features, chosen, progress=progress)
     if isinstance(chosen, RegionPreset):
-        from kineme.segmentation.analysis import analyze_regions
+        from kineme.methods.region_growing.analysis import analyze_regions
 
         return analyze_regions(features, chosen, mirror=mirror, progress=progress)
     raise ParameterError(f"no method goes with a preset of type {type(chosen).__name__}")

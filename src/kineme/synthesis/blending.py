@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme._checks import as_indices, check_type
 from kineme.errors import ParameterError
-from kineme.kinematics import local_translations
-from kineme.motion import Motion, Provenance, check_motion
+from kineme.recordings.kinematics import local_translations
+from kineme.recordings.motion import Motion, Provenance, check_motion
 from kineme.synthesis.feet import plant_feet
 from kineme.synthesis.graph import MotionGraph
 
