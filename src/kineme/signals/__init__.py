@@ -11,6 +11,7 @@ from kineme.signals.emg import emg_envelope
 from kineme.signals.reading import is_signal_file, read_signals
 from kineme.signals.recording import Signals
 from kineme.signals.segmenting import segment_signals, segment_signals_and_analysis
+from kineme.signals.writing import write_signals
 
 __all__ = [
     "Signals",
@@ -20,4 +21,5 @@ __all__ = [
     "segment_signals",
     "segment_signals_and_analysis",
     "signal_preset",
+    "write_signals",
 ]
