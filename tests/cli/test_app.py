@@ -85,7 +85,7 @@ def test_constants_given_one_by_one_make_the_preset(
         asked.update(overrides)
         raise package.ParameterError("enough")
 
-    monkeypatch.setattr("kineme.cli.segment.resolve_preset", remember)
+    monkeypatch.setattr("kineme.cli.request.resolve_preset", remember)
     options = []
     for field in constants(preset):
         options += [f"--{field.name.replace('_', '-')}", typed(getattr(preset, field.name))]
