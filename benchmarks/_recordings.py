@@ -18,8 +18,8 @@ import kineme
 from kineme.datasets import ACTIONS, Action, Exercise, exercise_sequence, synthesize
 from kineme.evaluation import Annotation, labelling_of
 from kineme.evaluation.trials import find_folder, load_trials
-from kineme.motion import Motion
-from kineme.segmentation.result import Segmentation
+from kineme.recordings.motion import Motion
+from kineme.segments.segmentation import Segmentation
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")

@@ -19,10 +19,17 @@ import numpy as np
 
 from _recordings import hdm05, subject_86, synthetic
 from fairness import show
-from kineme.segmentation import action_analysis, recurrence, stretches, transitions
-from kineme.segmentation.actions import Actions
-from kineme.segmentation.numbering import by_first_appearance
-from kineme.segmentation.presets import KINEME
+from kineme.methods.numbering import by_first_appearance
+from kineme.methods.presets import KINEME
+from kineme.methods.recurrence import (
+    analysis as action_analysis,
+)
+from kineme.methods.recurrence import (
+    recurrence,
+    stretches,
+    transitions,
+)
+from kineme.methods.recurrence.actions import Actions
 from sensitivity import at_working_rate, scores
 
 

@@ -32,8 +32,8 @@ from scipy.optimize import linear_sum_assignment
 
 import kineme
 from kineme.features import mirror_features
-from kineme.segmentation.analysis import Analysis, analyze
-from kineme.segmentation.presets import KRUEGER2017, VOEGELE2014, RegionPreset
+from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
+from kineme.methods.region_growing.analysis import Analysis, analyze
 from kineme.segmentation.segmenter import motion_features
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")

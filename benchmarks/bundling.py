@@ -21,7 +21,7 @@ import numpy as np
 import kineme
 from agreement import TRIALS
 from kineme.features.bundling import bundle
-from kineme.segmentation.presets import KRUEGER2017
+from kineme.methods.presets import KRUEGER2017
 from kineme.segmentation.segmenter import motion_features
 
 PROMISED_S = 0.5

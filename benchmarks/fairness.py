@@ -26,12 +26,12 @@ import numpy as np
 
 import kineme
 from _recordings import CONDITIONS, DATA, Case, hdm05, subject_86, synthetic
-from kineme.baselines.uniform import uniform
 from kineme.evaluation import Annotation, Labelling, evaluate, evaluate_segmentation
-from kineme.motion import Motion
-from kineme.operations import resample, scale, turn
-from kineme.segmentation.presets import PRESETS
-from kineme.segmentation.result import Segmentation
+from kineme.methods.baselines.uniform import uniform
+from kineme.methods.presets import PRESETS
+from kineme.recordings.motion import Motion
+from kineme.recordings.operations import resample, scale, turn
+from kineme.segments.segmentation import Segmentation
 
 SHOWN = {
     "one_to_one": "one-to-one",

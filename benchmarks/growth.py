@@ -23,7 +23,7 @@ import numpy as np
 
 import kineme
 from _measure import verdict
-from kineme.segmentation.presets import PRESETS, ActionPreset
+from kineme.methods.presets import PRESETS, ActionPreset
 from kineme.segmentation.segmenter import motion_features
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
@@ -43,9 +43,9 @@ def one(name: str, hours: float, max_lag: float | None) -> None:
     for part in np.array_split(features, max(1, frames // 10_000)):
         part[:] += noise.normal(0, NOISE * once.std(), part.shape)
     if isinstance(preset, ActionPreset):
-        from kineme.segmentation.action_analysis import analyze_actions as analyze
+        from kineme.methods.recurrence.analysis import analyze_actions as analyze
     else:
-        from kineme.segmentation.analysis import analyze
+        from kineme.methods.region_growing.analysis import analyze
     analyze(features[: round(60 * preset.working_fps)], preset)
     start = perf_counter()
     found = analyze(features, preset)

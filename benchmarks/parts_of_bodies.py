@@ -21,11 +21,11 @@ from _recordings import Case, annotation, hdm05, subject_86
 from kineme.datasets import Action, synthesize
 from kineme.evaluation import evaluate_segmentation
 from kineme.features import body_frame, body_size, end_effectors, offsets_in_frames, stack
-from kineme.motion import Motion, Skeleton
-from kineme.operations import resample
+from kineme.methods.presets import KINEME
+from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings.operations import resample
 from kineme.segmentation.from_features import segment_features
-from kineme.segmentation.presets import KINEME
-from kineme.segmentation.result import Segmentation
+from kineme.segments.segmentation import Segmentation
 
 Segment = Callable[[Motion], Segmentation]
 

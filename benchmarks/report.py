@@ -25,12 +25,12 @@ import numpy as np
 import kineme
 from _measure import verdict
 from kineme.datasets import bundled_recording
-from kineme.motion import Motion, Skeleton
-from kineme.operations import turn
-from kineme.report.display import display_motion
-from kineme.report.matrix import matrix_of_motion
+from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings.operations import turn
 from kineme.report.page import write_report
-from kineme.segmentation.result import Segmentation
+from kineme.segments.segmentation import Segmentation
+from kineme.web.display import display_motion
+from kineme.web.matrix import matrix_of_motion
 
 MOST_MB = 30.0
 MINUTES = (1, 10, 60, 180)

@@ -24,7 +24,7 @@ import numpy as np
 
 import kineme
 from _measure import interleaved, verdict
-from kineme.segmentation.presets import KRUEGER2017, PRESETS, Preset
+from kineme.methods.presets import KRUEGER2017, PRESETS, Preset
 from kineme.segmentation.segmenter import motion_features
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))

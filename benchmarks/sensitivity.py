@@ -27,8 +27,8 @@ from _recordings import Case, hdm05, subject_86, synthetic
 from fairness import SHOWN, Scores, mean, show
 from kineme.errors import ParameterError
 from kineme.evaluation import evaluate_segmentation
-from kineme.operations import resample
-from kineme.segmentation.presets import KINEME, ActionPreset
+from kineme.methods.presets import KINEME, ActionPreset
+from kineme.recordings.operations import resample
 from kineme.segmentation.segmenter import segment
 
 NUDGES = (0.85, 1.15)

@@ -29,10 +29,10 @@ from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
 from kineme.evaluation.tables import markdown, shown
 from kineme.evaluation.trials import find_folder, load_trials
 from kineme.features import end_effectors, pose_features
-from kineme.motion import Motion, world_rotations
-from kineme.operations import resample
-from kineme.segmentation.presets import PRESETS
-from kineme.signals import channels
+from kineme.methods.presets import PRESETS
+from kineme.recordings.motion import Motion, world_rotations
+from kineme.recordings.operations import resample
+from kineme.segmentation import channels
 
 Floats = NDArray[np.float64]
 Recording = tuple[Annotation, Signals]

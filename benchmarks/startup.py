@@ -21,7 +21,7 @@ from time import perf_counter
 from typing import NamedTuple
 
 from _measure import verdict
-from kineme.segmentation.presets import PRESETS
+from kineme.methods.presets import PRESETS
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 RECORDING = str(DATA / "cmu86" / "86_10.amc")

@@ -29,8 +29,8 @@ import numpy as np
 
 import kineme
 from _measure import verdict
-from kineme.operations import cut
-from kineme.segmentation.presets import PRESETS
+from kineme.methods.presets import PRESETS
+from kineme.recordings.operations import cut
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 TRIALS = ("86_10", "86_14", "86_11")

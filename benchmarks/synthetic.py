@@ -20,9 +20,9 @@ from collections import Counter, defaultdict
 import numpy as np
 
 from kineme.datasets import random_recording
-from kineme.segmentation.presets import PRESETS
-from kineme.segmentation.result import Segmentation
+from kineme.methods.presets import PRESETS
 from kineme.segmentation.segmenter import segment
+from kineme.segments.segmentation import Segmentation
 
 TOLERANCE_S = 0.25
 

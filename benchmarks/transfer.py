@@ -24,8 +24,8 @@ import numpy as np
 
 import kineme
 from _recordings import ACTORS, DATA, subject_86
-from kineme.motion import Motion
-from kineme.segmentation.result import Segmentation
+from kineme.recordings.motion import Motion
+from kineme.segments.segmentation import Segmentation
 from kineme.transfer import (
     THRESHOLD,
     KnowledgeBase,

@@ -20,11 +20,17 @@ import kineme
 from kineme._colors import PALETTE, cluster_color
 from kineme.datasets import bundled_truth
 from kineme.graph import component_labels
-from kineme.plot import BORDER, INK, SHADES, draw_segmentation, similarity_image
-from kineme.segmentation.action_analysis import ActionAnalysis
-from kineme.segmentation.presets import KINEME, KRUEGER2017
-from kineme.segmentation.presets import VOEGELE2014 as PRESET
-from kineme.segmentation.primitives import primitive_cuts
+from kineme.methods.presets import KINEME, KRUEGER2017
+from kineme.methods.presets import VOEGELE2014 as PRESET
+from kineme.methods.recurrence.analysis import ActionAnalysis
+from kineme.methods.region_growing.primitives import primitive_cuts
+from kineme.plot.segmentation import (
+    BORDER,
+    INK,
+    SHADES,
+    draw_segmentation,
+    similarity_image,
+)
 from kineme.segmentation.segmenter import motion_features
 
 IMAGES = Path(__file__).parent / "images"

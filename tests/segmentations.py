@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 
-from kineme.segmentation.result import Segmentation
+from kineme.segments.segmentation import Segmentation
 
 LABELS = st.text(st.characters(exclude_categories=("Cc", "Cs", "Zl", "Zp")), max_size=12)
 RATES = st.one_of(

@@ -23,8 +23,8 @@ from sybil import Example, Sybil
 from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
 
 from kineme.datasets import bundled_recording
-from kineme.export import read_segments, write_segments
-from kineme.segmentation.presets import KINEME, KRUEGER2017, VOEGELE2014, Preset
+from kineme.labels import read_segments, write_segments
+from kineme.methods.presets import KINEME, KRUEGER2017, VOEGELE2014, Preset
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]

@@ -31,7 +31,7 @@ from kineme.evaluation import Labelling, border_score, labelling_of, one_to_one_
 from kineme.evaluation.methods import METHODS
 from kineme.evaluation.trials import FPS, Trial, find_folder, load_trials
 from kineme.features import pose_features
-from kineme.operations import resample
+from kineme.recordings.operations import resample
 
 WINDOW = int(FPS)
 

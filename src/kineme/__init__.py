@@ -28,7 +28,10 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
         ReadError as ReadError,
         WriteError as WriteError,
     )
-    from kineme.export import read_segments as read_segments, write_segments as write_segments
+    from kineme.labels import (
+        read_segments as read_segments,
+        write_segments as write_segments,
+    )
     from kineme.features import (
         end_effectors as end_effectors,
         mirror as mirror,
@@ -44,24 +47,29 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
         neighbor_graph as neighbor_graph,
         warping_paths as warping_paths,
     )
-    from kineme.motion import Motion as Motion, Provenance as Provenance, Skeleton as Skeleton
-    from kineme.operations import resample as resample
-    from kineme.plot import plot_segmentation as plot_segmentation
+    from kineme.recordings.motion import (
+        Motion as Motion,
+        Provenance as Provenance,
+        Skeleton as Skeleton,
+    )
+    from kineme.recordings.operations import resample as resample
+    from kineme.plot.segmentation import plot_segmentation as plot_segmentation
     from kineme.report.page import write_report as write_report
-    from kineme.segmentation.analysis import Analysis as Analysis, analyze as analyze
-    from kineme.segmentation.presets import PRESETS as PRESETS, Preset as Preset
-    from kineme.segmentation.result import Segmentation as Segmentation
+    from kineme.methods.region_growing.analysis import (
+        Analysis as Analysis,
+        analyze as analyze,
+    )
+    from kineme.methods.presets import PRESETS as PRESETS, Preset as Preset
+    from kineme.segments.segmentation import Segmentation as Segmentation
     from kineme.segmentation.segmenter import (
         segment as segment,
         segment_and_analysis as segment_and_analysis,
     )
-    from kineme.segmentation.table import Segment as Segment, SegmentTable as SegmentTable
-    from kineme.signals import (
-        Signals as Signals,
-        read_signals as read_signals,
-        segment_signals as segment_signals,
-    )
-    from kineme.signals.estimator import Segmenter as Segmenter
+    from kineme.segments.table import Segment as Segment, SegmentTable as SegmentTable
+    from kineme.recordings.signals import Signals as Signals
+    from kineme.formats.channels.reading import read_signals as read_signals
+    from kineme.segmentation.signals import segment_signals as segment_signals
+    from kineme.segmentation.estimator import Segmenter as Segmenter
     from kineme.synthesis import (
         MotionGraph as MotionGraph,
         motion_graph as motion_graph,
@@ -85,22 +93,22 @@ _HOMES = {
         "ReadError",
         "WriteError",
     ),
-    "kineme.export": ("read_segments", "write_segments"),
+    "kineme.labels": ("read_segments", "write_segments"),
     "kineme.features": ("end_effectors", "mirror", "mirror_features", "pose_features", "stack"),
     "kineme.features.bundling": ("bundle",),
     "kineme.formats": ("read", "supported_formats", "write"),
     "kineme.graph": ("NeighborGraph", "WarpingPaths", "neighbor_graph", "warping_paths"),
-    "kineme.motion": ("Motion", "Provenance", "Skeleton"),
-    "kineme.operations": ("resample",),
-    "kineme.plot": ("plot_segmentation",),
+    "kineme.recordings.motion": ("Motion", "Provenance", "Skeleton"),
+    "kineme.recordings.operations": ("resample",),
+    "kineme.plot.segmentation": ("plot_segmentation",),
     "kineme.report.page": ("write_report",),
-    "kineme.segmentation.analysis": ("Analysis", "analyze"),
-    "kineme.segmentation.presets": ("PRESETS", "Preset"),
-    "kineme.segmentation.result": ("Segmentation",),
+    "kineme.methods.region_growing.analysis": ("Analysis", "analyze"),
+    "kineme.methods.presets": ("PRESETS", "Preset"),
+    "kineme.segments.segmentation": ("Segmentation",),
     "kineme.segmentation.segmenter": ("segment", "segment_and_analysis"),
-    "kineme.segmentation.table": ("Segment", "SegmentTable"),
+    "kineme.segments.table": ("Segment", "SegmentTable"),
     "kineme.signals": ("Signals", "read_signals", "segment_signals"),
-    "kineme.signals.estimator": ("Segmenter",),
+    "kineme.segmentation.estimator": ("Segmenter",),
     "kineme.synthesis": ("MotionGraph", "motion_graph", "synthesize"),
     "kineme.transfer": ("KnowledgeBase", "transfer_labels"),
 }

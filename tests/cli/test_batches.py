@@ -12,7 +12,7 @@ import pytest
 import kineme as package
 from kineme.cli.targets import files_for
 from kineme.datasets import bundled_recording
-from kineme.operations import cut
+from kineme.recordings.operations import cut
 
 SHORT = (
     "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"

@@ -11,7 +11,7 @@ from matplotlib.image import imread
 
 import kineme as package
 from kineme.datasets import bundled_recording
-from kineme.operations import cut
+from kineme.recordings.operations import cut
 
 
 @pytest.fixture

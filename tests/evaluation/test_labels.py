@@ -24,7 +24,7 @@ from kineme.evaluation import (
     one_to_one_accuracy,
     strict_and_tolerant,
 )
-from kineme.segmentation.result import Segmentation
+from kineme.segments.segmentation import Segmentation
 
 SHARES = [
     "strict",

@@ -10,8 +10,8 @@ import pytest
 from kineme.datasets import Action, synthesize
 from kineme.errors import MotionError
 from kineme.features import body_size, end_effectors
-from kineme.motion import Motion
-from kineme.operations import move, scale, turn
+from kineme.recordings.motion import Motion
+from kineme.recordings.operations import move, scale, turn
 
 
 def performed(name: str, size: float = 1.75) -> Motion:

@@ -7,9 +7,9 @@ import json
 
 import numpy as np
 
-from kineme.formats.coco import NAMES as COCO
-from kineme.formats.mediapipe import NAMES as MEDIAPIPE
-from kineme.formats.openpose import NAMES as OPENPOSE
+from kineme.formats.keypoints.coco import NAMES as COCO
+from kineme.formats.keypoints.mediapipe import NAMES as MEDIAPIPE
+from kineme.formats.keypoints.openpose import NAMES as OPENPOSE
 
 _SPOTS = {
     "nose": (0, 1.6), "neck": (0, 1.45), "head": (0, 1.65), "chest": (0, 1.2),

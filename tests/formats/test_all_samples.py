@@ -9,8 +9,8 @@ import pytest
 
 import kineme
 from kineme.errors import ReadError
-from kineme.operations import cut
-from kineme.signals import is_signal_file, read_signals
+from kineme.formats.channels.reading import is_signal_file, read_signals
+from kineme.recordings.operations import cut
 
 REFUSED = {
     ".asf": "is a skeleton without a motion: give the AMC file",

@@ -25,9 +25,9 @@ from marker_samples import (
 import kineme
 from kineme.errors import KinemeError, KinemeWarning, ReadError
 from kineme.features import pose_features
-from kineme.formats.c3d_file import parse_c3d
 from kineme.formats.files import Source, load
-from kineme.operations import split_at_gaps
+from kineme.formats.markers.c3d_file import parse_c3d
+from kineme.recordings.operations import split_at_gaps
 
 REAL = ["Dec_real", "Eb015pi", "Eb015pr", "Eb015si", "sample_propulsion", "walkingOptiTrack"]
 POINTS = z_up_millimetres(walking())

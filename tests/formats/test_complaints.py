@@ -12,8 +12,8 @@ from marker_samples import PLUG_IN_GAIT, c3d_bytes, walking, z_up_millimetres
 
 import kineme
 from kineme.errors import KinemeWarning
-from kineme.formats.c3d_file import parse_c3d
 from kineme.formats.files import Source
+from kineme.formats.markers.c3d_file import parse_c3d
 
 
 def bvh(folder: Path, text: str) -> kineme.Motion:

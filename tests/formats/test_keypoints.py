@@ -27,7 +27,7 @@ from keypoint_samples import (
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError
-from kineme.signals import is_signal_file
+from kineme.formats.channels.reading import is_signal_file
 
 
 def read(folder: Path, name: str, content: str | bytes | list | dict, **options):

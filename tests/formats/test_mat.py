@@ -14,8 +14,8 @@ from scipy.io import loadmat, savemat
 
 import kineme
 from kineme.errors import ReadError
+from kineme.formats.arrays.mat_file import parse_mat
 from kineme.formats.files import Source
-from kineme.formats.mat_file import parse_mat
 
 
 def mat(compressed: bool = True, **variables: object) -> bytes:

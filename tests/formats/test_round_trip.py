@@ -12,8 +12,8 @@ from hypothesis import given
 
 from kineme.errors import WriteError
 from kineme.formats import read, supported_formats, write
-from kineme.kinematics import world_rotations
-from kineme.motion import Motion, Skeleton
+from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.motion import Motion, Skeleton
 
 
 def written_and_read(motion: Motion, suffix: str) -> Motion:

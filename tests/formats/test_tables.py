@@ -17,7 +17,7 @@ from marker_samples import PLUG_IN_GAIT, walking
 
 import kineme
 from kineme.errors import KinemeError, KinemeWarning, ReadError
-from kineme.formats.amass import smpl_skeleton
+from kineme.formats.arrays.amass import smpl_skeleton
 from kineme.formats.marker_sets import TABLE, find_body, plain
 
 JOINTS = ["pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head", "left_wrist"]

@@ -9,7 +9,7 @@ import pytest
 
 import kineme
 from kineme.graph import neighbor_graph
-from kineme.segmentation.presets import KRUEGER2017, VOEGELE2014, RegionPreset
+from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
 from kineme.segmentation.segmenter import motion_features
 
 TOLERANCE_CM = 0.05  # to which the features of rebuilt recordings agree

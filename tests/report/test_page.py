@@ -15,13 +15,13 @@ import pytest
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.errors import ParameterError, WriteError
-from kineme.report.display import display_motion
-from kineme.report.matrix import matrix_of_motion
+from kineme.recordings.signals import Signals
 from kineme.report.page import filled, write_report
-from kineme.report.recording import footage, recording
-from kineme.segmentation.result import Segmentation
-from kineme.segmentation.table import COLUMNS
-from kineme.signals import Signals
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import COLUMNS
+from kineme.web.display import display_motion
+from kineme.web.matrix import matrix_of_motion
+from kineme.web.recording import footage, recording
 
 RECORDING = kineme.read(bundled_recording())
 SEGMENTS = kineme.segment(RECORDING)
@@ -110,7 +110,7 @@ def test_a_name_like_a_place_for_data_is_not_filled() -> None:
 
 @pytest.mark.parametrize("preset", ["kineme", "voegele2014", "krueger2017"])
 def test_every_preset_can_be_shown(preset: str, tmp_path: Path) -> None:
-    motion = kineme.operations.cut(RECORDING, 0, 900)
+    motion = kineme.recordings.operations.cut(RECORDING, 0, 900)
     write_report(motion, kineme.segment(motion, preset=preset), tmp_path / "out.html")
     assert content(tmp_path / "out.html")["segmentation"]["provenance"]["preset"] == preset
 
@@ -136,7 +136,7 @@ def test_tables_with_any_provenance_are_shown(tmp_path: Path) -> None:
 
 
 def test_segments_of_another_recording_are_refused(tmp_path: Path) -> None:
-    shorter = kineme.operations.cut(RECORDING, 0, 900)
+    shorter = kineme.recordings.operations.cut(RECORDING, 0, 900)
     with pytest.raises(ParameterError, match="of 2898 frames at 60 Hz, the recording is of 900"):
         write_report(shorter, SEGMENTS, tmp_path / "out.html")
     slower = replace(RECORDING, fps=59.0)

@@ -15,7 +15,7 @@ import kineme
 from kineme.cli.app import app
 from kineme.datasets import bundled_recording
 
-MOTION = kineme.operations.cut(kineme.read(bundled_recording()), 0, 900)
+MOTION = kineme.recordings.operations.cut(kineme.read(bundled_recording()), 0, 900)
 
 
 @pytest.fixture

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.graph import neighbor_graph
+from kineme.methods.presets import KINEME
 from kineme.segmentation.parts import Part, gaps_between, in_source_frames, in_time
-from kineme.segmentation.presets import KINEME
 from kineme.segmentation.segmenter import segment_and_analysis
 
 

@@ -15,12 +15,12 @@ from hypothesis import strategies as st
 from kineme.datasets import Action, random_recording, synthesize
 from kineme.errors import ParameterError
 from kineme.features import end_effectors
-from kineme.motion import Motion
-from kineme.operations import cut, move, resample, turn
-from kineme.segmentation.presets import PRESETS
-from kineme.segmentation.result import Segmentation
+from kineme.methods.presets import PRESETS
+from kineme.recordings.motion import Motion
+from kineme.recordings.operations import cut, move, resample, turn
 from kineme.segmentation.segmenter import segment, segment_and_analysis
-from kineme.signals import segment_signals
+from kineme.segmentation.signals import segment_signals
+from kineme.segments.segmentation import Segmentation
 
 presets = pytest.mark.parametrize("preset", PRESETS)
 few = settings(max_examples=5)

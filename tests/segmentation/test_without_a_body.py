@@ -14,10 +14,10 @@ import kineme
 from kineme.datasets import Action, SyntheticRecording, synthesize
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
-from kineme.motion import Motion, Skeleton
-from kineme.segmentation.presets import PRESETS
-from kineme.segmentation.result import Segmentation
+from kineme.methods.presets import PRESETS
+from kineme.recordings.motion import Motion, Skeleton
 from kineme.segmentation.segmenter import segment
+from kineme.segments.segmentation import Segmentation
 
 LEGS = [side + joint for side in ("Left", "Right") for joint in ("UpLeg", "Leg", "Foot", "ToeBase")]
 EXERCISES = ("walk", 6), ("squat", 5), ("kick", 4), ("walk", 5)

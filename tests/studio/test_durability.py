@@ -17,11 +17,11 @@ from hypothesis import strategies as st
 
 import kineme
 from kineme.errors import ParameterError
-from kineme.segmentation import editing
+from kineme.segments import editing
+from kineme.segments.history import LONGEST, History
 from kineme.studio import server
 from kineme.studio.documents import Documents
 from kineme.studio.folder import Folder
-from kineme.studio.history import LONGEST, History
 from kineme.studio.uploads import FORGOTTEN, forget_drafts
 
 

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from studio_clients import PORT, TOKEN
 
 from kineme.errors import ParameterError
-from kineme.report.messages import EditRequest
 from kineme.studio.security import HEADERS
 from kineme.studio.uploads import LONGEST, safe_name
 from kineme.studio.validation import checked, parsed
+from kineme.web.messages import EditRequest
 
 API = ("/api/state", "/api/recordings/x", "/api/recordings/x/motion", "/api/events", "/api/none")
 

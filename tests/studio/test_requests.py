@@ -17,19 +17,19 @@ from message_types import conforms
 from studio_clients import TOKEN
 
 import kineme
-from kineme.export import FORMATS
-from kineme.report import messages
-from kineme.segmentation.presets import PRESETS
+from kineme.labels import FORMATS
+from kineme.methods.presets import PRESETS
 from kineme.studio.choices import RANGES
 from kineme.studio.events import Hub
 from kineme.transfer import KnowledgeBase
+from kineme.web import messages
 
 
 def test_what_there_is_to_open(studio, folder: Path) -> None:
     table = kineme.segment(kineme.read(studio.path))
     kineme.write_segments(table, folder / "labels.csv")
     kineme.write_segments(table, folder / "labels.eaf")
-    named = kineme.segmentation.editing.name_cluster(table, 0, "walk")
+    named = kineme.segments.editing.name_cluster(table, 0, "walk")
     KnowledgeBase.from_recording(kineme.read(studio.path), named).save(folder / "base.npz")
     kineme.write(kineme.read(studio.path), folder / "poses.csv")
     (folder / "take.asf").write_text(":version 1.10")
@@ -168,8 +168,8 @@ def test_segmenting_again_gives_what_the_package_gives(studio) -> None:
 
 def test_labels_come_from_a_knowledge_base_of_the_folder(studio, folder: Path) -> None:
     motion = kineme.read(studio.path)
-    table = kineme.segmentation.editing.set_cluster(kineme.segment(motion), "activity", 0, 0)
-    table = kineme.segmentation.editing.name_segment(table, "activity", 0, "walk")
+    table = kineme.segments.editing.set_cluster(kineme.segment(motion), "activity", 0, 0)
+    table = kineme.segments.editing.name_segment(table, "activity", 0, "walk")
     KnowledgeBase.from_recording(motion, table).save(folder / "base.npz")
     base = studio.get("/api/state").json()["knowledge_bases"][0]["id"]
     revision = studio.recording()["revision"]
@@ -208,7 +208,7 @@ def test_another_result_beside_the_one_shown(studio, folder: Path) -> None:
 def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
     message = studio.recording()
     formats = studio.get("/api/state").json()["export_formats"]
-    modules = {name: import_module(f"kineme.export.{f.module}") for name, f in FORMATS.items()}
+    modules = {name: import_module(f"kineme.labels.{f.module}") for name, f in FORMATS.items()}
     writers = {name for name, module in modules.items() if hasattr(module, "write")}
     assert {known["name"] for known in formats} == writers | {"motions", "report"}
     before = sorted(studio.folder.iterdir())

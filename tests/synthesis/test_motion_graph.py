@@ -15,8 +15,8 @@ import kineme
 from kineme.datasets.bundled import bundled_truth
 from kineme.errors import ParameterError
 from kineme.features.point_clouds import cloud_distances, fit_clouds
-from kineme.motion import Motion
-from kineme.operations import cut, move, turn
+from kineme.recordings.motion import Motion
+from kineme.recordings.operations import cut, move, turn
 from kineme.synthesis import (
     Edge,
     MotionGraph,

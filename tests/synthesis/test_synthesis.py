@@ -13,9 +13,13 @@ import kineme
 from kineme import _rotations as rot
 from kineme.errors import ParameterError
 from kineme.features import end_effectors
-from kineme.kinematics import forward_kinematics, local_translations, world_rotations
-from kineme.motion import Motion
-from kineme.operations import cut
+from kineme.recordings.kinematics import (
+    forward_kinematics,
+    local_translations,
+    world_rotations,
+)
+from kineme.recordings.motion import Motion
+from kineme.recordings.operations import cut
 from kineme.synthesis import (
     MotionGraph,
     Placement,
@@ -124,7 +128,9 @@ def test_where_it_starts_is_where_it_was_laid(exercises: Motion, graph: MotionGr
     route = random_route(graph, 10, 0)
     here = synthesize(graph, [exercises], route, plant=False)
     there = synthesize(graph, [exercises], route, start=Placement(0.5, 3 - 2j), plant=False)
-    expected = kineme.operations.move(kineme.operations.turn(here, 0.5), [3, 0, -2])
+    expected = kineme.recordings.operations.move(
+        kineme.recordings.operations.turn(here, 0.5), [3, 0, -2]
+    )
     assert np.abs(there.positions - expected.positions).max() < 1e-9
 
 

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 
 from kineme.datasets import Action, synthesize
 from kineme.errors import KinemeError, ParameterError, ReadError, WriteError
-from kineme.motion import Motion
-from kineme.segmentation.result import Segmentation
+from kineme.recordings.motion import Motion
+from kineme.segments.segmentation import Segmentation
 from kineme.transfer import KnowledgeBase
 
 MADE = synthesize([Action("walk", 3), Action("kick", 2), Action("walk", 2)], fps=60, seed=1)

@@ -13,7 +13,7 @@ import kineme
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
 from kineme.evaluation.trials import load_trials
-from kineme.segmentation.result import Segmentation
+from kineme.segments.segmentation import Segmentation
 from kineme.transfer import KnowledgeBase, name_primitives, transfer_features, transfer_labels
 
 TAUGHT = synthesize(

@@ -11,7 +11,7 @@ import pytest
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.errors import ParameterError
-from kineme.operations import cut, scale, turn
+from kineme.recordings.operations import cut, scale, turn
 from kineme.transfer import share_clusters
 
 

@@ -12,8 +12,8 @@ from kineme.cli.request import Request
 from kineme.cli.signals import Columns
 from kineme.cli.targets import make_folder_of
 from kineme.errors import WriteError
-from kineme.export import FORMATS, read_segments, write_segments
-from kineme.segmentation.table import Level
+from kineme.labels import FORMATS, read_segments, write_segments
+from kineme.segments.table import Level
 
 
 def _known(name: str | None) -> str | None:
@@ -34,9 +34,9 @@ def _is_recording(path: Path) -> bool:
 
 def _names_channels(path: Path) -> bool:
     """Whether a text file is a table of channels: these name columns, labels begin with a time."""
+    from kineme.formats.channels.reading import is_signal_file
+    from kineme.formats.channels.text_table import TextTable
     from kineme.formats.files import load
-    from kineme.signals import is_signal_file
-    from kineme.signals.text_table import TextTable
 
     if not is_signal_file(path):
         return False
@@ -105,7 +105,7 @@ def convert(
 
 
 def _convert_recording(request: Request, path: Path, target: Path) -> None:
-    from kineme.motion import Motion
+    from kineme.recordings.motion import Motion
 
     recording = request.read(path)
     if isinstance(recording, Motion):

@@ -15,8 +15,8 @@ from kineme.cli.request import Request
 from kineme.cli.targets import check_place, check_writable
 
 if TYPE_CHECKING:
-    from kineme.motion import Motion
-    from kineme.segmentation.result import Segmentation
+    from kineme.recordings.motion import Motion
+    from kineme.segments.segmentation import Segmentation
     from kineme.synthesis import MotionGraph
 
 

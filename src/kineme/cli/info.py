@@ -15,7 +15,7 @@ from kineme.errors import EndEffectorError
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.motion import Motion
+    from kineme.recordings.motion import Motion
 
 
 def info(
@@ -33,7 +33,7 @@ def info(
     for path in batch.paths:
         with batch.caught(path):
             recording = request.read(path)
-            from kineme.motion import Motion
+            from kineme.recordings.motion import Motion
 
             if isinstance(recording, Motion):
                 facts = _facts(recording, request.effectors)

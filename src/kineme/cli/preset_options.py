@@ -15,7 +15,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import typer
 
-from kineme.segmentation.presets import (
+from kineme.methods.presets import (
     PRESETS,
     ActionPreset,
     Preset,

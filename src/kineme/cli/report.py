@@ -12,7 +12,7 @@ from kineme.cli.reading import Effectors, Quiet
 from kineme.cli.request import Request
 from kineme.cli.signals import Columns, Emg
 from kineme.cli.targets import check_writable
-from kineme.segmentation.presets import DEFAULT, PRESETS
+from kineme.methods.presets import DEFAULT, PRESETS
 
 
 def report(

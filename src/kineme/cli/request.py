@@ -12,15 +12,15 @@ import typer
 from kineme.cli.reading import effector_names
 from kineme.cli.signals import SignalOptions
 from kineme.errors import ParameterError, ReadError
-from kineme.segmentation.presets import DEFAULT, Preset, resolve_preset
+from kineme.methods.presets import DEFAULT, Preset, resolve_preset
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.motion import Motion
-    from kineme.segmentation.action_analysis import ActionAnalysis
-    from kineme.segmentation.analysis import Analysis
-    from kineme.segmentation.result import Segmentation
-    from kineme.signals import Signals
+    from kineme.methods.recurrence.analysis import ActionAnalysis
+    from kineme.methods.region_growing.analysis import Analysis
+    from kineme.recordings.motion import Motion
+    from kineme.recordings.signals import Signals
+    from kineme.segments.segmentation import Segmentation
 
 Stage = Callable[[str], None]
 
@@ -66,7 +66,7 @@ class Request:
     def read_motion(self, path: Path) -> Motion:
         """The motion in a file; ReadError for signals, which have no body to compare."""
         from kineme.formats import read
-        from kineme.signals import is_signal_file
+        from kineme.formats.channels.reading import is_signal_file
 
         if is_signal_file(path):
             raise ReadError(path, "holds signals without a skeleton, where a motion is needed")
@@ -76,7 +76,7 @@ class Request:
         self, recording: Motion | Signals, stage: Stage
     ) -> tuple[Segmentation, Analysis | ActionAnalysis]:
         """The segments, and what was found on the way to them."""
-        from kineme.motion import Motion
+        from kineme.recordings.motion import Motion
 
         if isinstance(recording, Motion):
             from kineme.segmentation.segmenter import segment_and_analysis
@@ -84,7 +84,8 @@ class Request:
             return segment_and_analysis(
                 recording, self.preset, effectors=self.effectors, progress=stage
             )
-        from kineme.signals import segment_signals_and_analysis, signal_preset
+        from kineme.segmentation.channels import signal_preset
+        from kineme.segmentation.signals import segment_signals_and_analysis
 
         chosen = signal_preset(self.preset.name, **self.overrides)
         return segment_signals_and_analysis(recording, chosen, emg=self.signals.emg, progress=stage)
@@ -95,12 +96,12 @@ class Request:
         """The segments in a table or label file; without one those that are found."""
         if table is None:
             return self.segment(recording, stage)[0]
-        from kineme.export import read_segments
+        from kineme.labels import read_segments
 
         return read_segments(table, fps=recording.fps, n_frames=recording.n_frames)
 
     def drawn(self, recording: Motion | Signals) -> Motion | Signals:
         """The recording as a page compares its frames: muscles by their envelopes."""
-        from kineme.motion import Motion
+        from kineme.recordings.motion import Motion
 
         return recording if isinstance(recording, Motion) else self.signals.drawn(recording)

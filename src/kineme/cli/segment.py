@@ -13,13 +13,13 @@ from kineme.cli.reading import Effectors, Json, Quiet
 from kineme.cli.request import Request
 from kineme.cli.signals import Columns, Emg
 from kineme.cli.targets import check_writable
-from kineme.segmentation.presets import DEFAULT, PRESETS
-from kineme.segmentation.table import Level
+from kineme.methods.presets import DEFAULT, PRESETS
+from kineme.segments.table import Level
 
 if TYPE_CHECKING:
-    from kineme.segmentation.action_analysis import ActionAnalysis
-    from kineme.segmentation.analysis import Analysis
-    from kineme.segmentation.result import Segmentation
+    from kineme.methods.recurrence.analysis import ActionAnalysis
+    from kineme.methods.region_growing.analysis import Analysis
+    from kineme.segments.segmentation import Segmentation
 
 
 def segment(
@@ -72,7 +72,7 @@ def segment(
                 drawn = request.drawn(recording)
                 write_report(drawn, result, page, effectors=request.effectors)
             if json:
-                from kineme.export.json_table import as_object
+                from kineme.labels.json_table import as_object
 
                 typer.echo(dumps(as_object(result)))
             elif not quiet:
@@ -90,10 +90,10 @@ def write_results(
 ) -> None:
     """The table and the picture, where wanted."""
     if table is not None:
-        from kineme.export import write_segments
+        from kineme.labels import write_segments
 
         write_segments(result, table)
     if picture is not None:
-        from kineme.plot import plot_segmentation
+        from kineme.plot.segmentation import plot_segmentation
 
         plot_segmentation(result, analysis.graph, picture)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from kineme.signals import Signals
+    from kineme.recordings.signals import Signals
 
 PANEL = "Signals without a skeleton"
 
@@ -47,13 +47,13 @@ class SignalOptions:
 
     def mean(self, path: Path) -> bool:
         """Whether a file is to be read as signals."""
-        from kineme.signals import is_signal_file
+        from kineme.formats.channels.reading import is_signal_file
 
         return self.columns is not None or self.emg or is_signal_file(path)
 
     def read(self, path: Path) -> Signals:
         """The signals in a file."""
-        from kineme.signals import read_signals
+        from kineme.formats.channels.reading import read_signals
 
         return read_signals(path, columns=self.columns, fps=self.fps)
 
@@ -61,7 +61,7 @@ class SignalOptions:
         """The signals as a page compares their moments: muscles by their envelopes."""
         if not self.emg:
             return signals
-        from kineme.signals import emg_envelope
+        from kineme.features.emg import emg_envelope
 
         return replace(signals, values=emg_envelope(signals.values, signals.fps))
 

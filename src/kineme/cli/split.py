@@ -12,8 +12,8 @@ from kineme.cli.reading import Effectors, Quiet
 from kineme.cli.request import Request
 from kineme.cli.signals import Columns, Emg
 from kineme.cli.targets import make_folder_of
-from kineme.segmentation.presets import DEFAULT, PRESETS
-from kineme.segmentation.table import Level
+from kineme.methods.presets import DEFAULT, PRESETS
+from kineme.segments.table import Level
 
 
 def split(
@@ -64,7 +64,7 @@ def split(
                 stage("reading")
                 recording = request.read(path)
                 cuts = request.segments(recording, table, stage)
-            from kineme.export.split import split as write_clips
+            from kineme.clips.split import split as write_clips
 
             if not batch.single:
                 make_folder_of(folder)

@@ -12,8 +12,8 @@ from rich.table import Table
 from rich.text import Text
 
 from kineme._colors import cluster_color
-from kineme.segmentation.result import Segmentation
-from kineme.segmentation.table import Level, Segment
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, Segment
 
 _NOTHING_FOUND = (
     "no activity found: nothing stays alike or repeats for long enough; of a recording of a few "

@@ -18,7 +18,7 @@ from pathlib import Path
 import typer
 
 from kineme.errors import WriteError
-from kineme.export import SUFFIXES as TABLES
+from kineme.labels import SUFFIXES as TABLES
 
 NAME, PARENT = "{name}", "{parent}"
 PICTURES = (".png", ".pdf", ".svg")

@@ -13,10 +13,10 @@ from kineme.cli.messages import Failures
 from kineme.cli.reading import Effectors, Json, Quiet
 from kineme.cli.request import Request, Stage
 from kineme.cli.targets import check_writable
-from kineme.segmentation.table import Level
+from kineme.segments.table import Level
 
 if TYPE_CHECKING:
-    from kineme.segmentation.result import Segmentation
+    from kineme.segments.segmentation import Segmentation
     from kineme.transfer import KnowledgeBase
 
 
@@ -76,11 +76,11 @@ def transfer(
             with batch.progress(path) as stage:
                 result = _named(request, path, base, options, stage)
             if table is not None:
-                from kineme.export import write_segments
+                from kineme.labels import write_segments
 
                 write_segments(result, table)
             if json:
-                from kineme.export.json_table import as_object
+                from kineme.labels.json_table import as_object
 
                 typer.echo(dumps(as_object(result)))
             elif not quiet:

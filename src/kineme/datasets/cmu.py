@@ -147,8 +147,8 @@ def _content(path: Path, folder: Path) -> int | None:
     if path.suffix == ".amc":
         return _n_frames(path, folder)
     if path.suffix == ".asf":
-        from kineme.formats.asf import read_asf
         from kineme.formats.files import load
+        from kineme.formats.skeletons.asf import read_asf
 
         read_asf(load(path))
     else:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from kineme import _rotations as rot
-from kineme.kinematics import world_rotations
-from kineme.motion import Motion, Skeleton
+from kineme.recordings.kinematics import world_rotations
+from kineme.recordings.motion import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from kineme.datasets.bundled import bundled_recording, bundled_truth
 from kineme.datasets.synthetic import synthesize
 from kineme.datasets.timeline import Action
-from kineme.export import write_segments
 from kineme.formats import write
+from kineme.labels import write_segments
 
 _SEED = 86
 _DECIMALS = 2  # of centimetres and degrees: a small file, and finer than any camera

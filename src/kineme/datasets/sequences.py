@@ -25,9 +25,9 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
-from kineme.motion import Motion, Provenance, local_translations
-from kineme.operations import move, turn
-from kineme.segmentation.result import Segmentation
+from kineme.recordings.motion import Motion, Provenance, local_translations
+from kineme.recordings.operations import move, turn
+from kineme.segments.segmentation import Segmentation
 
 Floats = NDArray[np.float64]
 

@@ -23,8 +23,8 @@ from kineme.datasets.ground import root_path
 from kineme.datasets.performance import perform, shaken
 from kineme.datasets.timeline import Action, schedule, true_segments
 from kineme.errors import ParameterError
-from kineme.motion import Motion, Provenance
-from kineme.segmentation.result import Segmentation
+from kineme.recordings.motion import Motion, Provenance
+from kineme.segments.segmentation import Segmentation
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from scipy.interpolate import PchipInterpolator
 
 from kineme.datasets.actions import ACTIONS
 from kineme.errors import ParameterError
-from kineme.segmentation.result import Segmentation
+from kineme.segments.segmentation import Segmentation
 
 Floats = NDArray[np.float64]
 

@@ -24,7 +24,7 @@ from kineme.evaluation.paper import strict_and_tolerant
 from kineme.evaluation.published import published
 from kineme.evaluation.scores import evaluate_segmentation
 from kineme.evaluation.trials import Trial, read_truths
-from kineme.segmentation.result import Segmentation
+from kineme.segments.segmentation import Segmentation
 
 Scores = dict[str, float]
 

@@ -23,10 +23,10 @@ from kineme.evaluation.annotations import read_frame_labels, read_intervals, rea
 from kineme.evaluation.labelling import Annotation, Labelling
 from kineme.evaluation.scores import evaluate, evaluate_segmentation, labelling_of
 from kineme.evaluation.trials import FPS
-from kineme.export import read_segments
-from kineme.motion import Motion
-from kineme.operations import resample
-from kineme.segmentation.result import Segmentation
+from kineme.labels import read_segments
+from kineme.recordings.motion import Motion
+from kineme.recordings.operations import resample
+from kineme.segments.segmentation import Segmentation
 
 Found = Segmentation | Labelling
 
@@ -111,7 +111,7 @@ def score(truth: Annotation, found: Found, motion: Motion | None = None) -> dict
     """
     data: dict[str, Any] = {}
     if motion is not None:
-        from kineme.segmentation.presets import VOEGELE2014
+        from kineme.methods.presets import VOEGELE2014
         from kineme.segmentation.segmenter import motion_features
 
         preset = VOEGELE2014.replace(working_fps=truth.fps)

@@ -13,12 +13,12 @@ from types import MappingProxyType
 from typing import Any
 
 from kineme._version import __version__
-from kineme.baselines import Pieces
 from kineme.errors import ParameterError
 from kineme.evaluation.labelling import TRANSITION
 from kineme.evaluation.trials import Floats, Trial
-from kineme.segmentation.presets import PRESETS, Preset
-from kineme.segmentation.result import Segmentation
+from kineme.methods.baselines import Pieces
+from kineme.methods.presets import PRESETS, Preset
+from kineme.segments.segmentation import Segmentation
 
 Method = Callable[[Trial], Segmentation]
 
@@ -73,7 +73,7 @@ def _baseline(name: str, trial: Trial) -> Segmentation:
 
 
 def _aca(trial: Trial) -> Pieces:
-    from kineme.baselines.aca import aca
+    from kineme.methods.baselines.aca import aca
 
     short: dict[str, Any] = {"shortest": 21, "longest": 36, "centres": 15}
     options = short if trial.name == SHORT_PIECES else {}
@@ -81,7 +81,7 @@ def _aca(trial: Trial) -> Pieces:
 
 
 def _haca(trial: Trial) -> Pieces:
-    from kineme.baselines.haca import haca
+    from kineme.methods.baselines.haca import haca
 
     short: dict[str, Any] = {"fine_lengths": (7, 9), "coarse_lengths": (3, 4), "centres": 15}
     options = short if trial.name == SHORT_PIECES else {}
@@ -89,37 +89,37 @@ def _haca(trial: Trial) -> Pieces:
 
 
 def _pca(trial: Trial) -> Pieces:
-    from kineme.baselines.pca import pca
+    from kineme.methods.baselines.pca import pca
 
     return pca(_quaternions(trial), fps=trial.motion.fps)
 
 
 def _ppca(trial: Trial) -> Pieces:
-    from kineme.baselines.pca import ppca
+    from kineme.methods.baselines.pca import ppca
 
     return ppca(_quaternions(trial), fps=trial.motion.fps)
 
 
 def _gmm(trial: Trial) -> Pieces:
-    from kineme.baselines.gmm import gmm
+    from kineme.methods.baselines.gmm import gmm
 
     return gmm(_quaternions(trial), n_classes=_n_classes(trial))
 
 
 def _uniform(trial: Trial) -> Pieces:
-    from kineme.baselines.uniform import uniform
+    from kineme.methods.baselines.uniform import uniform
 
     return uniform(trial.motion.n_frames, fps=trial.motion.fps, seconds=UNIFORM_S)
 
 
 def _log_maps(trial: Trial) -> Floats:
-    from kineme.baselines.joints import joint_quaternions, log_maps
+    from kineme.methods.baselines.joints import joint_quaternions, log_maps
 
     return log_maps(joint_quaternions(trial.motion))
 
 
 def _quaternions(trial: Trial) -> Floats:
-    from kineme.baselines.joints import joint_quaternions
+    from kineme.methods.baselines.joints import joint_quaternions
 
     return joint_quaternions(trial.motion).reshape(trial.motion.n_frames, -1)
 

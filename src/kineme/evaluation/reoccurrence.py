@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from kineme.errors import KinemeError
 from kineme.graph import NeighborGraph, neighbor_graph
-from kineme.motion import Motion
-from kineme.segmentation.presets import VOEGELE2014
+from kineme.methods.presets import VOEGELE2014
+from kineme.recordings.motion import Motion
 from kineme.segmentation.segmenter import motion_features
 
 MIN_LENGTH_S = 8.0

@@ -26,8 +26,8 @@ from kineme.evaluation.variance import (
     overall,
     point_cloud_variance,
 )
-from kineme.segmentation.result import Segmentation
-from kineme.segmentation.table import SegmentTable
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import SegmentTable
 
 
 def evaluate(

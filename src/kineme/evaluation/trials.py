@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
 from kineme.evaluation.annotations import read_trials
 from kineme.evaluation.labelling import Annotation
-from kineme.motion import Motion
+from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
 
@@ -43,14 +43,14 @@ class Trial:
     @cached_property
     def positions(self) -> Floats:
         """Joint positions (frames, joints, 3) at 30 Hz, metres."""
-        from kineme.operations import resample
+        from kineme.recordings.operations import resample
 
         return resample(self.motion, FPS).positions
 
     @cached_property
     def features(self) -> Floats:
         """The 45 stacked features of Vögele et al. 2014 (frames, 45) at 30 Hz, metres."""
-        from kineme.segmentation.presets import VOEGELE2014
+        from kineme.methods.presets import VOEGELE2014
         from kineme.segmentation.segmenter import motion_features
 
         return motion_features(self.motion, VOEGELE2014)

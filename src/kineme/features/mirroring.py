@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import MotionError, ParameterError
 from kineme.features.effectors import PARTS
-from kineme.motion import Motion, Skeleton
+from kineme.recordings.motion import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 

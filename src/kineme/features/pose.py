@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme.errors import ParameterError
 from kineme.features.body_frame import body_frame
 from kineme.features.effectors import EndEffectors, Names, end_effectors
-from kineme.motion import Motion
+from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
 

@@ -6,7 +6,9 @@ its provenance what the file did not tell and had to be inferred. One module
 per format; `register` adds more.
 """
 
-from kineme.formats import amc, arrays, bvh, c3d, mat, mot, pose_json, sleap, tables, trc
+from kineme.formats.arrays import arrays, mat
+from kineme.formats.keypoints import pose_json, sleap
+from kineme.formats.markers import c3d, mot, trc
 from kineme.formats.registry import (
     Format,
     ReadOptions,
@@ -15,6 +17,8 @@ from kineme.formats.registry import (
     supported_formats,
     write,
 )
+from kineme.formats.skeletons import amc, bvh
+from kineme.formats.tables import tables
 
 register(amc.SKELETON)
 register(amc.FORMAT)

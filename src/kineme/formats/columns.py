@@ -24,7 +24,7 @@ from kineme.formats.files import Source
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import ReadOptions
 from kineme.formats.timing import even_frames
-from kineme.motion import Motion
+from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from kineme._files import atomic_write
 from kineme.errors import KinemeWarning, ReadError
-from kineme.motion import Provenance
+from kineme.recordings.motion import Provenance
 
 MOST_EXPANSION = 100
 """Times that a compressed file may grow in memory; recordings compress to a half or a tenth."""

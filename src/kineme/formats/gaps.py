@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.motion import Motion
+from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
 Spans = NDArray[np.intp]

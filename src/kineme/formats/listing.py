@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kineme.formats.files import HEAD, head_of
-from kineme.formats.openpose import frame_files
+from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.registry import supported_formats
 
 LABELS = (".csv", ".tsv", ".json", ".parquet", ".txt", ".eaf", ".textgrid")

@@ -24,7 +24,7 @@ from kineme.formats.files import unique, warn
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
 from kineme.formats.units import UNITS, metres, upright
-from kineme.motion import Motion, Provenance, Skeleton
+from kineme.recordings.motion import Motion, Provenance, Skeleton
 
 Floats = NDArray[np.float64]
 Body = dict[str, tuple[int, ...]]

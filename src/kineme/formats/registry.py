@@ -18,7 +18,7 @@ import numpy as np
 from kineme.errors import MotionError, ParameterError, ReadError, WriteError
 from kineme.formats.files import Source, load
 from kineme.formats.units import AXES, UNITS
-from kineme.motion import Motion
+from kineme.recordings.motion import Motion
 
 AnyPath = str | PathLike[str]
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme.formats.files import warn
-from kineme.motion import Motion, Provenance, Skeleton, forward_kinematics
+from kineme.recordings.motion import Motion, Provenance, Skeleton, forward_kinematics
 
 Floats = NDArray[np.float64]
 

@@ -17,9 +17,9 @@ from pathlib import Path
 from kineme._files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
-from kineme.report.messages import Recording
-from kineme.report.recording import Source, footage, recording
-from kineme.segmentation.result import Segmentation
+from kineme.segments.segmentation import Segmentation
+from kineme.web.messages import Recording
+from kineme.web.recording import Source, footage, recording
 
 SUFFIXES = (".html", ".htm")
 

@@ -15,15 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._version import __version__
 from kineme.errors import ParameterError
-from kineme.segmentation.numbering import by_first_appearance
+from kineme.methods.numbering import by_first_appearance
+from kineme.methods.presets import ActionPreset, Preset, RegionPreset
+from kineme.methods.stages import Progress
 from kineme.segmentation.parts import Columns, Part, gaps_between, in_source_frames
-from kineme.segmentation.presets import ActionPreset, Preset, RegionPreset
-from kineme.segmentation.result import Segmentation
-from kineme.segmentation.stages import Progress
+from kineme.segments.segmentation import Segmentation
 
 if TYPE_CHECKING:
-    from kineme.segmentation.action_analysis import ActionAnalysis
-    from kineme.segmentation.analysis import Analysis, Mirror
+    from kineme.methods.recurrence.analysis import ActionAnalysis
+    from kineme.methods.region_growing.analysis import Analysis, Mirror
 
 # Scores below which a result is to be looked at: activities whose moments are nearly as
 # much like another action's, and counts that others fit nearly as well.
@@ -65,12 +65,12 @@ def segment_features(
     # Each method brings compiled code of its own, loaded only where it is used.
     analysis: Analysis | ActionAnalysis
     if isinstance(preset, ActionPreset):
-        from kineme.segmentation.action_analysis import analyze_actions
+        from kineme.methods.recurrence.analysis import analyze_actions
 
         analysis = analyze_actions(features, preset, progress=progress)
         columns = _action_columns(analysis)
     elif isinstance(preset, RegionPreset):
-        from kineme.segmentation.analysis import analyze
+        from kineme.methods.region_growing.analysis import analyze
 
         analysis = analyze(features, preset, mirror=mirror, progress=progress)
         columns = _region_columns(analysis)

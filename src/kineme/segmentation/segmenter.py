@@ -22,23 +22,23 @@ from kineme.features import (
 )
 from kineme.features.distances import SIZE
 from kineme.features.effectors import Names
-from kineme.motion import Motion
-from kineme.operations import resample, split_at_gaps
-from kineme.segmentation.from_features import segment_features
-from kineme.segmentation.parts import Part
-from kineme.segmentation.presets import (
+from kineme.methods.presets import (
     DEFAULT,
     ActionPreset,
     Preset,
     RegionPreset,
     resolve_preset,
 )
-from kineme.segmentation.result import Segmentation
-from kineme.segmentation.stages import Progress
+from kineme.methods.stages import Progress
+from kineme.recordings.motion import Motion
+from kineme.recordings.operations import resample, split_at_gaps
+from kineme.segmentation.from_features import segment_features
+from kineme.segmentation.parts import Part
+from kineme.segments.segmentation import Segmentation
 
 if TYPE_CHECKING:
-    from kineme.segmentation.action_analysis import ActionAnalysis
-    from kineme.segmentation.analysis import Analysis
+    from kineme.methods.recurrence.analysis import ActionAnalysis
+    from kineme.methods.region_growing.analysis import Analysis
 
 Floats = NDArray[np.float64]
 
@@ -63,7 +63,7 @@ def segment(
         At least one frame. What is too short or never repeats is one segment.
     preset : str or Preset
         ``kineme``, ``voegele2014`` or ``krueger2017``; see
-        :mod:`kineme.segmentation.presets`.
+        :mod:`kineme.methods.presets`.
     effectors : joints to take for head, hands and feet where names do not tell. Where these are
         not found either, the distances between points are looked at instead of a body
     progress : called with the name of each stage before it runs

@@ -10,6 +10,6 @@
         folder      what there is to open, names and ids; uploads
 
 Everything that a page sends is checked in ``validation`` against the message
-types of :mod:`kineme.report.messages`. No path is ever made from what a page
+types of :mod:`kineme.web.messages`. No path is ever made from what a page
 sends: files are found by ids, and an upload's name is made anew.
 """

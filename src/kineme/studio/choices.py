@@ -6,9 +6,9 @@ from math import sqrt
 from typing import NamedTuple
 
 from kineme.errors import ParameterError
-from kineme.export import FORMATS
-from kineme.report.messages import ExportFormat, Parameter, PresetChoice
-from kineme.segmentation.presets import PRESETS, Preset, constant_help, resolve_preset
+from kineme.labels import FORMATS
+from kineme.methods.presets import PRESETS, Preset, constant_help, resolve_preset
+from kineme.web.messages import ExportFormat, Parameter, PresetChoice
 
 
 class Range(NamedTuple):
@@ -49,7 +49,7 @@ PRESET_HELP = {
     "krueger2017": "As published in 2017; to compare with.",
 }
 CLIPS, REPORT = "motions", "report"
-"""What can be taken away besides the formats of :mod:`kineme.export`: motion files, a page."""
+"""What can be taken away besides the formats of :mod:`kineme.labels`: motion files, a page."""
 FORMAT_HELP = {
     "csv": "The table, for spreadsheets",
     "json": "Everything in one file",

@@ -10,8 +10,8 @@ import numpy as np
 from kineme.errors import KinemeError, ParameterError
 from kineme.evaluation import TRANSITION, Annotation, Labelling, evaluate_segmentation, labelling_of
 from kineme.evaluation.inputs import comparison, read_truth
-from kineme.export import read_segments
-from kineme.segmentation.result import Segmentation
+from kineme.labels import read_segments
+from kineme.segments.segmentation import Segmentation
 
 
 def annotation(path: Path, shown: Segmentation) -> tuple[Segmentation, dict[str, float]]:

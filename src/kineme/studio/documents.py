@@ -15,14 +15,14 @@ from pathlib import Path
 from typing import Any, cast
 
 from kineme.errors import KinemeError
-from kineme.export import json_table
-from kineme.report.messages import Edit, Edited, Recording, Segments
-from kineme.segmentation.result import Segmentation
+from kineme.labels import json_table
+from kineme.segments.history import History
+from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import edited
 from kineme.studio.folder import Folder
-from kineme.studio.history import History
 from kineme.studio.storage import ChangedOnDiskError, saved_table
 from kineme.studio.takes import Reading, Sources, Take
+from kineme.web.messages import Edit, Edited, Recording, Segments
 
 Listener = Callable[[str, int], None]
 AS_IT_IS = Reading()
@@ -80,7 +80,7 @@ class Document:
 
     def recording(self) -> tuple[Recording, bool]:
         """All that a page shows, and whether the table was read anew from the disk for it."""
-        from kineme.report.recording import recording
+        from kineme.web.recording import recording
 
         with self._lock:
             anew = self._kept.changed() and self._read_anew()

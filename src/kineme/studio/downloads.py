@@ -7,16 +7,16 @@ import zipfile
 from io import BytesIO
 from pathlib import Path
 
+from kineme.clips.split import split
 from kineme.errors import ParameterError
-from kineme.export import FORMATS, write_segments
-from kineme.export.split import split
 from kineme.features import Names
-from kineme.motion import Motion
+from kineme.labels import FORMATS, write_segments
+from kineme.recordings.motion import Motion
 from kineme.report.page import write_report
-from kineme.report.recording import Source
-from kineme.segmentation.result import Segmentation
-from kineme.segmentation.table import Level
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level
 from kineme.studio.choices import FORMAT_HELP, SUFFIXES
+from kineme.web.recording import Source
 
 PLAIN = {"bids": ".tsv", "ms-tcn": ".txt"}
 """Suffixes of the main file, where what is taken away is several."""

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from kineme.errors import ParameterError
-from kineme.report.messages import Edit
-from kineme.segmentation import editing
-from kineme.segmentation.result import Segmentation
+from kineme.segments import editing
+from kineme.segments.segmentation import Segmentation
 from kineme.studio.choices import preset_of
 from kineme.studio.takes import Take
+from kineme.web.messages import Edit
 
 BY_HAND: Mapping[str, tuple[Callable[..., Segmentation], tuple[str, ...]]] = {
     "move_border": (editing.move_border, ("level", "frame", "to")),

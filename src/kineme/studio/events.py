@@ -7,7 +7,7 @@ import json
 from collections.abc import AsyncIterator
 from contextlib import suppress
 
-from kineme.report.messages import Changed
+from kineme.web.messages import Changed
 
 HEARTBEAT = 15.0  # seconds; without it nobody would notice a line that is dead
 LONGEST = 256

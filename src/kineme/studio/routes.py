@@ -17,16 +17,8 @@ from starlette.routing import Route
 
 from kineme._version import __version__
 from kineme.errors import ParameterError
-from kineme.report.messages import (
-    CompareRequest,
-    Comparison,
-    EditRequest,
-    FileChoice,
-    Listing,
-    State,
-)
-from kineme.segmentation.presets import DEFAULT
-from kineme.segmentation.table import Level
+from kineme.methods.presets import DEFAULT
+from kineme.segments.table import Level
 from kineme.studio import choices
 from kineme.studio.documents import Documents, UnknownError, segments_message
 from kineme.studio.events import Hub
@@ -34,6 +26,14 @@ from kineme.studio.folder import file_id
 from kineme.studio.storage import has_table
 from kineme.studio.uploads import LIMIT, TooLargeError, Upload
 from kineme.studio.validation import checked, parsed
+from kineme.web.messages import (
+    CompareRequest,
+    Comparison,
+    EditRequest,
+    FileChoice,
+    Listing,
+    State,
+)
 
 MOST_JSON = 1_000_000
 """Bytes of a request; the largest that a page makes has a few hundred."""

@@ -146,9 +146,9 @@ def load_code(ended: threading.Event) -> None:
     """Show and segment the bundled recording; by the default preset first."""
     from kineme.datasets import bundled_recording
     from kineme.formats import read
-    from kineme.report.recording import footage
-    from kineme.segmentation.presets import DEFAULT, PRESETS
+    from kineme.methods.presets import DEFAULT, PRESETS
     from kineme.segmentation.segmenter import segment
+    from kineme.web.recording import footage
 
     motion = read(bundled_recording())
     footage(motion)

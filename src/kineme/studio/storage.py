@@ -15,8 +15,8 @@ from pathlib import Path
 
 from kineme._files import atomic_write
 from kineme.errors import KinemeError, ReadError, WriteError
-from kineme.export import json_table, read_segments
-from kineme.segmentation.result import Segmentation
+from kineme.labels import json_table, read_segments
+from kineme.segments.segmentation import Segmentation
 
 SUFFIX = ".segments.json"
 

@@ -16,15 +16,15 @@ from typing import TYPE_CHECKING, Any
 
 from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError
 from kineme.formats import read
-from kineme.motion import Motion
-from kineme.segmentation.presets import DEFAULT, PRESETS, Preset
-from kineme.segmentation.result import Segmentation
+from kineme.methods.presets import DEFAULT, PRESETS, Preset
+from kineme.recordings.motion import Motion
+from kineme.segments.segmentation import Segmentation
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.report.recording import Footage
-    from kineme.signals import Signals
+    from kineme.recordings.signals import Signals
     from kineme.transfer import KnowledgeBase
+    from kineme.web.recording import Footage
 
 KEPT = 3
 """Recordings in memory."""
@@ -116,7 +116,7 @@ class Take:
 
     def footage(self) -> Footage:
         """All that a page draws but the segments."""
-        from kineme.report.recording import footage
+        from kineme.web.recording import footage
 
         with self._lock:
             if self._footage is None:
@@ -130,7 +130,8 @@ class Take:
             from kineme.segmentation.segmenter import segment_and_analysis
 
             return segment_and_analysis(found, preset, effectors=self.effectors)[0]
-        from kineme.signals import segment_signals_and_analysis, signal_preset
+        from kineme.segmentation.channels import signal_preset
+        from kineme.segmentation.signals import segment_signals_and_analysis
 
         return segment_signals_and_analysis(found, signal_preset(preset))[0]
 
@@ -182,7 +183,7 @@ class Take:
 
 def _read(path: Path, options: Mapping[str, Any]) -> Motion | Signals:
     """What a file holds; a table of channels without a body is signals."""
-    from kineme.signals import is_signal_file, read_signals
+    from kineme.formats.channels.reading import is_signal_file, read_signals
 
     if is_signal_file(path):
         return read_signals(path, fps=options.get("fps"))

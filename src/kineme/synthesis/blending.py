@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme.errors import ParameterError
-from kineme.kinematics import local_translations
-from kineme.motion import Motion, Provenance
+from kineme.recordings.kinematics import local_translations
+from kineme.recordings.motion import Motion, Provenance
 from kineme.synthesis.feet import plant_feet
 from kineme.synthesis.graph import MotionGraph
 

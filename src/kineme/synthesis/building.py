@@ -23,11 +23,11 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError
 from kineme.features.point_clouds import fit_clouds
 from kineme.graph import neighbor_graph
-from kineme.motion import Motion
-from kineme.operations import resample
-from kineme.segmentation.presets import KINEME
-from kineme.segmentation.result import Segmentation
+from kineme.methods.presets import KINEME
+from kineme.recordings.motion import Motion
+from kineme.recordings.operations import resample
 from kineme.segmentation.segmenter import motion_features, segment
+from kineme.segments.segmentation import Segmentation
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 from kineme.transfer.sharing import share_clusters
 

@@ -16,8 +16,12 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.errors import EndEffectorError
 from kineme.features import end_effectors
-from kineme.kinematics import forward_kinematics, local_translations, world_rotations
-from kineme.motion import Motion
+from kineme.recordings.kinematics import (
+    forward_kinematics,
+    local_translations,
+    world_rotations,
+)
+from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
 Spans = list[tuple[int, int]]

@@ -22,11 +22,11 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError, ReadError
 from kineme.features import end_effectors
 from kineme.features.effectors import Names
-from kineme.motion import Motion
-from kineme.segmentation.presets import KINEME
-from kineme.segmentation.result import Segmentation
+from kineme.methods.presets import KINEME
+from kineme.recordings.motion import Motion
 from kineme.segmentation.segmenter import motion_features
-from kineme.segmentation.table import SegmentTable
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import SegmentTable
 from kineme.transfer import knowledge_file
 from kineme.transfer.matching import Primitives
 

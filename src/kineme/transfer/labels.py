@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import ParameterError
-from kineme.segmentation.presets import KINEME
-from kineme.segmentation.result import Segmentation
-from kineme.segmentation.table import Level, SegmentTable
+from kineme.methods.presets import KINEME
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, SegmentTable
 from kineme.transfer.knowledge import FPS, KnowledgeBase, working_frames
 from kineme.transfer.matching import Floats, Primitives, label_costs
 

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
-from kineme.motion import Motion
-from kineme.segmentation.result import Segmentation
+from kineme.recordings.motion import Motion
+from kineme.segments.segmentation import Segmentation
 from kineme.transfer.knowledge import KnowledgeBase, transfer_features
 from kineme.transfer.labels import THRESHOLD, transfer_labels
 

@@ -24,10 +24,10 @@ from kineme.evaluation.figures.style import BETWEEN, heading, new_figure, save
 from kineme.evaluation.labelling import TRANSITION, Annotation
 from kineme.evaluation.trials import Trial
 from kineme.graph import NeighborGraph, component_labels
-from kineme.plot import SHADES, similarity_image
-from kineme.segmentation.analysis import Analysis, analyze
-from kineme.segmentation.presets import PUBLISHED, RegionPreset
-from kineme.segmentation.primitives import primitive_cuts
+from kineme.methods.presets import PUBLISHED, RegionPreset
+from kineme.methods.region_growing.analysis import Analysis, analyze
+from kineme.methods.region_growing.primitives import primitive_cuts
+from kineme.plot.segmentation import SHADES, similarity_image
 from kineme.segmentation.segmenter import motion_features
 
 FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]

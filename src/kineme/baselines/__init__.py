@@ -1,8 +1,0 @@
-"""The methods kineme is compared with, one file each.
-
-They are pure functions on arrays (frames, dims) and return `Pieces`.
-"""
-
-from kineme.baselines.pieces import Pieces
-
-__all__ = ["Pieces"]

@@ -1,0 +1,1 @@
+"""Recordings cut into clips: a file per segment, loops that close, a manifest."""

@@ -1,0 +1,161 @@
+"""Segments as clips: a folder with a file each, and a manifest of them.
+
+A clip of a motion is a BVH; a CSV of joint positions where it has no rotations
+(see :mod:`kineme.formats.tables.tables`). A clip of signals is rows of their own file
+(see :mod:`kineme.formats.channels.writing`). Clips are called ``RECORDING_NUMBER_TEXT``, with the text of
+:mod:`kineme.labels.spans` and ``_`` for what file systems dislike.
+
+``manifest.csv`` has a row per clip:
+
+============================ =====================================================
+``file``, ``source``         the clip, the recording it was cut from
+``start_frame``, ...         ``stop_frame``, ``start_s``, ``stop_s``: where in it
+``level``, ``kind``          as in the segment table
+``cluster``, ``label``       as in the segment table
+``turn_deg``, ``x_m``,       of loops only: what carries one round to the next, a
+``z_m``                      turn about the vertical axis, then a shift
+============================ =====================================================
+
+The folder appears whole or not at all, and nothing that was there is touched.
+"""
+
+from __future__ import annotations
+
+import csv
+import secrets
+import shutil
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from math import degrees
+from os import PathLike
+from pathlib import Path
+
+from kineme.clips.loops import loop
+from kineme.errors import MotionError, ParameterError, WriteError
+from kineme.formats import write
+from kineme.formats.channels.writing import rows_of
+from kineme.labels.spans import text_of
+from kineme.recordings.motion import Motion
+from kineme.recordings.operations import cut
+from kineme.recordings.signals import Signals
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, Segment
+
+MANIFEST = "manifest.csv"
+SPANS = ("start_frame", "stop_frame", "start_s", "stop_s", "level", "kind", "cluster", "label")
+CARRY = ("turn_deg", "x_m", "z_m")
+
+Write = Callable[[Segment, Path], tuple[float, ...]]
+"""Leaves the clip of a segment in a file; gives what carries a loop on, else nothing."""
+
+
+def split(
+    recording: Motion | Signals,
+    segmentation: Segmentation,
+    folder: str | PathLike[str],
+    *,
+    level: Level = "activity",
+    cluster: int | None = None,
+    loops: bool = False,
+) -> list[Path]:
+    """Write each segment as a clip of its own; the paths of the clips.
+
+    Parameters
+    ----------
+    recording : what was segmented
+    segmentation : its segments, of as many frames
+    folder : to be made; one that is there must be empty
+    level, cluster : the segments to take; without a cluster all, transitions too
+    loops : blend the ends of each clip (see :mod:`kineme.clips.loops`); motions only
+
+    Raises
+    ------
+    MotionError : the segments are of another recording
+    ParameterError : no segment is of that level and cluster, or loops of signals
+    WriteError : the folder is not empty, or cannot be written
+    """
+    if segmentation.n_frames != recording.n_frames:
+        raise MotionError(
+            f"the segments are of a recording of {segmentation.n_frames} frames, "
+            f"this one has {recording.n_frames}"
+        )
+    rows = [row for row in segmentation.level(level) if cluster in (None, row.cluster)]
+    if not rows:
+        found = sorted({row.cluster for row in segmentation.level(level)} - {-1})
+        raise ParameterError(f"no {level} is in cluster {cluster}; there are {found}")
+    suffix, write_clip = _writer(recording, loops=loops)
+    target = Path(folder)
+    stem = _plain(Path(recording.provenance.path or "recording").stem)
+    names = [f"{stem}_{i:04d}_{_plain(text_of(row))}{suffix}" for i, row in enumerate(rows)]
+    with _new_folder(target) as draft:
+        carries = [write_clip(row, draft / name) for row, name in zip(rows, names, strict=True)]
+        _write_manifest(draft / MANIFEST, recording, rows, names, carries)
+    return [target / name for name in names]
+
+
+def _writer(recording: Motion | Signals, *, loops: bool) -> tuple[str, Write]:
+    """The suffix of clips, and what writes one."""
+    if isinstance(recording, Signals):
+        if loops:
+            raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
+        own = rows_of(recording)
+
+        def write_rows(row: Segment, path: Path) -> tuple[float, ...]:
+            own.write(path, row.start_frame, row.stop_frame)
+            return ()
+
+        return own.suffix, write_rows
+
+    def write_motion(row: Segment, path: Path) -> tuple[float, ...]:
+        clip = cut(recording, row.start_frame, row.stop_frame)
+        if not loops:
+            write(clip, path)
+            return ()
+        clip, carry = loop(clip)
+        write(clip, path)
+        return degrees(carry.turn), carry.x, carry.z
+
+    return ".csv" if recording.rotations is None else ".bvh", write_motion
+
+
+def _plain(text: str) -> str:
+    """Letters, digits and ``_`` and ``-``; short enough for any file system."""
+    kept = "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in text)
+    return kept.encode(errors="replace")[:80].decode(errors="ignore")
+
+
+@contextmanager
+def _new_folder(target: Path) -> Iterator[Path]:
+    """A folder beside ``target`` that takes its place when the block ends without an error."""
+    if target.exists() and not (target.is_dir() and not any(target.iterdir())):
+        raise WriteError(target, "is there already: name a new folder, or empty this one")
+    draft = target.parent / f".{secrets.token_hex(6)}"
+    try:
+        draft.mkdir()
+    except OSError as error:
+        reason = f"cannot be made: {target.parent}: {error.strerror or error}"
+        raise WriteError(target, reason) from error
+    try:
+        yield draft
+        if target.is_dir():
+            target.rmdir()
+        draft.rename(target)
+    except OSError as error:
+        raise WriteError(target, f"cannot be written: {error.strerror or error}") from error
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
+
+
+def _write_manifest(
+    path: Path,
+    recording: Motion | Signals,
+    rows: Sequence[Segment],
+    names: Sequence[str],
+    carries: Sequence[tuple[float, ...]],
+) -> None:
+    source = str(recording.provenance.path or "").encode(errors="backslashreplace").decode()
+    with path.open("w", encoding="utf-8", newline="") as file:
+        lines = csv.writer(file, lineterminator="\n")
+        lines.writerow(["file", "source", *SPANS, *(CARRY if carries[0] else ())])
+        for row, name, carry in zip(rows, names, carries, strict=True):
+            lines.writerow([name, source, *(getattr(row, span) for span in SPANS), *carry])

@@ -1,0 +1,1 @@
+"""Formats of named arrays: npz and npy, AMASS, MAT, HDF5."""

@@ -1,0 +1,116 @@
+"""npz and npy: arrays of joint positions, and all of a motion in an npz.
+
+An npz holds arrays by name, see `kineme.formats.arrays.named_arrays`; `write_npz` leaves
+all of a motion but its provenance in one.
+
+An npy holds positions (frames, joints, 3) without names, or records with named
+fields as a table. Pickled objects are refused, and so is an archive that claims
+to unpack to much more than it holds.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from pathlib import Path
+from tokenize import TokenError
+from typing import Any
+from warnings import catch_warnings
+
+import numpy as np
+from numpy.lib import format as npy_format
+
+from kineme._files import atomic_write
+from kineme.formats.arrays.named_arrays import (
+    Array,
+    arrays_to_motion,
+    positions_to_motion,
+)
+from kineme.formats.columns import columns_to_motion
+from kineme.formats.files import MOST_EXPANSION, Source
+from kineme.formats.registry import Format, ReadOptions
+from kineme.recordings.motion import Motion
+
+
+def read_npz(source: Source, options: ReadOptions) -> Motion:
+    """The motion in an npz archive."""
+    return arrays_to_motion(source, "npz", _members(source), options)
+
+
+def read_npy(source: Source, options: ReadOptions) -> Motion:
+    """The motion in an npy array."""
+    array = _array(source, source.data, "the array")
+    if array.dtype.names:
+        columns = {name: array[name] for name in array.dtype.names}
+        return columns_to_motion(source, "npy", columns, options)
+    return positions_to_motion(source, "npy", {"positions": array}, options)
+
+
+def write_npz(motion: Motion, path: Path) -> None:
+    """Leave all of a motion but its provenance in an npz archive."""
+    skeleton = motion.skeleton
+    arrays: dict[str, Any] = {
+        "positions": motion.positions,
+        "fps": motion.fps,
+        "names": np.array(skeleton.names),
+        "parents": np.array(skeleton.parents),
+        "offsets": skeleton.offsets,
+        "end_sites": np.array(sorted(skeleton.end_sites), np.int64),
+    }
+    if motion.rotations is not None:
+        arrays["rotations"] = motion.rotations
+    if motion.gaps:
+        arrays["gaps"] = np.array(motion.gaps, np.int64)
+    with atomic_write(path) as draft, draft.open("wb") as file:
+        np.savez(file, **arrays)
+
+
+def _members(source: Source) -> dict[str, Array]:
+    """The arrays of an npz by name; those of another kind than numbers or text are passed over."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
+            infos = archive.infolist()
+            size = sum(info.file_size for info in infos)
+            if size > MOST_EXPANSION * len(source.data):
+                raise source.error(f"claims to unpack to {size / 1e6:.0f} MB: it is damaged")
+            found = {}
+            for info in infos:
+                data = archive.read(info)
+                if not _is_pickled(data):
+                    name = info.filename.removesuffix(".npy")
+                    found[name] = _array(source, data, name)
+    except (zipfile.BadZipFile, zlib.error, OSError, EOFError, ValueError) as error:
+        raise source.error(f"is no whole npz archive: {error}") from None
+    except (NotImplementedError, RuntimeError) as error:  # other compressions, passwords
+        raise source.error(f"its archive cannot be read: {error}") from None
+    return found
+
+
+def _is_pickled(data: bytes) -> bool:
+    return b"'descr': '|O'" in data[:256]
+
+
+def _array(source: Source, data: bytes, name: str) -> Array:
+    """The array that npy bytes hold, a view of them."""
+    file = io.BytesIO(data)
+    try:
+        first = npy_format.read_magic(file) == (1, 0)
+        header = npy_format.read_array_header_1_0 if first else npy_format.read_array_header_2_0
+        with catch_warnings(action="ignore"):  # of headers from Python 2
+            shape, fortran, kind = header(file)
+        if kind.hasobject:
+            raise source.error(f"{name} holds pickled objects, which are not read")
+        count = int(np.prod(shape, dtype=object))
+        if count < 0 or count * kind.itemsize > len(data) - file.tell():
+            raise source.error(f"{name} claims shape {shape}, more than the file holds")
+        if count == 0 or kind.itemsize == 0:
+            return np.empty(0)
+        flat = np.frombuffer(data, kind, count, file.tell())
+    except (ValueError, TypeError, SyntaxError, OverflowError, TokenError) as error:
+        raise source.error(f"{name} is no npy array: {' '.join(str(error).split())}") from None
+    return flat.reshape(shape, order="F" if fortran else "C")
+
+
+NPZ = Format("npz", (".npz",), lambda head: head.startswith(b"PK\x03\x04"), read_npz, write_npz)
+NPY = Format("npy", (".npy",), lambda head: head.startswith(b"\x93NUMPY"), read_npy)

@@ -1,0 +1,1 @@
+"""Channels without a skeleton: from tables, MOT and STO, Parquet, C3D, MAT."""

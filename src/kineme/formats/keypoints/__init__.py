@@ -1,0 +1,1 @@
+"""Formats of pose estimates: OpenPose, COCO, MediaPipe, SLEAP, DeepLabCut."""

@@ -1,0 +1,120 @@
+"""COCO keypoints in JSON: a data set with ``annotations``, or the list of a detector's results.
+
+Each entry has ``image_id`` and ``keypoints``, x, y and a third number for each
+of the 17 keypoints below, or of those that ``categories`` names. In a data set
+the third number is 0 where a keypoint is not labelled, 1 where it is hidden and 2
+where it is seen; in results it is a confidence. People are told apart by
+``track_id``, ``person_id``, ``instance_id`` or ``idx`` (AlphaPose's) where all
+entries have one.
+
+Frames are the ``images`` of a data set in the order of their numbers or names,
+else the numbers in ``image_id``. Keypoints less sure than 0.3 count as not seen.
+
+Source: T.-Y. Lin et al., "Microsoft COCO", ECCV 2014, and its page on formats.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from kineme.formats.files import Source, unique
+from kineme.formats.keypoints.keypoints import (
+    Person,
+    Video,
+    in_groups,
+    video_to_motion,
+)
+from kineme.formats.registry import ReadOptions
+from kineme.recordings.motion import Motion
+
+SURE = 0.3
+
+NAMES = (
+    "nose", "left_eye", "right_eye", "left_ear", "right_ear", "left_shoulder", "right_shoulder",
+    "left_elbow", "right_elbow", "left_wrist", "right_wrist", "left_hip", "right_hip",
+    "left_knee", "right_knee", "left_ankle", "right_ankle",
+)  # fmt: skip
+
+_IDS = ("track_id", "person_id", "instance_id", "idx")
+_DIGITS = re.compile(r"\d+")
+
+
+def is_coco(data: Any) -> bool:
+    """Whether JSON of this content is a COCO data set or a list of results."""
+    entries = data.get("annotations") if isinstance(data, Mapping) else data
+    return isinstance(entries, list) and any(
+        isinstance(entry, Mapping) and "keypoints" in entry and "image_id" in entry
+        for entry in entries
+    )
+
+
+def read_coco(source: Source, data: Any, options: ReadOptions) -> Motion:
+    """The motion of one person in COCO keypoints."""
+    is_set = isinstance(data, Mapping)
+    entries = [
+        entry
+        for entry in (data["annotations"] if is_set else data)
+        if isinstance(entry, Mapping) and entry.get("keypoints")
+    ]
+    names = _names(data) if is_set else None
+    frames = _frames(source, data.get("images") if is_set else None, entries)
+    tracked = next(
+        (key for key in _IDS if all(entry.get(key) is not None for entry in entries)), ""
+    )
+    people = []
+    for entry, frame in zip(entries, frames, strict=True):
+        groups = in_groups(source, entry["keypoints"], 3)
+        who = str(entry[tracked])[:40] if tracked else None
+        people.append(Person(frame, groups[:, :2].tolist(), groups[:, 2].tolist(), who))
+    count = len(people[0].points) if people else len(NAMES)
+    if names is None or len(names) != count:
+        names = list(NAMES)
+    if count != len(names):
+        raise source.error(f"a person has {count} keypoints, not {len(names)} as in COCO")
+    images = data.get("images") if is_set else None
+    known = range(len(images)) if isinstance(images, list) else ()
+    video = Video("COCO", names, people, SURE, frames=known)
+    return video_to_motion(source, video, options)
+
+
+def _names(data: Mapping[str, Any]) -> list[str] | None:
+    """The names of the first category that has any."""
+    categories = data.get("categories")
+    for category in categories if isinstance(categories, list) else []:
+        names = category.get("keypoints") if isinstance(category, Mapping) else None
+        if isinstance(names, list) and names:
+            return unique(map(str, names))
+    return None
+
+
+def _frames(source: Source, images: Any, entries: Sequence[Mapping[str, Any]]) -> list[int]:
+    """The frame of each entry."""
+    if isinstance(images, list) and images:
+        usable = [image for image in images if isinstance(image, Mapping) and "id" in image]
+        order = {str(image["id"]): i for i, image in enumerate(sorted(usable, key=_place))}
+        for entry in entries:
+            if str(entry.get("image_id")) not in order:
+                raise source.error(f"image {str(entry.get('image_id'))[:40]} is not in 'images'")
+        return [order[str(entry["image_id"])] for entry in entries]
+    return [_number(source, entry.get("image_id")) for entry in entries]
+
+
+def _place(image: Mapping[str, Any]) -> tuple[int, list[int], str]:
+    """Where an image comes: by frame number, else by the numbers in its name, else by its id."""
+    number = image.get("frame_id")
+    name = str(image.get("file_name") or image["id"])
+    return (number if isinstance(number, int) else 0, _numbers(name), name)
+
+
+def _numbers(name: str) -> list[int]:
+    return [int(digits[-18:]) for digits in _DIGITS.findall(name)]
+
+
+def _number(source: Source, image: Any) -> int:
+    """The last number in what a result calls its image: 12, "12.jpg", "video_0012"."""
+    numbers = _numbers(str(image)[:200])
+    if not numbers:
+        raise source.error(f"image_id {str(image)[:40]!r} has no frame number in it")
+    return numbers[-1]

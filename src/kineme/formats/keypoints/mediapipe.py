@@ -1,0 +1,217 @@
+"""MediaPipe Pose: 33 landmarks per frame, as people save them in JSON or CSV.
+
+There is no file format of MediaPipe's own. What is read:
+
+- JSON: a list of frames, by itself, under ``frames`` or by their numbers. A frame
+  is its landmarks or has them under ``pose_world_landmarks``, ``pose_landmarks``,
+  ``world_landmarks``, ``landmarks`` or the same in camel case; one list of 33, or
+  a list of these for each person, or landmarks by their names. A landmark has
+  ``x``, ``y``, ``z`` and ``visibility``, by name or in this order.
+- CSV: columns ``x0 y0 z0 v0`` to 32 (or 1 to 33), ``nose_x`` and so on by name or number;
+  or a row for each landmark, with columns for frame, landmark, x, y and z.
+
+World landmarks are metres from the middle of the hips, with y down; they are
+taken where they are there, or where the hips' middle stays at 0. The place in
+the room is lost in these. Landmarks of the image are shares of its width and
+height: where the file does not tell these, the image is taken as square.
+Landmarks of a visibility below 0.5 count as not seen.
+
+Source: Google, MediaPipe's documentation of the Pose Landmarker.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from operator import itemgetter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.formats.files import Source, warn
+from kineme.formats.keypoints.keypoints import Person, Video, video_to_motion
+from kineme.formats.registry import ReadOptions
+from kineme.recordings.motion import Motion
+
+Floats = NDArray[np.float64]
+
+SURE = 0.5
+
+NAMES = (
+    "nose", "left_eye_inner", "left_eye", "left_eye_outer", "right_eye_inner", "right_eye",
+    "right_eye_outer", "left_ear", "right_ear", "mouth_left", "mouth_right", "left_shoulder",
+    "right_shoulder", "left_elbow", "right_elbow", "left_wrist", "right_wrist", "left_pinky",
+    "right_pinky", "left_index", "right_index", "left_thumb", "right_thumb", "left_hip",
+    "right_hip", "left_knee", "right_knee", "left_ankle", "right_ankle", "left_heel",
+    "right_heel", "left_foot_index", "right_foot_index",
+)  # fmt: skip
+
+_WORLD = ("poseworldlandmarks", "worldlandmarks")
+_IMAGE = ("poselandmarks", "landmarks", "keypoints", "pose", "landmark")
+_FRAMES = ("frames", "data", "results", "poses", "landmarks")
+_NUMBER = ("frame", "frameid", "frameidx", "frameindex", "framenumber", "framenum", "index")
+_HIPS = [NAMES.index("left_hip"), NAMES.index("right_hip")]
+_PLAIN = re.compile(r"[\s_-]")
+
+
+def is_mediapipe(data: Any) -> bool:
+    """Whether JSON of this content has frames of 33 landmarks."""
+    return any(
+        _poses(frame, world=False) or _poses(frame, world=True) for _, frame in _frames(data)
+    )
+
+
+def read_mediapipe(source: Source, data: Any, options: ReadOptions) -> Motion:
+    """The motion of one person's landmarks."""
+    frames = _frames(data)
+    world = any(_poses(frame, world=True) for _, frame in frames)
+    people: list[Person] = []
+    numbers: list[int] = []
+    for i, frame in frames:
+        number = _found(frame, _NUMBER) if isinstance(frame, Mapping) else None
+        numbers.append(number if isinstance(number, int) else i)
+        poses = _poses(frame, world=world)
+        people += [Person(numbers[-1], *_landmarks(source, i, pose)) for pose in poses]
+    head = data if isinstance(data, Mapping) else {}
+    fps = _found(head, ("fps", "framerate", "frame_rate"))
+    size = [_found(head, (side, f"image{side}", f"frame{side}")) for side in ("width", "height")]
+    return landmarks_to_motion(
+        source, people, options, world=world or None, fps=_positive(fps),
+        size=tuple(map(_positive, size)), frames=numbers,
+    )  # fmt: skip
+
+
+def landmarks_to_motion(
+    source: Source,
+    people: Sequence[Person],
+    options: ReadOptions,
+    *,
+    world: bool | None = None,
+    fps: float | None = None,
+    size: Sequence[float | None] = (None, None),
+    frames: Sequence[int] = (),
+    notes: Sequence[str] = (),
+) -> Motion:
+    """The motion of one person's landmarks.
+
+    Parameters
+    ----------
+    people : with x, y and z of the 33 landmarks each
+    world : whether they are world landmarks, None to judge by the hips
+    fps : frames per second, if the file tells
+    size : width and height of the image, if the file tells
+    frames : numbers of all frames, of those without anybody, too
+    notes : sentences on what was done so far
+    """
+    if world is None and people:
+        middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])
+        world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
+    if world:
+        said = "world landmarks: metres from the middle of the hips, the place is not known"
+        video = Video(
+            "MediaPipe", NAMES, people, SURE, fps=fps, frames=frames, unit="m", notes=[*notes, said]
+        )
+        return video_to_motion(source, video, options)
+    width, height = size
+    notes = list(notes)
+    scaled = list(people)
+    hips = np.array([p.points[hip][0] for p in people for hip in _HIPS])
+    largest = np.nanmax(np.abs(hips), initial=0.0)
+    if largest < 4:  # shares of the image, and not pixels
+        if not (width and height):
+            width = height = 1.0
+            notes.append("landmarks are shares of an image of unknown shape, taken as square")
+            warn(f"{source.path}: {notes[-1]}: multiply x and z by width / height, if it was not")
+        by = np.array([width, height, width])
+        scaled = [
+            Person(p.frame, (np.asarray(p.points) * by[: len(p.points[0])]).tolist(), p.sure, p.who)
+            for p in people
+        ]
+    video = Video("MediaPipe", NAMES, scaled, SURE, fps=fps, frames=frames, notes=notes)
+    return video_to_motion(source, video, options)
+
+
+def _frames(data: Any) -> list[tuple[int, Any]]:
+    """Each frame and its number."""
+    if isinstance(data, list):
+        return [(0, data)] if _is_pose(data) else list(enumerate(data))
+    if not isinstance(data, Mapping):
+        return []
+    if data and all(isinstance(key, str) and key.isdecimal() and len(key) < 19 for key in data):
+        return sorted(((int(key), frame) for key, frame in data.items()), key=itemgetter(0))
+    for key, value in data.items():
+        several = isinstance(value, list) and not _is_pose(value)
+        if _plain(str(key)) in _FRAMES and (several or isinstance(value, Mapping)):
+            return _frames(value) or [(0, data)]
+    return [(0, data)]
+
+
+def _poses(frame: Any, *, world: bool) -> list[Any]:
+    """The poses in a frame: lists of 33 landmarks."""
+    found = frame
+    if isinstance(frame, Mapping) and not _by_name(frame):
+        found = _found(frame, _WORLD if world else _IMAGE)
+    elif world:
+        return []
+    if isinstance(found, Mapping) and "landmark" in found:
+        found = found["landmark"]
+    if isinstance(found, Mapping):
+        found = _by_name(found)
+    if not isinstance(found, list):
+        return []
+    if _is_pose(found):
+        return [found]
+    return [pose for pose in found if _is_pose(pose)]
+
+
+def _is_pose(value: Any) -> bool:
+    return (
+        isinstance(value, list)
+        and len(value) == len(NAMES)
+        and all(
+            (isinstance(mark, Mapping) and "x" in mark and "y" in mark)
+            or (isinstance(mark, list) and 2 <= len(mark) <= 5 and not isinstance(mark[0], list))
+            for mark in value
+        )
+    )
+
+
+def _by_name(frame: Mapping[str, Any]) -> list[Any]:
+    """The landmarks in order, from a mapping by their names; empty if it is none."""
+    marks = {_plain(str(key)): mark for key, mark in frame.items()}
+    names = [_plain(name) for name in NAMES]
+    return [marks[name] for name in names] if all(name in marks for name in names) else []
+
+
+def _landmarks(
+    source: Source, frame: int, pose: list[Any]
+) -> tuple[list[list[float]], list[float]]:
+    points, sure = [], []
+    for mark in pose:
+        if isinstance(mark, Mapping):
+            x, y, z = mark["x"], mark["y"], mark.get("z", 0.0)
+            seen = mark.get("visibility", mark.get("score", mark.get("presence", 1.0)))
+        else:
+            x, y, z, seen = [*mark, *(0.0, 1.0)[len(mark) - 2 :]][:4]
+        try:
+            points.append([float(x), float(y), float(z or 0.0)])
+            sure.append(1.0 if seen is None else float(seen))
+        except (TypeError, ValueError, OverflowError):
+            raise source.error(f"frame {frame} has a landmark that is no numbers") from None
+    return points, sure
+
+
+def _found(mapping: Mapping[str, Any], keys: Sequence[str]) -> Any:
+    """The value under the first of the keys, whatever its case and underscores."""
+    plain = {_plain(str(key)): value for key, value in mapping.items()}
+    return next((plain[key] for key in keys if key in plain), None)
+
+
+def _positive(value: Any) -> float | None:
+    good = isinstance(value, int | float) and np.isfinite(value) and value > 0
+    return float(value) if good else None
+
+
+def _plain(name: str) -> str:
+    return _PLAIN.sub("", name).lower()

@@ -1,0 +1,173 @@
+"""OpenPose: a JSON file for each frame of a video, in a folder.
+
+``people`` holds for each person ``pose_keypoints_2d``, x, y and confidence of 25
+(BODY_25), 18 (COCO) or 15 (MPI) keypoints; or ``pose_keypoints_3d``, with z and in
+the unit of the cameras' calibration, taken where they are there. Hands and face are
+left out. OpenPose does not track people; where another program has, ``person_id`` tells.
+
+A folder is read in the order of the numbers in the files' names; numbers that
+are missing are frames in which nobody is found. Frames collected in one file,
+as a list or by their numbers, do as well. Keypoints less sure than 0.3 count as
+not seen.
+
+Source: G. Hidalgo et al., OpenPose's documentation of its output.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kineme.errors import ReadError
+from kineme.formats.files import Source, head_of, load
+from kineme.formats.keypoints.keypoints import (
+    Person,
+    Video,
+    in_groups,
+    parsed_json,
+    video_to_motion,
+)
+from kineme.formats.registry import ReadOptions
+from kineme.recordings.motion import Motion
+
+SURE = 0.3
+
+_ARMS = ("RShoulder", "RElbow", "RWrist", "LShoulder", "LElbow", "LWrist")
+_LEGS = ("RHip", "RKnee", "RAnkle", "LHip", "LKnee", "LAnkle")
+_FACE = ("REye", "LEye", "REar", "LEar")
+_FEET = ("LBigToe", "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel")
+NAMES = {
+    25: ("Nose", "Neck", *_ARMS, "MidHip", *_LEGS, *_FACE, *_FEET),
+    18: ("Nose", "Neck", *_ARMS, *_LEGS, *_FACE),
+    15: ("Head", "Neck", *_ARMS, *_LEGS, "Chest"),
+}
+"""Keypoints by their number: BODY_25, COCO, MPI."""
+
+_NUMBER = re.compile(r"(\d+)(?:_keypoints)?\.json$", re.IGNORECASE)
+_KEYS = {"pose_keypoints_3d": 4, "pose_keypoints_2d": 3, "pose_keypoints": 3}
+
+
+def is_openpose(data: Any) -> bool:
+    """Whether JSON of this content is one or more of OpenPose's frames."""
+    return any(isinstance(frame, Mapping) and "people" in frame for _, frame in _frames(data))
+
+
+def read_openpose(source: Source, data: Any, options: ReadOptions) -> Motion:
+    """The motion of one person in OpenPose's frames."""
+    frames = _frames(data)
+    people = [person for number, frame in frames for person in _found(source, number, frame)]
+    return _to_motion(source, people, options, [number for number, _ in frames])
+
+
+def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
+    """The motion of one person in a folder with a file for each frame, None if there are none."""
+    numbered = frame_files(path)
+    if not numbered:
+        return None
+    for (number, file), (following, other) in pairwise(numbered):
+        if number == following:
+            raise ReadError(
+                path, f"frame {number} is in {file.name} and in {other.name}: give a folder to each"
+            )
+    people: list[Person] = []
+    digest: list[bytes] = []
+    for number, file in numbered:
+        source = load(file)
+        data = parsed_json(source)
+        if not is_openpose(data):
+            raise source.error("no 'people' in it: is it one of OpenPose's files?")
+        people += _found(source, number, data)
+        digest.append(source.data)
+    source = Source(path, b"".join(digest))
+    return _to_motion(source, people, options, [number for number, _ in numbered])
+
+
+def frame_files(folder: Path) -> list[tuple[int, Path]]:
+    """The files in a folder that hold a frame each, with the numbers of the frames, in order.
+
+    Files numbered alike are frames where one of them begins as OpenPose's do; a numbered
+    JSON of something else is none.
+    """
+    series: dict[str, list[tuple[int, Path]]] = {}
+    for file in folder.iterdir():
+        match = _NUMBER.search(file.name)
+        if match:
+            number = int(match[1][-18:])
+            series.setdefault(file.name[: match.start()], []).append((number, file))
+    return sorted(
+        frame
+        for frames in series.values()
+        if any(_begins_a_frame(file) for _, file in frames)
+        for frame in frames
+    )
+
+
+def _begins_a_frame(file: Path) -> bool:
+    head = head_of(file)
+    return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") and b'"people"' in head
+
+
+def _frames(data: Any) -> list[tuple[int, Any]]:
+    """Each frame and its number."""
+    if isinstance(data, Mapping) and "people" in data:
+        return [(0, data)]
+    if isinstance(data, list):
+        return list(enumerate(data))
+    if isinstance(data, Mapping) and data and all(_is_number(key) for key in data):
+        return sorted(((int(key), frame) for key, frame in data.items()), key=lambda pair: pair[0])
+    return []
+
+
+def _is_number(key: object) -> bool:
+    return isinstance(key, str) and key.isdecimal() and len(key) < 19
+
+
+def _found(source: Source, number: int, frame: Any) -> list[Person]:
+    people = frame.get("people") if isinstance(frame, Mapping) else None
+    if not isinstance(people, list):
+        raise source.error(f"frame {number} has no list of 'people'")
+    return [_person(source, number, person) for person in people]
+
+
+def _person(source: Source, number: int, person: Any) -> Person:
+    if not isinstance(person, Mapping):
+        raise source.error(f"frame {number} has a person without keypoints")
+    for key, width in _KEYS.items():
+        if person.get(key):
+            groups = in_groups(source, person[key], width)
+            return Person(
+                number,
+                groups[:, :-1].tolist(),
+                groups[:, -1].tolist(),
+                _id(person.get("person_id")),
+            )
+    raise source.error(f"frame {number} has a person without {', '.join(_KEYS)}")
+
+
+def _id(value: Any) -> str | None:
+    """The number of a tracked person; OpenPose itself writes [-1]."""
+    number = value[0] if isinstance(value, list) and value else value
+    return str(number) if isinstance(number, int) and number >= 0 else None
+
+
+def _to_motion(
+    source: Source, people: list[Person], options: ReadOptions, frames: list[int]
+) -> Motion:
+    in_space = [person for person in people if np.shape(person.points)[1:] == (3,)]
+    people = in_space or people  # others are in one view only, in pixels
+    counts = {len(person.points) for person in people}
+    for count in counts:
+        if count not in NAMES:
+            known = ", ".join(map(str, NAMES))
+            raise source.error(f"a person has {count} keypoints: {known} are known")
+    names = NAMES[max(counts, default=25)]
+    video = Video("OpenPose", names, people, SURE, frames=frames)
+    if in_space:
+        video = replace(video, unit=None, up=None)
+    return video_to_motion(source, video, options)

@@ -1,0 +1,1 @@
+"""Formats of markers and analog channels: C3D, TRC, MOT."""

@@ -1,0 +1,256 @@
+"""The layout of C3D files: header, parameters, then points and analog samples frame by frame.
+
+Blocks are of 512 bytes. Integers and floats are those of the processor that the
+parameter section names: Intel, DEC or MIPS (SGI). A frame holds four numbers
+for each point, x, y, z and its residual (below zero: not seen), and then
+the analog samples; all are 16-bit integers to be scaled, or floats where the
+scale is below zero. A point exactly at the origin was not seen either: programs
+without residuals write that.
+
+Counts that outgrow 16 bits stand in several places, of which any may be wrong
+or saturated. Frames: the largest of the counts given that the file has room
+for. Labels beyond the 255th: in LABELS2, LABELS3 and so on. A parameter may be
+an integer where the manual has a float, and the other way round.
+
+Nothing is allocated that the file does not hold.
+
+Why this is no wrapper of ezc3d, with which the tests compare it: a damaged
+file makes that library end the whole process, and it does not read MIPS files.
+
+Source: Motion Lab Systems, "The C3D file format: a technical user guide" (2021).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import count
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.formats.files import Source, warn
+from kineme.formats.markers.c3d_parameters import (
+    BLOCK,
+    Parameters,
+    as_float32,
+    number_type,
+    read_parameters,
+    string,
+)
+
+Floats = NDArray[np.float64]
+Stored = NDArray[Any]
+"""Float32 or int16."""
+
+_HEADER_EVENTS = 12345  # marks a header whose events have labels of four letters
+
+
+@dataclass(frozen=True)
+class Header:
+    """The first block, as far as it is used."""
+
+    points: int
+    analog_per_frame: int
+    first_frame: int
+    last_frame: int
+    scale: float
+    data_block: int
+    samples_per_frame: int
+    rate: float
+
+
+@dataclass(frozen=True)
+class C3D:
+    """What a C3D file holds.
+
+    Parameters
+    ----------
+    labels : one per point
+    points : (frames, points, 3), in ``unit``, NaN where not seen
+    rate : frames per second, 0 if the file has none
+    first_frame : the number of the first frame, counted from 1
+    analog : (samples, channels), scaled
+    analog_labels, analog_units : one per channel
+    analog_rate : samples per second
+    events : second from the first frame, and label
+    parameters : everything in the parameter section
+    """
+
+    labels: list[str]
+    points: Floats
+    rate: float
+    first_frame: int
+    analog: Floats
+    analog_labels: list[str]
+    analog_units: list[str]
+    analog_rate: float
+    events: tuple[tuple[float, str], ...]
+    parameters: Parameters
+
+
+def parse_c3d(source: Source) -> C3D:
+    """The contents of a C3D file.
+
+    Raises
+    ------
+    ReadError : it is no C3D file, or holds less than one frame
+    """
+    parameters = read_parameters(source)
+    file = _File(source, parameters, _header(source, parameters))
+    raw = file.frames()
+    n = file.n_points
+    points, seen = _points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
+    points[~seen] = np.nan
+    analog = file.analog(raw[:, 4 * n :])
+    return C3D(
+        labels=_labels(parameters, "POINT", n, "point"),
+        points=points,
+        rate=file.rate,
+        first_frame=file.first_frame,
+        analog=analog,
+        analog_labels=_labels(parameters, "ANALOG", analog.shape[1], "channel"),
+        analog_units=_padded(parameters.strings("ANALOG", "UNITS"), analog.shape[1]),
+        analog_rate=file.rate * len(analog) / len(raw),
+        events=file.events(),
+        parameters=parameters,
+    )
+
+
+@dataclass(frozen=True)
+class _File:
+    source: Source
+    parameters: Parameters
+    header: Header
+
+    @cached_property
+    def n_points(self) -> int:
+        return int(self.parameters.number("POINT", "USED", self.header.points))
+
+    @cached_property
+    def scale(self) -> float:
+        return self.parameters.number("POINT", "SCALE", self.header.scale) or self.header.scale
+
+    @cached_property
+    def rate(self) -> float:
+        rate = self.parameters.number("POINT", "RATE", self.header.rate) or self.header.rate
+        return rate if np.isfinite(rate) and rate > 0 else 0.0
+
+    @cached_property
+    def first_frame(self) -> int:
+        return self._long("ACTUAL_START_FIELD") or self.header.first_frame
+
+    def frames(self) -> Stored:
+        """(frames, numbers): the data section as stored."""
+        block = self.header.data_block or int(self.parameters.number("POINT", "DATA_START", 0))
+        width = 4 * self.n_points + self.header.analog_per_frame
+        if block < 2 or width == 0:
+            raise self.source.error("the header names no place for the data, or no points in it")
+        kind = number_type(self.parameters.processor, real=self.scale < 0)
+        start = (block - 1) * BLOCK
+        room = max(len(self.source.data) - start, 0) // (width * kind.itemsize)
+        declared = self._declared_frames()
+        n = max((frames for frames in declared if 0 < frames <= room), default=room)
+        if n == 0:
+            raise self.source.error(
+                f"less than one frame of {self.n_points} points: the file is truncated"
+            )
+        if n not in declared:
+            warn(f"{self.source.path}: {max(declared)} frames declared, {n} found and kept")
+        raw = np.frombuffer(self.source.data, kind, n * width, start).reshape(n, width)
+        return as_float32(raw, self.parameters.processor) if self.scale < 0 else raw
+
+    def _declared_frames(self) -> set[int]:
+        start, stop = self._long("ACTUAL_START_FIELD"), self._long("ACTUAL_END_FIELD")
+        counts = {
+            self.header.last_frame - self.header.first_frame + 1,
+            int(self.parameters.number("POINT", "FRAMES", 0)),
+            int(self.parameters.number("POINT", "LONG_FRAMES", 0)),
+            stop - start + 1 if start and stop else 0,
+        }
+        return {frames for frames in counts if frames > 0} or {0}
+
+    def _long(self, name: str) -> int:
+        """A count in two words, the low one first; 0 if there is none."""
+        low, *high = self.parameters.numbers("TRIAL", name)[:2] or [0.0]
+        return int(low) + (int(high[0]) << 16 if high else 0)
+
+    def analog(self, raw: Stored) -> Floats:
+        """(samples, channels): what follows the points in each frame, scaled."""
+        total = raw.shape[1]
+        per_frame = self.header.samples_per_frame or 1
+        channels = int(self.parameters.number("ANALOG", "USED", total // per_frame))
+        if channels <= 0 or total % channels:
+            return np.empty((0, 0))
+        values = raw.reshape(-1, channels)
+        if "UNSIGNED" in self.parameters.strings("ANALOG", "FORMAT") and values.dtype.kind == "i":
+            values = values.view(values.dtype.str.replace("i", "u"))
+        scale = self._per_channel("SCALE", channels, 1.0)
+        scale *= self.parameters.number("ANALOG", "GEN_SCALE", 1.0)
+        scaled = (values - self._per_channel("OFFSET", channels, 0.0)) * scale
+        return np.asarray(scaled, np.float64)
+
+    def _per_channel(self, name: str, channels: int, usual: float) -> Floats:
+        given = self.parameters.numbers("ANALOG", name, signed=True)[:channels]
+        return np.array(given + [usual] * (channels - len(given)))
+
+    def events(self) -> tuple[tuple[float, str], ...]:
+        """Those of the EVENT group, else those of the header; times count from frame 1."""
+        if self.rate == 0:
+            return ()
+        skipped = (self.first_frame - 1) / self.rate
+        found = self._group_events() or self._header_events()
+        return tuple(sorted((round(t - skipped, 6), label) for t, label in found if np.isfinite(t)))
+
+    def _group_events(self) -> list[tuple[float, str]]:
+        used = int(self.parameters.number("EVENT", "USED", 0))
+        times = self.parameters.numbers("EVENT", "TIMES")
+        labels = self.parameters.strings("EVENT", "LABELS")
+        contexts = _padded(self.parameters.strings("EVENT", "CONTEXTS"), len(labels))
+        names = [f"{who} {label}".strip() for who, label in zip(contexts, labels, strict=False)]
+        minutes = zip(times[::2], times[1::2], strict=False)
+        return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
+
+    def _header_events(self) -> list[tuple[float, str]]:
+        data, kind = self.source.data, self.parameters.processor
+        marker, n = np.frombuffer(data, number_type(kind, real=False), 2, 2 * 149).tolist()
+        if marker != _HEADER_EVENTS:
+            return []
+        words = np.frombuffer(data, number_type(kind, real=True), 18, 2 * 152)
+        times = as_float32(words, kind).tolist()
+        labels = [string(data[at : at + 4]) for at in range(2 * 198, 2 * 198 + 72, 4)]
+        return list(zip(times, labels, strict=True))[: max(n, 0)]
+
+
+def _header(source: Source, parameters: Parameters) -> Header:
+    kind = parameters.processor
+    words = np.frombuffer(source.data, number_type(kind, real=False), 12)
+    words = words.view(words.dtype.str.replace("i", "u"))
+    reals = np.frombuffer(source.data, number_type(kind, real=True), 6)
+    scale, rate = as_float32(reals, kind)[[3, 5]].tolist()
+    _, points, analog, first, last, _, _, _, block, per_frame, _, _ = words.tolist()
+    return Header(points, analog, first, last, scale, block, per_frame, rate)
+
+
+def _points(quads: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
+    """Positions (frames, points, 3), and where they were seen."""
+    positions = quads[:, :, :3].astype(np.float64)
+    if quads.dtype.kind == "i":
+        positions *= scale
+    seen = (quads[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
+    return positions, seen & positions.any(axis=2)
+
+
+def _labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]:
+    labels = list(parameters.strings(group, "LABELS"))
+    for number in count(2):
+        more = parameters.strings(group, f"LABELS{number}")
+        if not more or len(labels) >= n:
+            break
+        labels += more
+    return [label or f"{usual}{i}" for i, label in enumerate(_padded(labels, n), 1)]
+
+
+def _padded(labels: list[str], n: int) -> list[str]:
+    return labels[:n] + [""] * (n - len(labels))

@@ -1,0 +1,110 @@
+"""TRC: tables of markers as OpenSim and motion capture programs write them.
+
+Three lines about the file, two of names, then a line per frame with its number,
+its time and x, y, z of each marker, between tabs or commas. An empty cell is a
+marker not seen. ``DataRate`` is the frame rate; where the column of times says
+otherwise, the times are right, with a warning. A TRC has a unit but no up axis:
+y, OpenSim's, is taken where head and feet do not tell.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.formats.delimited import rows_of, separator_of
+from kineme.formats.files import Source, numbers, save, unique, warn
+from kineme.formats.gaps import unseen
+from kineme.formats.points import Points, to_motion
+from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.timing import even_frames
+from kineme.formats.units import unit_named
+from kineme.recordings.motion import Motion
+
+Floats = NDArray[np.float64]
+
+_MM = 0.001
+_HEADER_LINES = 5
+
+
+def read_trc(source: Source, options: ReadOptions) -> Motion:
+    """The motion of the markers in a TRC file."""
+    lines = source.text.splitlines()
+    if len(lines) <= _HEADER_LINES:
+        raise source.error("the file ends within its five header lines: there is no motion")
+    separator = separator_of(lines[3])
+    names = _names(lines[3].split(separator)[2:])
+    if not names:
+        raise source.error("no marker is named after 'Frame#' and 'Time'", 4)
+    table = rows_of(source, lines[_HEADER_LINES:], _HEADER_LINES + 1, separator, 2 + 3 * len(names))
+    head = _header(lines[1], lines[2], separator_of(lines[1]))
+    declared = head.get("NumFrames", "")
+    if declared.isdigit() and int(declared) != len(table):
+        warn(f"{source.path}, line 3: {declared} frames declared, {len(table)} found and kept")
+    positions = table[:, 2:].reshape(len(table), -1, 3)
+    fps, positions, notes = _rate(source, options, head, table[:, 1], positions)
+    unit = options.unit or unit_named(head.get("Units", ""))
+    points = Points(names, positions, fps, unit, options.up)
+    return to_motion(points, source.provenance("TRC", notes))
+
+
+def write_trc(motion: Motion, path: Path) -> None:
+    """Leave the joints' positions in a TRC file, in millimetres; cells in gaps are empty."""
+    names = unique(" ".join(name.split()) for name in motion.skeleton.names)
+    n, m = motion.n_frames, len(names)
+    fps = f"{motion.fps!r}"
+    head = (
+        f"PathFileType\t4\t(X/Y/Z)\t{path.name}\n"
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\t"
+        "OrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n"
+        f"{fps}\t{fps}\t{n}\t{m}\tmm\t{fps}\t1\t{n}\n"
+        "Frame#\tTime\t" + "\t\t\t".join(names) + "\t\t\n"
+        "\t\t" + "\t".join(f"{axis}{i}" for i in range(1, m + 1) for axis in "XYZ") + "\n\n"
+    )
+    row = "%d\t%.9f" + "\t%.6f" * (3 * m) + "\n"
+    empty = "%d\t%.9f" + "\t" * (3 * m) + "\n"
+    values = zip((motion.positions / _MM).reshape(n, -1).tolist(), unseen(motion), strict=True)
+    lines = (
+        empty % (i + 1, i / motion.fps) if gap else row % (i + 1, i / motion.fps, *line)
+        for i, (line, gap) in enumerate(values)
+    )
+    save(path, [head, *lines])
+
+
+def _names(cells: list[str]) -> list[str]:
+    """One name for each three cells, as far as there are any."""
+    triples = [cells[i].strip() for i in range(0, len(cells), 3)]
+    while triples and not triples[-1]:
+        triples.pop()
+    return [name or f"marker{i}" for i, name in enumerate(triples, 1)]
+
+
+def _header(keys: str, values: str, separator: str) -> dict[str, str]:
+    pairs = zip(keys.split(separator), values.split(separator), strict=False)
+    return {key.strip(): value.strip() for key, value in pairs}
+
+
+def _rate(
+    source: Source, options: ReadOptions, head: dict[str, str], times: Floats, positions: Floats
+) -> tuple[float, Floats, list[str]]:
+    if options.fps:
+        return options.fps, positions, []
+    try:
+        (declared,) = numbers([head.get("DataRate", "")])
+    except ValueError:
+        declared = 0.0
+    if declared > 0 and (len(times) < 2 or np.isnan(times).any()):
+        return declared, positions, []
+    fps, even, notes = even_frames(source, times, positions)
+    if abs(fps - declared) <= 0.005 * fps and len(even) == len(positions):
+        return declared, positions, notes
+    if declared > 0 and abs(fps - declared) > 0.005 * fps:
+        warn(f"{source.path}: DataRate is {declared:g}, but the times are {fps:g} Hz apart: taken")
+    return fps, even, notes
+
+
+FORMAT = Format(
+    "TRC", (".trc",), lambda head: head.lstrip().startswith(b"PathFileType"), read_trc, write_trc
+)

@@ -1,0 +1,1 @@
+"""Formats of skeletons with rotations: ASF/AMC, BVH."""

@@ -1,0 +1,124 @@
+"""Writing ASF/AMC: the skeleton and the motion as a pair of files of one name.
+
+Lengths are in CMU's unit (1/0.45 inch), angles in degrees, every bone's frame
+is the world's. The root is called ``root``, whatever it was called before.
+
+A bone can carry its children at its tip only. Where a joint's children sit at
+different places, or the root's anywhere but in it, each gets a rigid bone of
+its own, called ``PARENT-CHILD``, to hang on; a joint that slides gets
+translations as well. The frame rate goes into a comment, which `read` honours.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.errors import WriteError
+from kineme.formats.files import save, table, unique
+from kineme.formats.skeletons.asf import ROOT
+from kineme.formats.skeletons.bvh_writer import RIGID
+from kineme.formats.units import UNITS
+from kineme.recordings.kinematics import local_translations
+from kineme.recordings.motion import Motion, Skeleton
+
+Floats = NDArray[np.float64]
+
+UNIT = UNITS["cmu"]
+
+
+@dataclass
+class Bone:
+    """A bone to be written; ``joint`` is None for a rigid one."""
+
+    name: str
+    parent: str
+    tip: Floats
+    joint: int | None
+    slides: bool = False
+
+    @property
+    def dof(self) -> str:
+        return "tx ty tz rx ry rz" if self.slides else "rx ry rz"
+
+
+def write_amc(motion: Motion, path: Path) -> None:
+    """Leave ``motion`` in an AMC file and its skeleton in an ASF of the same name."""
+    if motion.rotations is None:
+        raise WriteError(path, "an AMC needs rotations, and this motion has positions only")
+    if sum(parent < 0 for parent in motion.skeleton.parents) != 1:
+        raise WriteError(path, "an AMC holds one figure, and this motion has several roots")
+    translations = local_translations(motion)
+    slides = np.abs(translations - motion.skeleton.offsets).max(axis=(0, 2)) > RIGID
+    moving = sorted(j for j in motion.skeleton.end_sites if slides[j])
+    if moving:
+        raise WriteError(path, f"end site {motion.skeleton.names[moving[0]]!r} moves on its bone")
+    bones = _bones(motion.skeleton, slides)
+    angles = np.degrees(rot.to_euler_zyx(motion.rotations))[..., ::-1]
+    shift = (translations - motion.skeleton.offsets) / UNIT
+    shift[:, 0] = translations[:, 0] / UNIT
+    blocks = []
+    for bone in bones:
+        if bone.joint is not None:
+            parts = [shift[:, bone.joint]] * bone.slides + [angles[:, bone.joint]]
+            rows = table(np.concatenate(parts, axis=1))
+            blocks.append([f"{bone.name} {row}" for row in rows])
+    save(path.with_suffix(".asf"), _asf(bones))
+    head = f"# fps {motion.fps!r}\n:FULLY-SPECIFIED\n:DEGREES\n"
+    frames = (f"{i}\n{''.join(lines)}" for i, lines in enumerate(zip(*blocks, strict=True), 1))
+    save(path, [head, *frames])
+
+
+def _bones(skeleton: Skeleton, slides: NDArray[np.bool_]) -> list[Bone]:
+    """The root and all bones, parents first."""
+    inner = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
+    words = unique([ROOT, *map(_word, (skeleton.names[j] for j in inner[1:]))])
+    names = dict(zip(inner, words, strict=True))
+    bones: list[Bone] = []
+    hangs_on = {0: ROOT}
+    for j in inner:
+        offsets = skeleton.offsets[list(skeleton.children[j])].reshape(-1, 3)
+        shared = j > 0 and len(offsets) > 0 and bool((offsets == offsets[0]).all())
+        tip = offsets[0] if shared else np.zeros(3)
+        parent = "" if j == 0 else hangs_on[j]
+        bones.append(Bone(names[j], parent, tip, j, j == 0 or bool(slides[j])))
+        for child, offset in zip(skeleton.children[j], offsets, strict=True):
+            hangs_on[child] = names[j]
+            if not shared and offset.any():
+                hangs_on[child] = f"{names[j]}-{_word(skeleton.names[child])}"
+                bones.append(Bone(hangs_on[child], names[j], offset, None))
+    return bones
+
+
+def _asf(bones: list[Bone]) -> Iterator[str]:
+    yield ":version 1.10\n:name kineme\n:units\n  mass 1.0\n  length 0.45\n  angle deg\n"
+    yield ":root\n  order TX TY TZ RX RY RZ\n  axis XYZ\n  position 0 0 0\n  orientation 0 0 0\n"
+    yield ":bonedata\n"
+    for number, bone in enumerate(bones[1:], 1):
+        length = float(np.linalg.norm(bone.tip))
+        direction = bone.tip / length if length > 0 else np.zeros(3)
+        yield f"  begin\n    id {number}\n    name {bone.name}\n"
+        yield "    direction " + " ".join(f"{x:.12f}" for x in direction) + "\n"
+        yield f"    length {length / UNIT:.12f}\n    axis 0 0 0 XYZ\n"
+        if bone.joint is not None:
+            yield f"    dof {bone.dof}\n"
+        yield "  end\n"
+    yield ":hierarchy\n  begin\n"
+    children: dict[str, list[str]] = {}
+    for bone in bones[1:]:
+        children.setdefault(bone.parent, []).append(bone.name)
+    for parent, names in children.items():
+        yield f"    {parent} {' '.join(names)}\n"
+    yield "  end\n"
+
+
+def _word(name: str) -> str:
+    """One word that an ASF does not take for a comment, keyword or number."""
+    word = re.sub(r"[\s#:]+", "_", name)
+    return f"_{word}" if word.isdigit() or word.lower() in ("begin", "end", "") else word

@@ -1,0 +1,85 @@
+"""Writing BVH: centimetres, y up, rotations as Z Y X in degrees.
+
+Joints whose bone changes its length or direction get six channels, the others
+three (roots always six). An end site that moves, or that has children,
+becomes a joint. A BVH has no name for an end site: reading one calls it
+``PARENT_end``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.errors import WriteError
+from kineme.formats.files import save, table, unique
+from kineme.recordings.kinematics import local_translations
+from kineme.recordings.motion import Motion
+
+Floats = NDArray[np.float64]
+
+UNIT = 0.01
+RIGID = 1e-9
+"""Metres by which a bone may differ from its offset and still count as rigid."""
+
+
+def write_bvh(motion: Motion, path: Path) -> None:
+    """Leave ``motion`` in a BVH file in centimetres."""
+    if motion.rotations is None:
+        raise WriteError(path, "a BVH needs rotations, and this motion has positions only")
+    skeleton = motion.skeleton
+    translations = local_translations(motion)
+    slides = np.abs(translations - skeleton.offsets).max(axis=(0, 2)) > RIGID
+    slides |= np.array(skeleton.parents) < 0
+    ends = {j for j in skeleton.end_sites if not slides[j]}
+    angles = np.degrees(rot.to_euler_zyx(motion.rotations))
+    order = list(_depth_first(motion))
+    columns: list[Floats] = []
+    for j in order:
+        if j in ends:
+            continue
+        if slides[j]:
+            columns.append(translations[:, j] / UNIT)
+        columns.append(angles[:, j])
+    head = "\n".join(_hierarchy(motion, order, slides, ends))
+    timing = f"MOTION\nFrames: {motion.n_frames}\nFrame Time: {1 / motion.fps!r}\n"
+    save(path, [head, "\n", timing, *table(np.concatenate(columns, axis=1))])
+
+
+def _hierarchy(
+    motion: Motion, order: list[int], slides: NDArray[np.bool_], ends: set[int]
+) -> Iterator[str]:
+    skeleton = motion.skeleton
+    names = unique(re.sub(r"[{}\s]+", " ", name).strip() for name in skeleton.names)
+    depths: dict[int, int] = {-1: -1}
+    open_joints: list[int] = []
+    yield "HIERARCHY"
+    for j in order:
+        while open_joints and open_joints[-1] != skeleton.parents[j]:
+            yield "\t" * depths[open_joints.pop()] + "}"
+        depths[j] = depth = depths[skeleton.parents[j]] + 1
+        open_joints.append(j)
+        kind = "ROOT" if skeleton.parents[j] < 0 else "JOINT"
+        tab = "\t" * depth
+        yield tab + ("End Site" if j in ends else f"{kind} {names[j]}")
+        yield tab + "{"
+        yield f"{tab}\tOFFSET " + " ".join(f"{x / UNIT:.9f}" for x in skeleton.offsets[j])
+        if j not in ends:
+            places = "6 Xposition Yposition Zposition" if slides[j] else "3"
+            yield f"{tab}\tCHANNELS {places} Zrotation Yrotation Xrotation"
+    while open_joints:
+        yield "\t" * depths[open_joints.pop()] + "}"
+
+
+def _depth_first(motion: Motion) -> Iterator[int]:
+    children = motion.skeleton.children
+    waiting = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0][::-1]
+    while waiting:
+        joint = waiting.pop()
+        yield joint
+        waiting.extend(reversed(children[joint]))

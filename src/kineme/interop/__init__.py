@@ -1,0 +1,1 @@
+"""Segments and recordings as other libraries have them."""

@@ -1,0 +1,133 @@
+"""Segments as other packages know them, and back.
+
+Our spans are half-open frames ``[start, stop)``. The others differ in what
+they do with the ends:
+
+========== =====================================================================
+ruptures   the ends of all segments: the last frame count is in, 0 is not
+aeon       change points: neither 0 nor the frame count
+sktime     a frame with intervals ``[start, stop)`` as ``ilocs``, and ``labels``
+mir_eval   ``(n, 2)`` seconds from 0 to the end, and a list of labels
+========== =====================================================================
+
+Texts are those of :mod:`kineme.labels.spans`. What comes back is on the
+activity level.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme.errors import MissingDependencyError, ParameterError
+from kineme.labels.spans import meaning, one_line, text_of
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def to_ruptures(segmentation: Segmentation, *, level: Level = "activity") -> list[int]:
+    """The ends of all segments, ``n_frames`` the last, as ruptures' ``predict`` gives them."""
+    stops: list[int] = segmentation.level(level).stop_frame.tolist()
+    return stops
+
+
+def from_ruptures(breakpoints: Sequence[int], *, fps: float) -> Segmentation:
+    """Activities that end at the breakpoints; the last of them is the number of frames."""
+    ends = _frames(breakpoints, "breakpoints")
+    if not len(ends):
+        raise ParameterError("breakpoints must hold at least the number of frames")
+    return _activities([0, *ends], [""] * len(ends), fps)
+
+
+def to_aeon(segmentation: Segmentation, *, level: Level = "activity") -> NDArray[np.int64]:
+    """The frames at which a segment starts, without 0: aeon's change points.
+
+    aeon's other convention, a label for each frame, is
+    :meth:`kineme.Segmentation.per_frame`.
+    """
+    return segmentation.cuts(level)
+
+
+def from_aeon(change_points: ArrayLike, *, n_frames: int, fps: float) -> Segmentation:
+    """Activities that meet at the change points; claspy's, too, leave out both ends."""
+    cuts = _frames(change_points, "change_points")
+    return _activities([0, *cuts, n_frames], [""] * (len(cuts) + 1), fps)
+
+
+def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.DataFrame:
+    """Intervals closed on the left as ``ilocs``, the texts as ``labels``.
+
+    Raises
+    ------
+    MissingDependencyError : pandas is not installed
+    """
+    try:
+        import pandas as pd
+    except ImportError as error:
+        raise MissingDependencyError("pandas", "tables") from error
+    rows = segmentation.level(level)
+    spans = pd.IntervalIndex.from_arrays(rows.start_frame, rows.stop_frame, closed="left")
+    return pd.DataFrame({"ilocs": spans, "labels": list(map(text_of, rows))})
+
+
+def from_sktime(segments: pd.DataFrame, *, fps: float) -> Segmentation:
+    """Activities from intervals that touch; texts from ``labels`` where there are any."""
+    spans = segments["ilocs"].array
+    if getattr(spans, "closed", None) != "left":
+        raise ParameterError("ilocs must be intervals closed on the left")
+    starts, stops = _frames(spans.left, "ilocs"), _frames(spans.right, "ilocs")
+    texts = segments["labels"] if "labels" in segments else [""] * len(spans)
+    return _touching(starts, stops, list(map(str, texts)), fps)
+
+
+def to_mir_eval(
+    segmentation: Segmentation, *, level: Level = "activity"
+) -> tuple[NDArray[np.float64], list[str]]:
+    """Intervals ``(n, 2)`` in seconds and a text for each, as ``mir_eval.segment`` takes them."""
+    rows = segmentation.level(level)
+    return np.column_stack([rows.start_s, rows.stop_s]), list(map(text_of, rows))
+
+
+def from_mir_eval(intervals: ArrayLike, labels: Sequence[str], *, fps: float) -> Segmentation:
+    """Activities from intervals in seconds that start at 0 and touch; at the nearest frames."""
+    times = np.asarray(intervals, float)
+    if times.ndim != 2 or times.shape[1] != 2 or not np.isfinite(times).all():
+        raise ParameterError(f"intervals must be finite, (n, 2), not of shape {times.shape}")
+    frames = np.floor(times * fps + 0.5).astype(np.int64)
+    return _touching(frames[:, 0], frames[:, 1], list(labels), fps)
+
+
+def _touching(
+    starts: NDArray[np.int64], stops: NDArray[np.int64], texts: Sequence[str], fps: float
+) -> Segmentation:
+    if len(starts) != len(texts) or not len(starts):
+        raise ParameterError(f"{len(starts)} intervals and {len(texts)} labels: give one for each")
+    if starts[0] != 0 or (starts[1:] != stops[:-1]).any():
+        raise ParameterError("intervals must start at 0, and each where the one before it stops")
+    return _activities([0, *stops], texts, fps)
+
+
+def _activities(borders: Sequence[Any], texts: Sequence[str], fps: float) -> Segmentation:
+    kinds, clusters, labels = zip(*(meaning(one_line(text)) for text in texts), strict=True)
+    columns: dict[str, Any] = {
+        "level": ["activity"] * len(texts),
+        "kind": kinds,
+        "start_frame": np.array(borders[:-1], np.int64),
+        "stop_frame": np.array(borders[1:], np.int64),
+        "cluster": clusters,
+        "label": labels,
+    }
+    return Segmentation.from_columns(columns, n_frames=int(borders[-1]), fps=fps)
+
+
+def _frames(values: ArrayLike, name: str) -> NDArray[np.int64]:
+    frames = np.asarray(values)
+    if frames.ndim != 1 or (frames.size and frames.dtype.kind not in "iu"):
+        raise ParameterError(f"{name} must be whole numbers in a row, not {frames.dtype}")
+    return frames.astype(np.int64)

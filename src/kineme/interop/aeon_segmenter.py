@@ -1,0 +1,54 @@
+"""kineme as a segmenter of aeon: ``predict`` gives the change points of a series.
+
+Source: aeon.segmentation.base, aeon 1.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import MissingDependencyError
+from kineme.interop.adapters import to_aeon
+from kineme.methods.presets import DEFAULT
+from kineme.segmentation.estimator import Segmenter
+from kineme.segments.table import Level
+
+try:
+    from aeon.segmentation.base import BaseSegmenter
+except ImportError as error:
+    raise MissingDependencyError("aeon", "segmenters") from error
+
+
+class KinemeSegmenter(BaseSegmenter):  # type: ignore[misc]
+    """Change points of a series (time points, channels), as aeon's segmenters give them.
+
+    Parameters
+    ----------
+    preset, fps : as in `kineme.Segmenter`
+    level : whose borders are change points, ``activity`` or ``primitive``
+    constants : of the preset, to change
+    """
+
+    _tags = {"capability:multivariate": True, "fit_is_empty": True, "returns_dense": True}  # noqa: RUF012
+
+    def __init__(
+        self,
+        preset: str = DEFAULT,
+        fps: float | None = None,
+        level: Level = "activity",
+        constants: Mapping[str, Any] | None = None,
+    ):
+        self.preset = preset
+        self.fps = fps
+        self.level = level
+        self.constants = constants
+        super().__init__(axis=0, n_segments=None)
+
+    def _predict(self, X: NDArray[Any]) -> NDArray[np.int64]:  # noqa: N803
+        segmenter = Segmenter(self.preset, fps=self.fps, **(self.constants or {}))
+        segmenter.fit(X.reshape(len(X), -1))
+        return to_aeon(segmenter.segmentation_, level=self.level)

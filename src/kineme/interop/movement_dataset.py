@@ -1,0 +1,181 @@
+"""Motions as xarray datasets in the layout of the package movement, and back.
+
+``position`` (time, space, keypoints, individuals), ``confidence`` (time, keypoints,
+individuals), the attributes ``ds_type``, ``fps``, ``time_unit`` and
+``source_software``. What kineme writes says besides that lengths are metres and
+y points up, and may hold the segments: ``activity``, ``primitive`` (numbers of
+the rows of each level), ``cluster`` and ``label`` (time), so that
+``ds.where(ds.cluster == 3)`` works.
+
+The layout holds no skeleton and no rotations; what reading makes of the points
+is said in `kineme.formats.points`.
+
+Source: https://movement.neuroinformatics.dev, user guide, "movement datasets"; movement 0.15.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import MissingDependencyError, ParameterError, ReadError
+from kineme.formats.columns import SURE
+from kineme.formats.files import Source
+from kineme.formats.points import Points, to_motion
+from kineme.formats.timing import even_frames
+from kineme.recordings.motion import Motion, Provenance
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from kineme.segments.segmentation import Segmentation
+    from kineme.segments.table import Level
+
+DIMS = ("time", "space", "keypoints", "individuals")
+
+
+def to_movement(
+    motion: Motion, segmentation: Segmentation | None = None, *, individual: str = "id_0"
+) -> xr.Dataset:
+    """The motion as a poses dataset, confidence 1 where the body was seen.
+
+    Parameters
+    ----------
+    motion : Motion
+    segmentation : of this motion, to go with it
+    individual : what the person is called
+
+    Raises
+    ------
+    ParameterError : the segmentation is of another length
+    MissingDependencyError : xarray is not installed
+    """
+    try:
+        import xarray as xr
+    except ImportError as error:
+        raise MissingDependencyError("xarray", "xarray") from error
+    seen = np.ones(motion.n_frames)
+    for start, stop in motion.gaps:
+        seen[start:stop] = 0.0
+    positions = np.where(seen[:, None, None] > 0, motion.positions, np.nan)
+    confidence = np.repeat(seen[:, None], motion.skeleton.n_joints, axis=1)
+    variables: dict[str, Any] = {
+        "position": (DIMS, positions.transpose(0, 2, 1)[..., None]),
+        "confidence": (("time", "keypoints", "individuals"), confidence[..., None]),
+    }
+    if segmentation is not None:
+        variables |= {name: ("time", rows) for name, rows in _per_frame(motion, segmentation)}
+    return xr.Dataset(
+        variables,
+        coords={
+            "time": motion.times,
+            "space": list("xyz"),
+            "keypoints": list(motion.skeleton.names),
+            "individuals": [individual],
+        },
+        attrs={
+            "ds_type": "poses",
+            "fps": motion.fps,
+            "time_unit": "seconds",
+            "source_software": "kineme",
+            "source_file": motion.provenance.path or "",
+            "length_unit": "m",
+            "up": "y",
+        },
+    )
+
+
+def from_movement(
+    dataset: xr.Dataset,
+    *,
+    individual: str | None = None,
+    fps: float | None = None,
+    unit: str | float | None = None,
+    up: str | None = None,
+    confidence: float = SURE,
+) -> Motion:
+    """The motion of one individual of a poses dataset, in metres with y up.
+
+    Parameters
+    ----------
+    dataset : with ``position`` and perhaps ``confidence``
+    individual : whose motion; needed where there are several
+    fps, unit, up : in place of what the dataset says, as for `kineme.read`
+    confidence : points less sure than this were not seen
+
+    Raises
+    ------
+    ParameterError : another layout, no such individual, or several and none named
+    ReadError : points that make no motion, or nothing that tells the frame rate
+    """
+    person = _individual(dataset, individual)
+    position = person["position"].transpose("time", "keypoints", "space")
+    axes = [str(axis) for axis in position["space"].values]
+    if sorted(axes) not in (["x", "y"], ["x", "y", "z"]):
+        raise ParameterError(f"space must be x, y and perhaps z, not {', '.join(axes)}")
+    places = np.zeros((*position.shape[:2], 3))
+    for axis in axes:
+        places[..., "xyz".index(axis)] = position.sel(space=axis)
+    notes = [] if "z" in axes else ["two-dimensional: z is 0, and image rows count downwards"]
+    if "confidence" in person:
+        sure = np.asarray(person["confidence"].transpose("time", "keypoints"), np.float64)
+        places[sure < confidence] = np.nan
+    attributes = dataset.attrs
+    source = Source(Path(str(attributes.get("source_file") or "dataset")), b"")
+    rate, places, timing = _timed(source, dataset, places, fps)
+    flat = "z" not in axes
+    points = Points(
+        [str(name) for name in position["keypoints"].values],
+        places,
+        rate,
+        unit or attributes.get("length_unit") or ("pixel" if flat else None),
+        up or attributes.get("up") or ("-y" if flat else None),
+    )
+    name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
+    return to_motion(points, Provenance(str(source.path), name, None, (*timing, *notes)))
+
+
+def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
+    """What the dataset holds of one individual."""
+    if "position" not in dataset or not {"time", "space", "keypoints"} <= {
+        *dataset["position"].dims
+    }:
+        raise ParameterError("the dataset has no position (time, space, keypoints, individuals)")
+    if "individuals" not in dataset.dims:
+        return dataset
+    known = [str(one) for one in dataset["individuals"].values]
+    if name is None and len(known) > 1:
+        raise ParameterError(f"the dataset has several individuals: name one of {', '.join(known)}")
+    if name is not None and name not in known:
+        raise ParameterError(f"no individual {name!r}; there are {', '.join(known)}")
+    return dataset.isel(individuals=0 if name is None else known.index(name))
+
+
+def _timed(
+    source: Source, dataset: xr.Dataset, places: NDArray[np.float64], fps: float | None
+) -> tuple[float, NDArray[np.float64], list[str]]:
+    rate = fps or dataset.attrs.get("fps")
+    if rate:
+        return float(rate), places, []
+    if dataset.attrs.get("time_unit") == "seconds":
+        return even_frames(source, np.asarray(dataset["time"], np.float64), places)
+    raise ReadError(source.path, "the dataset counts frames and has no fps: give fps=")
+
+
+def _per_frame(motion: Motion, segmentation: Segmentation) -> list[tuple[str, NDArray[Any]]]:
+    if segmentation.n_frames != motion.n_frames:
+        raise ParameterError(
+            f"the segments are of {segmentation.n_frames} frames, the motion has {motion.n_frames}"
+        )
+    level: Level = "primitive" if len(segmentation.primitives) else "activity"
+    primitives = segmentation.level(level)
+    lengths = primitives.stop_frame - primitives.start_frame
+    return [
+        ("activity", segmentation.per_frame("activity", level="activity")),
+        ("primitive", np.repeat(np.arange(len(primitives)), lengths)),
+        ("cluster", segmentation.per_frame("cluster", level=level)),
+        ("label", segmentation.per_frame("label", level=level)),
+    ]

@@ -1,0 +1,139 @@
+"""A Rerun recording: the skeleton in space, and a lane of states for each level of segments.
+
+``body/joints`` and ``body/bones`` hold the skeleton, metres with y up;
+``segments/activity`` and ``segments/primitive`` change their state where a
+segment starts, shown under its text in the colour of its cluster. The timelines
+are ``time`` in seconds and ``frame``. Where the segments came from is the text
+``provenance``.
+
+Source: https://rerun.io/docs, archetypes Points3D, LineStrips3D, StateChange; rerun-sdk 0.41.
+"""
+
+from __future__ import annotations
+
+import json
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, get_args
+
+import numpy as np
+
+from kineme._colors import cluster_color
+from kineme._files import atomic_write
+from kineme.errors import MissingDependencyError, ParameterError
+from kineme.labels.spans import text_of
+from kineme.recordings.motion import Motion
+from kineme.segments.table import Level
+
+if TYPE_CHECKING:
+    from kineme.segments.segmentation import Segmentation
+
+JOINT_RADIUS, BONE_RADIUS = 0.015, 0.008
+"""Metres."""
+
+
+def write_rerun(
+    motion: Motion, segmentation: Segmentation | None, path: str | PathLike[str]
+) -> None:
+    """Leave a Rerun recording (``.rrd``) at ``path``, whole or not at all.
+
+    Parameters
+    ----------
+    motion : Motion
+    segmentation : of this motion; None for the skeleton alone
+    path : the file
+
+    Raises
+    ------
+    ParameterError : the segmentation is of another length
+    WriteError : the file cannot be written
+    MissingDependencyError : rerun-sdk is not installed
+    """
+    try:
+        import rerun as rr
+    except ImportError as error:
+        raise MissingDependencyError("rerun-sdk", "rerun") from error
+    if segmentation is not None and segmentation.n_frames != motion.n_frames:
+        raise ParameterError(
+            f"the segments are of {segmentation.n_frames} frames, the motion has {motion.n_frames}"
+        )
+    with atomic_write(path) as draft:
+        recording = rr.RecordingStream("kineme", recording_id=Path(path).stem)
+        recording.save(draft, default_blueprint=_blueprint(segmentation is not None))
+        _send_body(recording, motion)
+        if segmentation is not None:
+            for level in get_args(Level):
+                _send_lane(recording, segmentation, level)
+            text = json.dumps(segmentation.provenance, indent=1)
+            recording.log("provenance", rr.TextDocument(text), static=True)
+        recording.disconnect()
+
+
+def _send_body(recording: Any, motion: Motion) -> None:
+    import rerun as rr
+
+    recording.log("body", rr.ViewCoordinates.RIGHT_HAND_Y_UP, static=True)
+    names = rr.Points3D.from_fields(
+        radii=JOINT_RADIUS, labels=list(motion.skeleton.names), show_labels=False
+    )
+    recording.log("body/joints", names, static=True)
+    recording.log("body/bones", rr.LineStrips3D.from_fields(radii=BONE_RADIUS), static=True)
+    seen = np.ones(motion.n_frames, np.bool_)
+    for start, stop in motion.gaps:
+        seen[start:stop] = False
+    frames = np.flatnonzero(seen)
+    positions = motion.positions[frames].astype(np.float32)
+    joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
+    times = _times(frames, motion.fps)
+    counts = np.full(len(frames), motion.skeleton.n_joints)
+    recording.send_columns("body/joints", times, joints.partition(counts))
+    children = [j for j, parent in enumerate(motion.skeleton.parents) if parent >= 0]
+    if children:
+        parents = [motion.skeleton.parents[j] for j in children]
+        ends = np.stack([positions[:, parents], positions[:, children]], axis=2)
+        bones = rr.LineStrips3D.columns(strips=ends.reshape(-1, 2, 3))
+        counts = np.full(len(frames), len(children))
+        recording.send_columns("body/bones", times, bones.partition(counts))
+
+
+def _send_lane(recording: Any, segmentation: Segmentation, level: Level) -> None:
+    """The states of one level: each segment one of its own, shown under its text."""
+    import rerun as rr
+
+    rows = segmentation.level(level)
+    if not len(rows):
+        return
+    values = [f"{level} {number}" for number in range(len(rows))]
+    style = rr.StateConfiguration(
+        values=values,
+        labels=list(map(text_of, rows)),
+        colors=[_rgba(row.cluster) for row in rows],
+    )
+    recording.log(f"segments/{level}", style, static=True)
+    times = _times(rows.start_frame, segmentation.fps)
+    states = rr.StateChange.columns(state=values)
+    recording.send_columns(f"segments/{level}", times, states)
+
+
+def _times(frames: Any, fps: float) -> list[Any]:
+    import rerun as rr
+
+    frames = np.asarray(frames, np.int64)
+    return [
+        rr.TimeColumn("time", duration=frames / fps),
+        rr.TimeColumn("frame", sequence=frames),
+    ]
+
+
+def _blueprint(lanes: bool) -> Any:
+    import rerun.blueprint as rrb
+
+    body = rrb.Spatial3DView(origin="body", name="body")
+    if not lanes:
+        return rrb.Blueprint(body)
+    states = rrb.StateTimelineView(origin="segments", name="segments")
+    return rrb.Blueprint(rrb.Vertical(body, states, row_shares=[3, 1]))
+
+
+def _rgba(cluster: int) -> int:
+    return int(cluster_color(cluster)[1:] + "FF", 16)

@@ -1,0 +1,70 @@
+"""kineme as a detector of sktime: ``predict`` gives the segments of a series.
+
+Source: sktime.detection.base, sktime 1.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from kineme.errors import MissingDependencyError
+from kineme.interop.adapters import to_sktime
+from kineme.methods.presets import DEFAULT
+from kineme.segmentation.estimator import Segmenter
+from kineme.segments.table import Level
+
+try:
+    from sktime.detection.base import BaseDetector
+except ImportError as error:
+    raise MissingDependencyError("sktime", "segmenters") from error
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class KinemeSegmenter(BaseDetector):  # type: ignore[misc]
+    """Segments of a series (time points, channels), as sktime's segmenters give them.
+
+    Parameters
+    ----------
+    preset, fps : as in `kineme.Segmenter`
+    level : ``activity`` or ``primitive``
+    constants : of the preset, to change
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kineme.interop.sktime_segmenter import KinemeSegmenter
+    >>> segments = KinemeSegmenter(fps=30).fit_predict(np.sin(np.arange(300) / 5))
+    """
+
+    _tags = {  # noqa: RUF012
+        "task": "segmentation",
+        "learning_type": "unsupervised",
+        "capability:multivariate": True,
+        "fit_is_empty": True,
+    }
+
+    def __init__(
+        self,
+        preset: str = DEFAULT,
+        fps: float | None = None,
+        level: Level = "activity",
+        constants: Mapping[str, Any] | None = None,
+    ):
+        self.preset = preset
+        self.fps = fps
+        self.level = level
+        self.constants = constants
+        super().__init__()
+
+    def _predict(self, X: pd.DataFrame | pd.Series) -> pd.DataFrame:  # noqa: N803
+        segmenter = Segmenter(self.preset, fps=self.fps, **(self.constants or {}))
+        segmenter.fit(X.to_numpy().reshape(len(X), -1))
+        return to_sktime(segmenter.segmentation_, level=self.level)
+
+    @classmethod
+    def get_test_params(cls, parameter_set: str = "default") -> list[dict[str, Any]]:  # noqa: ARG003
+        """Parameters with which sktime's own checks try it."""
+        return [{}, {"fps": 10.0, "level": "primitive"}]

@@ -1,0 +1,124 @@
+"""BABEL annotations as JSON: one level, in seconds, with the length of the recording.
+
+A file is an object of recordings by their number, as in BABEL's own
+``train.json``; one recording alone is read, too. Written are ``frame_ann``
+with one label per segment (text as ``raw_label``, ``proc_label`` and only
+member of ``act_cat``) and an empty ``seq_ann``; no frame rate, no scores.
+
+BABEL's labels may overlap (``walk`` and ``wave``). Where they do, the stretch
+that both cover becomes a segment of its own, ``walk + wave``, and a warning
+says so. Where ``frame_ann`` is missing, ``seq_ann`` names the whole recording.
+
+Source: Punnakkal et al., BABEL: Bodies, Action and Behavior with English
+Labels, CVPR 2021; https://github.com/abhinanda-punnakkal/BABEL.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+from kineme._files import atomic_write
+from kineme.errors import ReadError
+from kineme.formats.files import warn
+from kineme.labels.spans import Labels, Span, text_of
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Segment
+
+AT_ONCE = 4
+"""Labels that may cover a moment; more are a damaged file."""
+
+
+def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave an object with one recording, number 0, at ``path``."""
+    labels = [
+        {
+            "raw_label": text_of(row),
+            "proc_label": text_of(row),
+            "act_cat": [text_of(row)],
+            "start_t": row.start_s,
+            "end_t": row.stop_s,
+            "seg_id": str(number),
+        }
+        for number, row in enumerate(rows)
+    ]
+    recording = {
+        "babel_sid": 0,
+        "dur": segmentation.n_frames / segmentation.fps,
+        "feat_p": (segmentation.provenance.get("input") or {}).get("path") or "",
+        "frame_ann": {"labels": labels},
+        "seq_ann": None,
+    }
+    with atomic_write(path) as draft:
+        draft.write_text(json.dumps({"0": recording}, indent=2) + "\n", encoding="utf-8")
+
+
+def read(path: Path) -> Labels:
+    """The labels of the one recording at ``path``."""
+    try:
+        content: Any = json.loads(path.read_text(encoding="utf-8-sig"))
+    except (ValueError, RecursionError) as error:
+        raise ReadError(path, "is not valid JSON, or is cut short") from error
+    if isinstance(content, dict) and "dur" not in content:
+        if len(content) > 1:
+            raise ReadError(
+                path, f"has {len(content)} recordings: save the one you want in a file of its own"
+            )
+        content = next(iter(content.values()), None)
+    if not isinstance(content, dict) or "dur" not in content:
+        raise ReadError(path, 'is not a BABEL annotation: it has no "dur"')
+    return labels_of(content, path)
+
+
+def labels_of(recording: Mapping[str, Any], path: Path) -> Labels:
+    """The labels of one recording of BABEL as Python has it."""
+    length = _seconds(recording, "dur", path)
+    annotation = recording.get("frame_ann") or recording.get("seq_ann")
+    whole = not recording.get("frame_ann")
+    labels = annotation.get("labels") if isinstance(annotation, dict) else None
+    if not isinstance(labels, list) or not all(isinstance(label, dict) for label in labels):
+        raise ReadError(path, "has no labels: neither frame_ann nor seq_ann holds a list of them")
+    spans = [
+        Span(
+            0.0 if whole else _seconds(label, "start_t", path),
+            length if whole else _seconds(label, "end_t", path),
+            _text(label),
+        )
+        for label in labels
+    ]
+    return Labels(list(_apart(spans, path)), "seconds", None, length)
+
+
+def _seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
+    value: Any = holder.get(name)
+    if type(value) not in (int, float) or not 0 <= value < 1e15:
+        raise ReadError(path, f"{name} must be seconds, not {value!r:.60}")
+    return float(value)
+
+
+def _text(label: Mapping[str, Any]) -> str:
+    return str(label.get("proc_label") or label.get("raw_label") or "")
+
+
+def _apart(spans: Sequence[Span], path: Path) -> Iterator[Span]:
+    """The spans cut where another begins or ends; what several cover with all their texts."""
+    solid = [span for span in spans if span.start < span.stop]
+    yield from (span for span in spans if not span.start < span.stop)
+    waiting = sorted(solid, key=lambda span: span.start, reverse=True)
+    active: list[Span] = []
+    shared = 0
+    for start, stop in pairwise(sorted({time for span in solid for time in span[:2]})):
+        active = [span for span in active if span.stop > start]
+        while waiting and waiting[-1].start <= start:
+            active.append(waiting.pop())
+        if len(active) > AT_ONCE:
+            raise ReadError(path, f"has more than {AT_ONCE} labels at once, at {start} s")
+        if active:
+            texts = dict.fromkeys(span.text for span in active if span.text)
+            yield Span(start, stop, " + ".join(texts))
+        shared += len(active) > 1
+    if shared:
+        warn(f"{path}: labels overlap; {shared} segments carry the texts of several")

@@ -1,0 +1,130 @@
+"""BIDS ``events.tsv`` with its JSON sidecar: both levels, clusters and scores.
+
+Columns ``onset``, ``duration`` (seconds) and ``trial_type`` are those of the
+standard; ``level``, ``cluster``, ``score``, ``start_frame`` and ``stop_frame``
+are described in the sidecar, which also has ``SamplingFrequency`` and
+``RecordingDuration`` as in Motion-BIDS. A missing value is ``n/a``. What a
+sidecar already says about columns is kept.
+
+Reading needs ``onset``, ``duration`` and ``trial_type`` only; seconds count.
+
+Source: https://bids-specification.readthedocs.io, "Events".
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from kineme._files import atomic_write
+from kineme.errors import ReadError, WriteError
+from kineme.labels.delimited import number, read_rows, whole, write_rows
+from kineme.labels.spans import Labels, Span, text_of
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, Segment
+
+NEEDED = ("onset", "duration", "trial_type")
+COLUMNS = {
+    "trial_type": {"Description": "Name of the segment; transition between two activities"},
+    "level": {
+        "Description": "Level of the segment",
+        "Levels": {
+            "activity": "Movement of one kind, or a transition between two",
+            "primitive": "One repetition inside an activity",
+        },
+    },
+    "cluster": {"Description": "Equal numbers are equal movements; n/a: in no cluster"},
+    "score": {"Description": "How sure the producer was"},
+    "start_frame": {"Description": "First frame, counted from 0"},
+    "stop_frame": {"Description": "One past the last frame"},
+}
+MISSING = "n/a"
+
+
+def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave the events at ``path`` and the sidecar beside them."""
+    beside = sidecar_path(path)
+    facts = {
+        "SamplingFrequency": segmentation.fps,
+        "RecordingDuration": segmentation.n_frames / segmentation.fps,
+    }
+    sidecar = {**COLUMNS, **_sidecar_to_keep(beside), **facts}
+    with atomic_write(beside) as side_draft, atomic_write(path) as draft:
+        side_draft.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
+        with draft.open("w", encoding="utf-8", newline="") as file:
+            write_rows(file, ["onset", "duration", *COLUMNS], map(_cells, rows), delimiter="\t")
+
+
+def read(path: Path) -> Labels:
+    """The events at ``path``, with what a sidecar beside them says."""
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        rows = read_rows(file, path, [NEEDED], delimiter="\t")
+        spans = [_span(cells, path, line) for line, cells in rows]
+    facts = _facts(sidecar_path(path))
+    return Labels(spans, "seconds", facts["SamplingFrequency"], facts["RecordingDuration"])
+
+
+def sidecar_path(path: Path) -> Path:
+    """Where the description is kept: ``walk_events.tsv`` and ``walk_events.json``."""
+    return path.with_suffix(".json")
+
+
+def _cells(row: Segment) -> list[Any]:
+    cluster = row.cluster if row.cluster >= 0 else MISSING
+    score = MISSING if math.isnan(row.score) else row.score
+    frames = [row.start_frame, row.stop_frame]
+    return [row.start_s, row.stop_s - row.start_s, text_of(row), row.level, cluster, score, *frames]
+
+
+def _span(cells: dict[str, str], path: Path, line: int) -> Span:
+    onset = number(cells["onset"], "onset", path, line)
+    duration = cells["duration"]
+    length = 0.0 if duration == MISSING else number(duration, "duration", path, line)
+    text = cells["trial_type"] if cells["trial_type"] != MISSING else ""
+    level: Level = "primitive" if cells.get("level") == "primitive" else "activity"
+    cluster = cells.get("cluster", MISSING)
+    score = cells.get("score", MISSING)
+    return Span(
+        onset,
+        onset + length,
+        text,
+        level,
+        -1 if cluster in (MISSING, "") else whole(cluster, "cluster", path, line),
+        math.nan if score in (MISSING, "") else number(score, "score", path, line),
+    )
+
+
+def _facts(beside: Path) -> dict[str, float | None]:
+    sidecar = _parsed(beside)
+    facts: dict[str, float | None] = {}
+    for name in ("SamplingFrequency", "RecordingDuration"):
+        value = sidecar.get(name)
+        if value is not None and (type(value) not in (int, float) or not 0 < value < 1e15):
+            raise ReadError(beside, f"{name} must be a positive number, not {value!r:.60}")
+        facts[name] = value
+    return facts
+
+
+def _sidecar_to_keep(beside: Path) -> dict[str, Any]:
+    try:
+        found = _parsed(beside)
+    except ReadError as error:
+        raise WriteError(beside, f"is in the way of the sidecar: {error.reason}") from error
+    if "schema" in found:
+        raise WriteError(beside, "is in the way: it is a segment table, and would be the sidecar")
+    return found
+
+
+def _parsed(beside: Path) -> dict[str, Any]:
+    if not beside.is_file():
+        return {}
+    try:
+        found: Any = json.loads(beside.read_text(encoding="utf-8-sig"))
+    except (ValueError, RecursionError) as error:
+        raise ReadError(beside, "is not valid JSON, or is cut short") from error
+    if not isinstance(found, dict):
+        raise ReadError(beside, "a sidecar must be a JSON object")
+    return found

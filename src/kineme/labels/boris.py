@@ -1,0 +1,136 @@
+"""BORIS events as CSV: a START and a STOP row per segment, both levels.
+
+Written as BORIS's "tabular events": ``Time`` in seconds beside ``Image index``
+(the first frame of a START, one past the last of a STOP, counted from 0),
+frame rate and length of the recording on every row, the level as
+``Behavioral category``. Scores are not kept.
+
+Read are the tabular events of old and new versions (header line below a
+preamble or on top; START and STOP under ``Behavior type`` or ``Status``) and
+the aggregated ones (``Start (s)``, ``Stop (s)``). POINT events are no
+segments. Rows of several subjects or observations must not overlap.
+
+Source: BORIS user guide, "Export events".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from kineme._files import atomic_write
+from kineme.errors import ReadError
+from kineme.labels.delimited import number, read_rows, write_rows
+from kineme.labels.spans import Labels, Span, text_of
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, Segment
+
+COLUMNS = (
+    "Observation id",
+    "Observation date",
+    "Description",
+    "Observation type",
+    "Source",
+    "Time offset (s)",
+    "Media duration (s)",
+    "FPS (frame/s)",
+    "Subject",
+    "Behavior",
+    "Behavioral category",
+    "Behavior type",
+    "Time",
+    "Media file name",
+    "Image index",
+    "Image file path",
+    "Comment",
+)
+RATES = ("FPS (frame/s)", "FPS")
+LENGTHS = ("Media duration (s)", "Total length")
+Cells = dict[str, str]
+
+
+def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave two rows per segment at ``path``, in time order."""
+    source = (segmentation.provenance.get("input") or {}).get("path") or ""
+    media = str(source).encode(errors="backslashreplace").decode()
+    facts = {
+        "Observation id": Path(media).stem,
+        "Observation type": "Media file(s)",
+        "Source": media,
+        "Time offset (s)": 0.0,
+        "Media duration (s)": segmentation.n_frames / segmentation.fps,
+        "FPS (frame/s)": segmentation.fps,
+        "Subject": "No focal subject",
+        "Media file name": media,
+    }
+    events = sorted((event for row in rows for event in _events(row)), key=_moment)
+    with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
+        lines = ({**facts, **event} for event in events)
+        write_rows(file, COLUMNS, ([line.get(name, "") for name in COLUMNS] for line in lines))
+
+
+def read(path: Path) -> Labels:
+    """The state events at ``path``."""
+    headers = [("Time", "Behavior"), ("Start (s)", "Stop (s)", "Behavior")]
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        rows = list(read_rows(file, path, headers))
+    spans = list(_paired(rows, path) if rows and "Time" in rows[0][1] else _aggregated(rows, path))
+    return Labels(spans, "seconds", _fact(rows, RATES), _fact(rows, LENGTHS))
+
+
+def _events(row: Segment) -> Iterator[dict[str, Any]]:
+    what = {"Behavior": text_of(row), "Behavioral category": row.level}
+    yield {**what, "Behavior type": "START", "Time": row.start_s, "Image index": row.start_frame}
+    yield {**what, "Behavior type": "STOP", "Time": row.stop_s, "Image index": row.stop_frame}
+
+
+def _moment(event: dict[str, Any]) -> tuple[int, bool]:
+    """What stops at a frame comes before what starts there."""
+    return event["Image index"], event["Behavior type"] == "START"
+
+
+def _paired(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
+    """Each STOP with the START of the same behavior before it."""
+    begun: dict[tuple[str, ...], float] = {}
+    for line, cells in rows:
+        kind = (cells.get("Behavior type") or cells.get("Status") or "").strip().upper()
+        if kind == "POINT":
+            continue
+        same = ("Observation id", "Subject", "Behavior", "Behavioral category")
+        key = tuple(cells.get(name, "") for name in same)
+        time = number(cells["Time"], "Time", path, line)
+        if kind == "START" and key not in begun:
+            begun[key] = time
+        elif kind == "STOP" and key in begun:
+            yield Span(begun.pop(key), time, cells["Behavior"], _level(cells))
+        else:
+            reason = f"{cells['Behavior']!r:.60} has a {kind!r:.20} where START and STOP alternate"
+            raise ReadError(path, reason, line=line)
+    if begun:
+        raise ReadError(path, f"{next(iter(begun))[2]!r:.60} has a START without a STOP")
+
+
+def _aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
+    for line, cells in rows:
+        if cells.get("Behavior type", "").strip().upper() == "POINT":
+            continue
+        start = number(cells["Start (s)"], "Start (s)", path, line)
+        stop = number(cells["Stop (s)"], "Stop (s)", path, line)
+        yield Span(start, stop, cells["Behavior"], _level(cells))
+
+
+def _level(cells: Cells) -> Level:
+    return "primitive" if cells.get("Behavioral category") == "primitive" else "activity"
+
+
+def _fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | None:
+    """What the first row says about the recording, if that is a positive number."""
+    for name in names:
+        try:
+            value = float(rows[0][1][name]) if rows else 0.0
+        except (KeyError, ValueError):
+            continue
+        if 0 < value < 1e15:
+            return value
+    return None

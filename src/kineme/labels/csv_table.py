@@ -1,0 +1,143 @@
+"""Segments as CSV: a header line, one line per row, UTF-8, comma, dot.
+
+No comment lines: ``pandas.read_csv`` and spreadsheets take the file as it is.
+What does not fit into a table (frame rate, provenance, timings) goes into
+``NAME.provenance.json`` beside ``NAME.csv``. Without that file the frame rate
+is found again from the last row, and the table keeps all it says.
+An empty score is nan. Columns are found by name; others are ignored.
+
+A list that people keep by hand, without a column ``level``, is read as well:
+``label`` with ``start_s`` and ``stop_s``, or with ``start_frame`` and
+``stop_frame``, in any order; what no row covers is a transition.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from dataclasses import astuple
+from pathlib import Path
+from typing import Any, Literal
+
+from kineme._files import atomic_write
+from kineme.errors import ReadError
+from kineme.labels.delimited import number, read_rows
+from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
+from kineme.labels.spans import Labels, Span
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import COLUMNS, Segment
+
+NUMBERS: dict[str, type[int | float]] = {
+    "start_frame": int,
+    "stop_frame": int,
+    "start_s": float,
+    "stop_s": float,
+    "cluster": int,
+    "activity": int,
+    "score": float,
+}
+SPANS: dict[Literal["seconds", "frames"], tuple[str, str]] = {
+    "seconds": ("start_s", "stop_s"),
+    "frames": ("start_frame", "stop_frame"),
+}
+
+
+def write(segmentation: Segmentation, path: Path) -> None:
+    """Leave the table at ``path`` and the rest beside it."""
+    beside = provenance_path(path)
+    with atomic_write(beside) as head_draft, atomic_write(path) as draft:
+        head_draft.write_text(json.dumps(head_of(segmentation), indent=2) + "\n", encoding="utf-8")
+        with draft.open("w", encoding="utf-8", newline="") as file:
+            rows = csv.writer(file, lineterminator="\n")
+            rows.writerow(COLUMNS)
+            rows.writerows(map(_cells, segmentation))
+
+
+def read(path: Path) -> Segmentation | Labels:
+    """What is at ``path``, with what lies beside it if it is there."""
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        if "level" not in next(csv.reader([file.readline()]), []):
+            return _list(path)
+        file.seek(0)
+        columns = _columns(csv.DictReader(file, strict=True), path)
+    beside = provenance_path(path)
+    if beside.is_file():
+        head = parse(beside.read_text(encoding="utf-8-sig"), beside)
+        if head.get("n_frames") != max(columns["stop_frame"]):
+            raise ReadError(
+                path,
+                f"ends at frame {max(columns['stop_frame'])}, but {beside.name} speaks of "
+                f"{head.get('n_frames')} frames: remove that file if it belongs to another table",
+            )
+    else:
+        head = _guessed_head(columns, path)
+    return with_head(columns, head, path)
+
+
+def provenance_path(path: Path) -> Path:
+    """Where the rest of a CSV table is kept: ``cuts.csv`` and ``cuts.provenance.json``."""
+    return path.with_suffix(".provenance.json")
+
+
+def roundest_rate(n_frames: int, seconds: float) -> float:
+    """Of the frame rates at which so many frames last so long, the one with fewest digits."""
+    rounded = (round(n_frames / seconds, digits) for digits in range(16))
+    return next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
+
+
+def _list(path: Path) -> Labels:
+    """The labels of a list without levels."""
+    unit: Literal["seconds", "frames"] = "seconds"
+    spans = []
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        for line, row in read_rows(file, path, [(*names, "label") for names in SPANS.values()]):
+            unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
+            start, stop = (number(row[name], name, path, line) for name in SPANS[unit])
+            spans.append(Span(start, stop, row["label"]))
+    return Labels(spans, unit)
+
+
+def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
+    columns: dict[str, list[Any]] = {name: [] for name in COLUMNS}
+    try:
+        missing = [name for name in COLUMNS if name not in (rows.fieldnames or ())]
+        if missing:
+            raise ReadError(path, f"is not a segment table: it has no column {missing[0]!r}")
+        for row in rows:
+            for name, column in columns.items():
+                column.append(_cell(row[name], name, path, rows.line_num))
+    except csv.Error as error:
+        raise ReadError(path, f"is not valid CSV: {error}", line=rows.line_num) from error
+    if not columns["level"]:
+        raise ReadError(path, "has no segments")
+    return columns
+
+
+def _cell(text: str | None, name: str, path: Path, line: int) -> str | float:
+    if text is None:
+        raise ReadError(path, f"the line ends before column {name!r}", line=line)
+    if name == "score" and not text.strip():
+        return math.nan
+    try:
+        return NUMBERS[name](text) if name in NUMBERS else text
+    except ValueError as error:
+        wanted = "a whole number" if NUMBERS[name] is int else "a number"
+        raise ReadError(path, f"{name} must be {wanted}, not {text!r}", line=line) from error
+
+
+def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
+    """n_frames and fps from the last row."""
+    n_frames, seconds = max(zip(columns["stop_frame"], columns["stop_s"], strict=True))
+    if not (0 < n_frames < 2**53 and 0 < seconds < math.inf):
+        raise ReadError(path, f"ends at frame {n_frames}, {seconds} s: no frame rate follows")
+    fps = roundest_rate(n_frames, seconds)
+    note = (
+        f"frame rate {fps:g} Hz computed from frames and seconds: no {provenance_path(path).name}"
+    )
+    return {"schema": SCHEMA, "n_frames": n_frames, "fps": fps, "provenance": {"notes": [note]}}
+
+
+def _cells(row: Segment) -> list[Any]:
+    *cells, score = astuple(row)
+    return [*cells, "" if math.isnan(score) else score]

@@ -1,0 +1,168 @@
+"""ELAN annotations (``.eaf``): a tier per level, whole milliseconds.
+
+Frame rate and length go into document properties (``kineme.fps``,
+``kineme.n_frames``), which ELAN keeps. Clusters are kept where there is no
+label, scores never. Recordings at 1000 frames per second or more are refused:
+a millisecond would hold several frames.
+
+Read are the tiers called ``activity`` and ``primitive``; in a file without
+them the only tier that has annotations. Annotations that hang on other ones
+have no time of their own and are ignored.
+
+pympi-ling reads and writes such files, too, but parses without a guard against
+entities; the tests hold both against each other. A file with a
+document type is refused, so that no entity can grow it.
+
+Source: EAF format 3.0, https://www.mpi.nl/tools/elan/EAF_Annotation_Format_3.0_and_ELAN.pdf.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, get_args
+from xml.etree import ElementTree as ET
+
+from kineme._files import atomic_write
+from kineme.errors import ReadError, WriteError
+from kineme.labels.spans import Labels, Span, text_of
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, Segment
+
+PER_SECOND = 1000
+SCHEMA = {
+    "{http://www.w3.org/2001/XMLSchema-instance}noNamespaceSchemaLocation": (
+        "http://www.mpi.nl/tools/elan/EAFv3.0.xsd"
+    )
+}
+
+
+def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Leave a document with a tier per level of the rows at ``path``."""
+    if segmentation.fps >= PER_SECOND:
+        raise WriteError(
+            path,
+            f"ELAN keeps whole milliseconds, which cannot tell frames at "
+            f"{segmentation.fps:g} per second apart: use another format",
+        )
+    root = ET.Element("ANNOTATION_DOCUMENT", AUTHOR="kineme", DATE="1970-01-01T00:00:00+00:00")
+    root.attrib |= {"FORMAT": "3.0", "VERSION": "3.0", **SCHEMA}
+    header = ET.SubElement(root, "HEADER", MEDIA_FILE="", TIME_UNITS="milliseconds")
+    for name, value in (("fps", repr(segmentation.fps)), ("n_frames", segmentation.n_frames)):
+        ET.SubElement(header, "PROPERTY", NAME=f"kineme.{name}").text = str(value)
+    times = sorted({time for row in rows for time in _milliseconds(row)})
+    slots = {time: f"ts{number}" for number, time in enumerate(times, 1)}
+    order = ET.SubElement(root, "TIME_ORDER")
+    for time, slot in slots.items():
+        ET.SubElement(order, "TIME_SLOT", TIME_SLOT_ID=slot, TIME_VALUE=str(time))
+    tiers: dict[str, ET.Element] = {}
+    for number, row in enumerate(rows, 1):
+        if row.level not in tiers:
+            tiers[row.level] = ET.SubElement(
+                root, "TIER", TIER_ID=row.level, LINGUISTIC_TYPE_REF="default-lt"
+            )
+        start, stop = (slots[time] for time in _milliseconds(row))
+        holder = ET.SubElement(tiers[row.level], "ANNOTATION")
+        span = ET.SubElement(holder, "ALIGNABLE_ANNOTATION", ANNOTATION_ID=f"a{number}")
+        span.attrib |= {"TIME_SLOT_REF1": start, "TIME_SLOT_REF2": stop}
+        ET.SubElement(span, "ANNOTATION_VALUE").text = _allowed(text_of(row))
+    ET.SubElement(
+        root,
+        "LINGUISTIC_TYPE",
+        LINGUISTIC_TYPE_ID="default-lt",
+        TIME_ALIGNABLE="true",
+        GRAPHIC_REFERENCES="false",
+    )
+    ET.indent(root)
+    with atomic_write(path) as draft:
+        ET.ElementTree(root).write(draft, encoding="UTF-8", xml_declaration=True)
+
+
+def read(path: Path) -> Labels:
+    """The annotations at ``path``."""
+    root = _parsed(path)
+    if root.tag != "ANNOTATION_DOCUMENT":
+        raise ReadError(path, f"is not an ELAN document but a {root.tag!r:.60}")
+    slots = {slot.get("TIME_SLOT_ID"): slot.get("TIME_VALUE") for slot in root.iter("TIME_SLOT")}
+    tiers = {
+        tier.get("TIER_ID", ""): found
+        for tier in root.iter("TIER")
+        if (found := list(tier.iter("ALIGNABLE_ANNOTATION")))
+    }
+    spans = [
+        _span(annotation, slots, level, path)
+        for name, level in chosen_tiers(list(tiers), path).items()
+        for annotation in tiers[name]
+    ]
+    fps = _property(root, "kineme.fps", path)
+    n_frames = _property(root, "kineme.n_frames", path)
+    return Labels(spans, "seconds", fps, n_frames / fps if n_frames and fps else None)
+
+
+def chosen_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
+    """The level of each tier that is read: those named after one, or the only one there is."""
+    found: dict[str, Level] = {level: level for level in get_args(Level) if level in names}
+    if found or not names:
+        return found
+    if len(names) > 1:
+        raise ReadError(
+            path,
+            f"has {len(names)} tiers ({', '.join(names):.100}): keep one, or name one 'activity'",
+        )
+    return {names[0]: "activity"}
+
+
+class _Builder(ET.TreeBuilder):
+    """Elements of a document that defines no entities."""
+
+    def doctype(self, *_: Any) -> None:
+        """Refuse: entities are defined here, and could grow a small file without bounds."""
+        raise ET.ParseError("it has a document type")
+
+
+def _parsed(path: Path) -> ET.Element:
+    parser = ET.XMLParser(target=_Builder())  # noqa: S314 (see _Builder)
+    try:
+        with path.open("rb") as file:
+            return ET.parse(file, parser).getroot()  # noqa: S314
+    except (ET.ParseError, ValueError, LookupError) as error:
+        raise ReadError(path, f"is not an ELAN document: {error}") from error
+
+
+def _span(
+    annotation: ET.Element, slots: dict[str | None, str | None], level: Level, path: Path
+) -> Span:
+    start, stop = (
+        _seconds(slots.get(annotation.get(f"TIME_SLOT_REF{end}")), annotation, path)
+        for end in (1, 2)
+    )
+    return Span(start, stop, annotation.findtext("ANNOTATION_VALUE") or "", level)
+
+
+def _seconds(text: str | None, annotation: ET.Element, path: Path) -> float:
+    if text is None or not text.isascii() or not text.isdigit() or len(text) > 15:
+        name = annotation.get("ANNOTATION_ID")
+        raise ReadError(path, f"annotation {name!r:.60} has no time in milliseconds")
+    return int(text) / PER_SECOND
+
+
+def _property(root: ET.Element, name: str, path: Path) -> float | None:
+    for holder in root.iter("PROPERTY"):
+        if holder.get("NAME") == name:
+            try:
+                value = float(holder.text or "")
+            except ValueError:
+                value = 0.0
+            if not 0 < value < 1e15:
+                raise ReadError(path, f"{name} must be a positive number, not {holder.text!r:.60}")
+            return value
+    return None
+
+
+def _milliseconds(row: Segment) -> tuple[int, int]:
+    return round(row.start_s * PER_SECOND), round(row.stop_s * PER_SECOND)
+
+
+def _allowed(text: str) -> str:
+    """The text without the two characters that XML cannot hold and labels can."""
+    return text.replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")

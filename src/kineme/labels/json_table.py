@@ -1,0 +1,115 @@
+"""Segments as JSON, schema ``kineme.segments/1``.
+
+One object::
+
+    {
+      "schema": "kineme.segments/1",
+      "n_frames": 1200,            frames of the source file, at least 1
+      "fps": 120.0,                frames per second of the source file
+      "provenance": {...},         as in Segmentation
+      "timings": {"graph": 0.02},  seconds per stage
+      "segments": [                one object per row, ordered by level, then time
+        {"level": "activity", "kind": "activity", "start_frame": 0, "stop_frame": 600,
+         "start_s": 0.0, "stop_s": 5.0, "cluster": -1, "activity": 0, "label": "", "score": null}
+      ]
+    }
+
+The columns are those of :mod:`kineme.segments.table`; a missing score is
+``null``. A reader must ignore names it does not know; a change that old
+readers would misunderstand gets the next number.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from kineme._files import atomic_write
+from kineme.errors import ReadError
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import COLUMNS, Segment
+
+SCHEMA = "kineme.segments/1"
+
+
+def write(segmentation: Segmentation, path: Path) -> None:
+    """Leave everything at ``path``."""
+    with atomic_write(path) as draft:
+        draft.write_text(dumps(segmentation), encoding="utf-8")
+
+
+def dumps(segmentation: Segmentation) -> str:
+    """The JSON text: small parts indented, one line per segment."""
+    head = json.dumps(head_of(segmentation), indent=2).removesuffix("\n}")
+    rows = ",\n".join(f"    {json.dumps(_cells(row))}" for row in segmentation)
+    return f'{head},\n  "segments": [\n{rows}\n  ]\n}}\n'
+
+
+def as_object(segmentation: Segmentation) -> dict[str, Any]:
+    """What the JSON text holds, as Python has it."""
+    return head_of(segmentation) | {"segments": [_cells(row) for row in segmentation]}
+
+
+def read(path: Path) -> Segmentation:
+    """The segmentation at ``path``."""
+    data = parse(path.read_text(encoding="utf-8-sig"), path)
+    rows = data.get("segments")
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        raise ReadError(path, '"segments" must be a list of objects')
+    for number, row in enumerate(rows):
+        missing = [name for name in COLUMNS if name not in row]
+        if missing:
+            raise ReadError(path, f"segment {number} has no {missing[0]!r}")
+    columns = {name: [row[name] for row in rows] for name in COLUMNS}
+    columns["score"] = [math.nan if score is None else score for score in columns["score"]]
+    return with_head(columns, data, path)
+
+
+def head_of(segmentation: Segmentation) -> dict[str, Any]:
+    """Everything but the table, as JSON holds it."""
+    return {
+        "schema": SCHEMA,
+        "n_frames": segmentation.n_frames,
+        "fps": segmentation.fps,
+        "provenance": segmentation.provenance,
+        "timings": segmentation.timings,
+    }
+
+
+def parse(text: str, path: Path) -> dict[str, Any]:
+    """The object in ``text``, if it is of a schema this version reads."""
+    try:
+        data: Any = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        line = error.lineno if isinstance(error, json.JSONDecodeError) else None
+        raise ReadError(path, "is not valid JSON, or is cut short", line=line) from error
+    schema = data.get("schema") if isinstance(data, dict) else None
+    if not isinstance(data, dict) or not str(schema).startswith("kineme.segments/"):
+        raise ReadError(path, 'is not a segment table: it has no "schema": "kineme.segments/..."')
+    if schema != SCHEMA:
+        raise ReadError(
+            path, f"has schema {schema!r}, but this version of kineme reads {SCHEMA!r}: upgrade it"
+        )
+    return data
+
+
+def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segmentation:
+    """The segmentation of a table and what :func:`head_of` gave."""
+    n_frames, fps = head.get("n_frames"), head.get("fps")
+    if type(n_frames) is not int:
+        raise ReadError(path, f'"n_frames" must be a whole number, not {n_frames!r}')
+    if not isinstance(fps, int | float) or not 0 < fps < 1e9:
+        raise ReadError(path, f'"fps" must be a positive number, not {fps!r}')
+    notes = {name: head.get(name, {}) for name in ("provenance", "timings")}
+    for name, value in notes.items():
+        if not isinstance(value, dict):
+            raise ReadError(path, f'"{name}" must be an object, not {value!r:.40}')
+    return Segmentation.from_columns(columns, n_frames=n_frames, fps=fps, **notes)
+
+
+def _cells(row: Segment) -> dict[str, Any]:
+    cells = asdict(row)
+    return cells | {"score": None if math.isnan(row.score) else row.score}

@@ -1,0 +1,54 @@
+"""Segments as Parquet: the table's columns as they are, no index.
+
+Frame rate, provenance and timings are JSON in the file's metadata under the
+key ``kineme.segments``, with the schema of :mod:`kineme.labels.json_table`.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from kineme._files import atomic_write
+from kineme.errors import MissingDependencyError, ReadError
+from kineme.labels.json_table import head_of, parse, with_head
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import COLUMNS
+
+KEY = b"kineme.segments"
+
+
+def write(segmentation: Segmentation, path: Path) -> None:
+    """Leave everything at ``path``."""
+    arrow, parquet = _pyarrow()
+    table = arrow.table(segmentation.table.columns())
+    table = table.replace_schema_metadata({KEY: json.dumps(head_of(segmentation)).encode()})
+    with atomic_write(path) as draft:
+        parquet.write_table(table, draft)
+
+
+def read(path: Path) -> Segmentation:
+    """The segmentation at ``path``."""
+    arrow, parquet = _pyarrow()
+    content = path.read_bytes()
+    try:
+        table = parquet.read_table(arrow.BufferReader(content))
+    except (arrow.ArrowException, OSError) as error:
+        raise ReadError(path, "is not a Parquet file, or is damaged") from error
+    metadata = table.schema.metadata or {}
+    missing = [name for name in COLUMNS if name not in table.column_names]
+    if KEY not in metadata or missing:
+        raise ReadError(path, "is a Parquet file, but not a segment table written by kineme")
+    head = parse(metadata[KEY].decode(errors="replace"), path)
+    columns = {name: table.column(name).to_numpy() for name in COLUMNS}
+    return with_head(columns, head, path)
+
+
+def _pyarrow() -> tuple[Any, Any]:
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ImportError as error:
+        raise MissingDependencyError("pyarrow", "tables") from error
+    return pa, parquet

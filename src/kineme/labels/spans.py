@@ -1,0 +1,187 @@
+"""Spans with a text each: what label formats hold, and the way there and back.
+
+A segment becomes one text: its label; without one ``transition``, ``cluster 3``
+or ``activity``. A text that is read is taken for what those words say, any
+other for the label of an activity. So a labelled segment loses its cluster, a
+labelled transition its kind, and every segment its score, but where the format
+has columns for them.
+
+Reading tiles: what no span covers is a transition. Spans of one level must not
+overlap; those shorter than a frame are left out with a warning. Seconds become
+the nearest frame, which gives back the very frames that were written.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Literal, NamedTuple
+
+from kineme.errors import ReadError
+from kineme.formats.files import warn
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Kind, Level, Segment
+
+TOO_FAR = 2**53
+"""Frames that a float no longer tells from their neighbours."""
+COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "score")
+
+Row = tuple[Level, Kind, int, int, int, str, float]
+
+
+class Span(NamedTuple):
+    """From ``start`` to ``stop``, in the unit of its `Labels`, something was called ``text``."""
+
+    start: float
+    stop: float
+    text: str
+    level: Level = "activity"
+    cluster: int = -1
+    score: float = math.nan
+
+
+@dataclass(frozen=True)
+class Labels:
+    """What a file holds, and what it says about the recording; None where it is silent.
+
+    Parameters
+    ----------
+    spans : in any order; a stop is where the next span may start
+    unit : of starts, stops and length
+    fps : frames per second of the recording
+    length : of the recording
+    """
+
+    spans: Sequence[Span]
+    unit: Literal["seconds", "frames"] = "seconds"
+    fps: float | None = None
+    length: float | None = None
+
+
+def text_of(row: Segment) -> str:
+    """The text of a segment: its label, or what else tells it from others."""
+    if row.label or row.kind == "transition":
+        return row.label or "transition"
+    return f"cluster {row.cluster}" if row.cluster >= 0 else "activity"
+
+
+def meaning(text: str) -> tuple[Kind, int, str]:
+    """Kind, cluster and label of a text: the inverse of `text_of`."""
+    if text == "transition":
+        return "transition", -1, ""
+    if text in ("activity", ""):
+        return "activity", -1, ""
+    cluster = re.fullmatch(r"cluster[ _]([0-9]{1,9})", text)
+    return ("activity", int(cluster[1]), "") if cluster else ("activity", -1, text)
+
+
+def as_segmentation(
+    labels: Labels, path: Path, name: str, *, fps: float | None, n_frames: int | None
+) -> Segmentation:
+    """The segmentation that labels speak of; ``fps`` and ``n_frames`` add what they leave out.
+
+    Where all spans are of the primitive level they become activities, which
+    every segmentation has.
+
+    Raises
+    ------
+    ReadError : no spans, an unknown frame rate, spans that overlap or lie outside
+    """
+    if not labels.spans:
+        raise ReadError(path, "has no labels")
+    rate = fps or labels.fps
+    if rate is None:
+        raise ReadError(
+            path, f"{name} does not tell the frame rate of the recording: give fps (--fps)"
+        )
+    if not 0 < rate < math.inf:
+        raise ReadError(path, f"the frame rate must be a positive number, not {rate}")
+    per_unit = rate if labels.unit == "seconds" else 1.0
+    rows = [_meant(span, per_unit, path) for span in labels.spans]
+    last = max(row[3] for row in rows)
+    notes = []
+    if n_frames is None and labels.length is not None:
+        n_frames = max(last, _frame(labels.length, per_unit, path))
+    elif n_frames is None:
+        n_frames = last
+        notes.append(f"length of {last} frames taken from the end of the last label")
+    elif last > n_frames + 1:  # 1: some programs close with the frame after the last
+        raise ReadError(path, f"has labels up to frame {last}, but the recording has {n_frames}")
+    if n_frames < 1:
+        raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
+    tiled = _both_levels(rows, n_frames, path)
+    return Segmentation.from_columns(
+        dict(zip(COLUMNS, zip(*tiled, strict=True), strict=True)),
+        n_frames=n_frames,
+        fps=rate,
+        provenance={"labels": {"path": str(path), "format": name}, "notes": notes},
+    )
+
+
+def one_line(text: str) -> str:
+    """The text with a blank for all that a label may not hold: tabs, line ends, controls."""
+    if text.isprintable():
+        return text
+    bad = ("Cc", "Cs", "Zl", "Zp")
+    return "".join(" " if unicodedata.category(letter) in bad else letter for letter in text)
+
+
+def _meant(span: Span, per_unit: float, path: Path) -> Row:
+    """A row of the table, with frames for the unit of the file."""
+    start, stop = _frame(span.start, per_unit, path), _frame(span.stop, per_unit, path)
+    if stop < start:
+        raise ReadError(path, f"{span.text!r:.60} stops at {span.stop}, before {span.start}")
+    kind, cluster, label = meaning(one_line(span.text))
+    return span.level, kind, start, stop, max(cluster, span.cluster), label, span.score
+
+
+def _frame(value: float, per_unit: float, path: Path) -> int:
+    frame = value * per_unit
+    if not -0.5 <= frame < TOO_FAR:
+        raise ReadError(path, f"has a label at {value}, which no recording reaches")
+    return math.floor(frame + 0.5)
+
+
+def _both_levels(rows: list[Row], n_frames: int, path: Path) -> list[Row]:
+    """The rows of each level with the gaps between them filled, no gap across an activity's end."""
+    full = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
+    full = [row for row in full if row[2] < row[3]]
+    if len(full) < len(rows):
+        warn(f"{path}: {len(rows) - len(full)} labels shorter than a frame are left out")
+    if all(row[0] == "primitive" for row in full):
+        full = [("activity", *row[1:]) for row in full]
+    inner = [row for row in full if row[0] == "primitive"]
+    tiled = list(_tiled([row for row in full if row[0] == "activity"], n_frames, [], path))
+    if inner:
+        tiled += _tiled(inner, n_frames, [row[2] for row in tiled], path)
+    return tiled
+
+
+def _tiled(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
+    """The rows of one level in time order, and transitions where there are none."""
+    at = 0
+    level = rows[0][0] if rows else "activity"
+    for row in sorted(rows, key=lambda row: row[2:4]):
+        if row[2] < at:
+            raise ReadError(
+                path,
+                f"{row[5]!r:.60} starts at frame {row[2]}, before the label ahead of it stops "
+                f"({at}): labels of one level may touch but not overlap",
+            )
+        yield from _gap(level, at, row[2], borders)
+        yield row
+        at = row[3]
+    yield from _gap(level, at, n_frames, borders)
+
+
+def _gap(level: Level, start: int, stop: int, borders: list[int]) -> Iterator[Row]:
+    inside = borders[bisect_right(borders, start) : bisect_left(borders, stop)]
+    for left, right in pairwise([start, *inside, stop]):
+        if left < right:
+            yield level, "transition", left, right, -1, "", math.nan

@@ -1,0 +1,220 @@
+"""Aligned cluster analysis (ACA): k-means over the pieces of a recording.
+
+Pieces are compared by the dynamic time alignment kernel (DTAK): the best sum of
+frame kernel values along a warping path, over the weights of both pieces. Given
+the number of classes, borders and classes are improved in turn: all windows up
+to the longest piece are compared with the present pieces, and dynamic
+programming picks the windows of least total distance to their class.
+
+Source: Zhou, De la Torre and Hodgins, FG 2008, TPAMI 35(3), 2013, as their
+program does it: the shortest length binds the start only, not the search.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse.linalg import eigsh
+
+from kineme.errors import ParameterError
+from kineme.methods.baselines._kernels import (
+    cheapest_lengths,
+    propagate,
+    window_alignments,
+)
+from kineme.methods.baselines.pieces import Pieces
+from kineme.methods.baselines.reduction import (
+    block_starts,
+    frame_kernel,
+    tightest_clusters,
+)
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+ITERATIONS = 20
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Borders (first frames, then the number of frames) and classes of the pieces."""
+
+    borders: Ints
+    classes: Ints
+    objective: float = np.inf
+
+    def same(self, other: State) -> bool:
+        return np.array_equal(self.borders, other.borders) and np.array_equal(
+            self.classes, other.classes
+        )
+
+
+def aca(
+    features: Floats,
+    *,
+    n_classes: int,
+    shortest: int = 32,
+    longest: int = 60,
+    starts: int = 1,
+    centres: int = 20,
+    seed: int = 0,
+) -> Pieces:
+    """Pieces in ``n_classes`` clusters with the least total distance to their class.
+
+    Parameters
+    ----------
+    features : (frames, dims) at 120 Hz, such as `joints.log_maps`
+    n_classes : the number of classes, which the method has to be told
+    shortest, longest : length of a piece, in blocks of at most five frames
+    starts : initialisations, of which the one with the least objective is kept
+    centres : k-means centres of the reduction to blocks
+    seed : of all k-means starts; equal seeds give equal results
+
+    Raises
+    ------
+    ParameterError : the recording is too short for the classes or lengths
+    """
+    random = np.random.RandomState(seed)
+    blocks = block_starts(features, centres=centres, random=random)
+    check_room(len(blocks), n_classes, shortest, longest)
+    kernel = frame_kernel(features[blocks])
+    weights = np.ones(len(blocks))
+    first = initial_states(kernel, n_classes, shortest, longest, starts, random)
+    best = least([improve(kernel, weights, state, n_classes, longest) for state in first])
+    return pieces_of(best, np.append(blocks, len(features)))
+
+
+def initial_states(
+    kernel: Floats,
+    n_classes: int,
+    shortest: int,
+    longest: int,
+    starts: int,
+    random: np.random.RandomState,
+) -> Iterator[State]:
+    """States from spectral clustering of the propagated kernel, one per start."""
+    embedding = spectral_embedding(propagate(kernel, longest), n_classes)
+    for _ in range(starts):
+        labels = tightest_clusters(embedding, n_classes, random)
+        yield majority_pieces(labels, n_classes, shortest, longest)
+
+
+def spectral_embedding(similarity: Floats, n_classes: int) -> Floats:
+    """Leading eigenvectors of D^-1/2 S D^-1/2, rows scaled to length 1 (Ng, Jordan, Weiss)."""
+    scale = 1 / np.sqrt(similarity.sum(axis=1))
+    scaled = scale[:, None] * similarity * scale
+    if n_classes < len(scaled):
+        _, vectors = eigsh(scaled, n_classes, which="LA", v0=1 / scale)
+    else:
+        _, vectors = np.linalg.eigh(scaled)
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    embedding: Floats = vectors / np.where(length > 0, length, 1)
+    return embedding
+
+
+def majority_pieces(labels: Ints, n_classes: int, shortest: int, longest: int) -> State:
+    """Pieces of ``shortest`` to ``longest`` frames with few frames off their majority.
+
+    Each is in its majority's class. The fewest is what the program means to
+    find; see `cheapest_lengths` for what it finds, which is kept here.
+    """
+    n = len(labels)
+    counts = np.zeros((n + 1, n_classes), np.int64)
+    np.cumsum(labels[:, None] == np.arange(n_classes), axis=0, out=counts[1:])
+    majority = np.zeros((n, longest), np.int64)
+    misses = np.zeros((n, longest))
+    for length in range(1, min(longest, n) + 1):
+        windows = counts[length:] - counts[:-length]
+        majority[length - 1 :, length - 1] = windows.argmax(axis=1)
+        misses[length - 1 :, length - 1] = length - windows.max(axis=1)
+    borders = np.append(0, np.cumsum(cheapest_lengths(misses, shortest, True)))
+    return State(borders, majority[borders[1:] - 1, np.diff(borders) - 1])
+
+
+def improve(kernel: Floats, weights: Floats, state: State, n_classes: int, longest: int) -> State:
+    """The state reached when the pieces repeat, or after 20 searches.
+
+    A class left without pieces ends it with an infinite objective. A search
+    depends on the state alone, so once a state comes back the 20th is known.
+    """
+    found: list[State] = []
+    alignments: dict[tuple[int, int], Floats] = {}
+    for _ in range(ITERATIONS):
+        spans = [(int(a), int(b)) for a, b in pairwise(state.borders)]
+        alignments = {
+            span: alignments[span]
+            if span in alignments
+            else window_alignments(kernel, weights, *span, longest)
+            for span in spans
+        }
+        state = search(state, [alignments[span] for span in spans], n_classes)
+        if len(np.unique(state.classes)) < n_classes:
+            return State(state.borders, state.classes)
+        for earlier, other in enumerate(found):
+            if state.same(other):
+                period = len(found) - earlier
+                return [*found, state][earlier + 1 + (ITERATIONS - earlier - 2) % period]
+        found.append(state)
+    return state
+
+
+def search(state: State, alignments: list[Floats], n_classes: int) -> State:
+    """The windows of least total distance to the classes of ``state``, covering all frames.
+
+    The distance of a window to a class of m pieces is 1 - 2/m times the sum of
+    its DTAK with them, plus their mean DTAK among themselves.
+
+    Parameters
+    ----------
+    alignments : per piece, DTAK with every window, see `window_alignments`
+    """
+    distance = np.full((n_classes, *alignments[0].shape), np.inf)
+    among = piece_kernel(state.borders, alignments)
+    for c in np.unique(state.classes):
+        members = np.flatnonzero(state.classes == c)
+        mean = sum(alignments[j] for j in members) / len(members)
+        distance[c] = 1 - 2 * mean + among[np.ix_(members, members)].mean()
+    costs = distance.min(axis=0)
+    lengths = cheapest_lengths(costs, 1, False)
+    borders = np.append(0, np.cumsum(lengths))
+    chosen = borders[1:] - 1, lengths - 1
+    return State(borders, distance.argmin(axis=0)[chosen], costs[chosen].sum())
+
+
+def piece_kernel(borders: Ints, alignments: list[Floats]) -> Floats:
+    """DTAK of every piece with every piece, (pieces, pieces)."""
+    last, length = borders[1:] - 1, np.diff(borders)
+    return np.stack([table[last, length - 1] for table in alignments])
+
+
+def least(states: list[State]) -> State:
+    """The state with the least objective, the first of equals."""
+    return min(states, key=lambda state: state.objective)
+
+
+def pieces_of(state: State, block_borders: Ints) -> Pieces:
+    """A state in blocks as pieces in frames."""
+    borders = block_borders[state.borders]
+    return Pieces(borders[1:-1], state.classes, int(borders[-1]), state.objective)
+
+
+def check_room(n_blocks: int, n_classes: int, shortest: int, longest: int) -> None:
+    """Refuse lengths and classes that no segmentation of so many blocks can have."""
+    if not 1 <= shortest <= longest:
+        raise ParameterError(
+            f"pieces of {shortest} to {longest} blocks: need 1 <= shortest <= longest"
+        )
+    if n_classes < 1 or n_blocks < n_classes * shortest:
+        raise ParameterError(
+            f"{n_blocks} blocks (of up to five frames) cannot hold {n_classes} classes with "
+            f"pieces of at least {shortest}: use a longer recording or smaller values"
+        )
+    if -(-n_blocks // longest) > n_blocks // shortest:
+        raise ParameterError(
+            f"{n_blocks} blocks cannot be cut into pieces of {shortest} to {longest}: "
+            "let them differ more in length"
+        )

@@ -1,0 +1,50 @@
+"""Gaussian mixture segmentation (Barbič et al. 2004): a cut where the likeliest Gaussian changes.
+
+Source: Barbič, Safonova, Pan, Faloutsos, Hodgins and Pollard, "Segmenting
+Motion Capture Data into Distinct Behaviors", Graphics Interface 2004, section
+on Gaussian mixtures. ("GMM" in the program of Zhou et al. is something else:
+spectral clustering of the frames.)
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.decomposition import PCA
+from sklearn.mixture import GaussianMixture
+from threadpoolctl import threadpool_limits
+
+from kineme.errors import ParameterError
+from kineme.methods.baselines.pieces import Pieces
+from kineme.methods.baselines.principal import checked
+
+Floats = NDArray[np.float64]
+
+SHARE = 0.9
+
+
+def gmm(features: Floats, *, n_classes: int, seed: int = 0) -> Pieces:
+    """Runs of frames whose likeliest Gaussian is the same; the Gaussians are the clusters.
+
+    The features are reduced to the principal components with 90 % of their
+    variance; expectation maximisation starts from k-means. No piece is too
+    short to stand.
+
+    Parameters
+    ----------
+    features : (frames, dims), such as the quaternions of `joints.joint_quaternions`
+    n_classes : the number of Gaussians, which the method has to be told
+    seed : of k-means
+
+    Raises
+    ------
+    ParameterError : fewer frames than Gaussians
+    """
+    frames = checked(features, 1.0)
+    if not 1 <= n_classes <= len(frames):
+        raise ParameterError(f"{len(frames)} frames cannot be told into {n_classes} classes")
+    with threadpool_limits(1):  # sums, and so results, would change with the number of cores
+        reduced = PCA(SHARE, svd_solver="full").fit_transform(frames)
+        labels = GaussianMixture(n_classes, random_state=seed).fit_predict(reduced)
+    cuts = np.flatnonzero(np.diff(labels)) + 1
+    return Pieces(cuts, labels[np.append(0, cuts)].astype(np.int64), len(frames))

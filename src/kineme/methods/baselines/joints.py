@@ -1,0 +1,59 @@
+"""What the baselines see of a pose: the rotations of 14 joints.
+
+Barbič et al. chose them and left the root out; Zhou et al. took them over.
+Their program maps the raw Euler angles of AMC files; `Motion.rotations` are the
+same rotations seen in other axes, constant per joint, which turns each log map
+as a whole and so changes no distance.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import MotionError
+from kineme.recordings.motion import Motion
+
+Floats = NDArray[np.float64]
+
+JOINTS = (
+    *("lowerback", "upperback", "thorax", "lowerneck", "upperneck", "head"),
+    *("rhumerus", "rradius", "lhumerus", "lradius"),
+    *("rfemur", "rtibia", "lfemur", "ltibia"),
+)
+
+
+def joint_quaternions(motion: Motion) -> Floats:
+    """Local rotations of the 14 joints, unit quaternions (w, x, y, z) with w >= 0.
+
+    Returns
+    -------
+    (frames, 14, 4)
+
+    Raises
+    ------
+    MotionError : the motion has no rotations, or not these joints
+    """
+    if motion.rotations is None:
+        raise MotionError("the motion has positions only; these methods need its rotations")
+    names = motion.skeleton.names
+    missing = [joint for joint in JOINTS if joint not in names]
+    if missing:
+        raise MotionError(
+            f"no joint {missing[0]!r} in the skeleton; these methods need the joints of CMU's "
+            f"ASF files: {', '.join(JOINTS)}"
+        )
+    q = motion.rotations[:, [names.index(joint) for joint in JOINTS]]
+    return np.where(q[..., :1] < 0, -q, q)
+
+
+def log_maps(quaternions: Floats) -> Floats:
+    """Half the rotation vector of each quaternion, (frames, 3 x joints).
+
+    Parameters
+    ----------
+    quaternions : (frames, joints, 4), w >= 0
+    """
+    half = np.arccos(np.clip(quaternions[..., :1], -1, 1))
+    logs = quaternions[..., 1:] / np.sinc(half / np.pi)
+    return logs.reshape(len(logs), -1)

@@ -1,0 +1,147 @@
+"""Two methods that cut where a model of the frames so far stops to fit (Barbič et al. 2004).
+
+The features are the quaternions of 14 joints in one row per frame
+(`joints.joint_quaternions`); lengths are the paper's frame numbers at 120 Hz,
+in seconds. Both methods start anew at each cut, and find no clusters.
+
+Source: Barbič, Safonova, Pan, Faloutsos, Hodgins and Pollard, "Segmenting
+Motion Capture Data into Distinct Behaviors", Graphics Interface 2004, sections
+on PCA and probabilistic PCA. Two things are our reading: the first frame at
+which the running mean of `pca` is trusted, and the range that sets the
+threshold of `ppca`, taken over the motion that is left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from kineme.methods.baselines.pieces import Pieces, unclustered
+from kineme.methods.baselines.principal import (
+    checked,
+    dimensions_kept,
+    leading_scatters,
+)
+
+Floats = NDArray[np.float64]
+
+# PCA: frames that fix the dimension, span of the error's rise, variance kept, deviations.
+FIRST_S, LAG_S, PCA_SHARE, DEVIATIONS = 240 / 120, 60 / 120, 0.9, 3.0
+
+# Probabilistic PCA: frames ahead (and first model), growth of the model, variance kept, and
+# the share of H's range by which a peak must rise above the valley before it.
+AHEAD_S, GROWTH_S, PPCA_SHARE, RISE = 150 / 120, 10 / 120, 0.95, 0.1
+
+
+def pca(features: Floats, *, fps: float) -> Pieces:
+    """Cuts where the error of a fixed number of principal components rises faster than before.
+
+    The first two seconds fix the number r of components that keep 90 % of the
+    variance. e_i is the squared error left when the first i frames are
+    projected on their own first r components, d_i = e_i - e_(i - 0.5 s). The cut
+    is the first i whose d_i exceeds the mean of those before it by three
+    standard deviations, once half a second of them is known.
+
+    Parameters
+    ----------
+    features : (frames, dims)
+    fps : frames per second
+
+    Raises
+    ------
+    ParameterError : features that are not finite numbers of shape (frames, dims)
+    """
+    first, lag = round(FIRST_S * fps), max(1, round(LAG_S * fps))
+    return _cut_and_start_anew(checked(features, fps), partial(_error_jump, first=first, lag=lag))
+
+
+def ppca(features: Floats, *, fps: float) -> Pieces:
+    """Cuts where the frames ahead are least like the frames so far.
+
+    A Gaussian is fitted to the first K frames: their principal components up to
+    95 % of the variance, and the mean of the discarded variances in all other
+    directions. H is the mean squared Mahalanobis distance of the 1.25 s ahead. K
+    grows from 1.25 s in steps of 1/12 s; the cut is the first peak of H that
+    rises above the lowest H before it by a tenth of H's range.
+
+    Parameters
+    ----------
+    features : (frames, dims)
+    fps : frames per second
+
+    Raises
+    ------
+    ParameterError : features that are not finite numbers of shape (frames, dims)
+    """
+    ahead, growth = max(2, round(AHEAD_S * fps)), max(1, round(GROWTH_S * fps))
+    return _cut_and_start_anew(
+        checked(features, fps), partial(_distance_peak, ahead=ahead, growth=growth)
+    )
+
+
+def _cut_and_start_anew(features: Floats, find: Callable[..., int | None]) -> Pieces:
+    """Cuts by a rule that finds the first one in the frames it is given, or None.
+
+    Variances below the rounding error of the whole count as that.
+    """
+    floor = max(np.finfo(float).eps * float(features.var(axis=0).sum()), np.finfo(float).tiny)
+    starts = [0]
+    with threadpool_limits(1):  # many small matrices
+        while (cut := find(features[starts[-1] :], floor=floor)) is not None:
+            starts.append(starts[-1] + cut)
+    return unclustered(starts[1:], len(features))
+
+
+def _error_jump(features: Floats, *, first: int, lag: int, floor: float) -> int | None:
+    """The first frame at which the projection error jumps, None if there is none."""
+    if len(features) < first + 2 * lag:
+        return None
+    errors: list[Floats] = []
+    kept = 0
+    for _, _, scatters in leading_scatters(features, np.arange(first, len(features) + 1)):
+        variances = np.linalg.eigvalsh(scatters)[:, ::-1]
+        kept = kept or dimensions_kept(variances[0], PCA_SHARE)
+        errors.append(variances[:, kept:].sum(axis=1))
+    error = np.concatenate(errors)
+    rise = error[lag:] - error[:-lag]
+    count = np.arange(1, len(rise))
+    mean = np.cumsum(rise)[:-1] / count
+    spread = np.sqrt(np.maximum(np.cumsum(rise**2)[:-1] / count - mean**2, 0))
+    bound = mean + DEVIATIONS * spread + floor * len(features)
+    jumps = np.flatnonzero(rise[1:] > bound) + 1
+    jumps = jumps[jumps >= lag]
+    return first + lag + int(jumps[0]) if jumps.size else None
+
+
+def _distance_peak(features: Floats, *, ahead: int, growth: int, floor: float) -> int | None:
+    """The first frame at which the distance H of the frames ahead peaks, None if it does not."""
+    counts = np.arange(ahead, len(features) - ahead + 1, growth)
+    if len(counts) < 3:
+        return None
+    distance = np.array(
+        [
+            _mahalanobis(features[count : count + ahead] - mean, scatter / (count - 1), floor)
+            for batch in leading_scatters(features, counts)
+            for count, mean, scatter in zip(*batch, strict=True)
+        ]
+    )
+    threshold = RISE * np.ptp(distance)
+    valley = np.minimum.accumulate(distance)
+    before, here, after = distance[:-2], distance[1:-1], distance[2:]
+    peaks = (here > before) & (here >= after) & (here - valley[:-2] >= threshold)
+    return int(counts[1:-1][peaks][0]) if peaks.any() else None
+
+
+def _mahalanobis(deviations: Floats, covariance: Floats, floor: float) -> float:
+    """Mean squared distance under the covariance that probabilistic PCA makes of this one."""
+    variances, axes = np.linalg.eigh(covariance)
+    variances, axes = np.maximum(variances[::-1], floor), axes[:, ::-1]
+    kept = min(dimensions_kept(variances, PPCA_SHARE), len(variances) - 1)
+    inside = deviations @ axes[:, :kept]
+    outside = (deviations**2).sum(axis=1) - (inside**2).sum(axis=1)
+    distances = (inside**2 / variances[:kept]).sum(axis=1) + outside / variances[kept:].mean()
+    return float(distances.mean())

@@ -1,0 +1,1 @@
+"""The method ``kineme``: recurrence whatever the phase, change points, actions, repetitions."""

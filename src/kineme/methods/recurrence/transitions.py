@@ -1,0 +1,123 @@
+"""Transitions: from where one activity ends to where the next begins.
+
+An activity lasts for as long as its poses are found again in it. So the left
+one of two neighbours ends where its moments begin to recur badly, the right
+one begins where its moments recur well, and what lies between is transition.
+How badly is a matter of degree: a range of thresholds votes, and their mean
+counts. Where the two overlap both explain what is seen, as when somebody
+stands still after the one and before the other. There the border is where
+movement is slowest, which is where people see one event end and another begin
+(Zacks, Kumar, Abrams and Mehta 2009).
+
+The method is ours. See ``docs/method.md`` for what each step contributes.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._threads import even_slices, map_threads
+from kineme.methods.recurrence import _recurrence_kernels as kernels
+from kineme.methods.recurrence.actions import Actions
+from kineme.methods.recurrence.recurrence import Recurrence
+from kineme.methods.recurrence.stretches import Bins
+
+# The thresholds that vote, as multiples of the one given.
+VOTES = np.linspace(0.7, 1.3, 7)
+# Moments recur badly by comparison with so many of their action.
+USUAL = 0.9
+# A transition takes no more than this share of an activity at either end.
+LARGEST_SHARE = 0.25
+
+
+def activity_ends(
+    actions: Actions, recurrence: Recurrence, *, factor: float, longest: int
+) -> tuple[Bins, Bins]:
+    """Frames where each stretch but the last ends, and where each but the first begins.
+
+    Equal where two stretches touch; stretches of no action have the ends that
+    their neighbours leave them.
+
+    Parameters
+    ----------
+    actions : Actions
+    recurrence : Recurrence
+    factor : moments recur badly if they are farther from the rest of their action than this
+        times its 90 % quantile
+    longest : bins that a transition reaches into a stretch at most
+    """
+    per_bin = np.repeat(actions.labels, np.diff(actions.borders))
+    thresholds = factor * VOTES[:, None] * _usual_distances(recurrence, per_bin)
+    reach = np.minimum(longest, LARGEST_SHARE * np.diff(actions.borders)).astype(np.int64)
+    ends, begins = [], []
+    for g, border in enumerate(actions.borders[1:-1].tolist()):
+        around = slice(border - int(reach[g]), border + int(reach[g + 1]))
+        at = border - around.start
+        shifts = []
+        for side, action in enumerate(actions.labels[g : g + 2].tolist()):
+            if action >= 0 and np.isfinite(thresholds[0, action]):
+                distances = _distances(recurrence, per_bin, action, around)
+                strange = distances > thresholds[:, action, None]
+                shifts.append(np.mean([(_end, _begin)[side](votes, at) for votes in strange]))
+        left, right = (shifts[0], shifts[-1]) if shifts else (at, at)
+        end, begin = (round(recurrence.step * (around.start + float(s))) for s in (left, right))
+        if end > begin:
+            end = begin = _slowest(recurrence, begin, end)
+        ends.append(end)
+        begins.append(begin)
+    return np.array(ends, np.int64), np.array(begins, np.int64)
+
+
+def _usual_distances(recurrence: Recurrence, per_bin: Bins) -> NDArray[np.float64]:
+    """How far most moments of each action are from the rest of it at most; infinite if unknown."""
+    nearest = np.empty(len(per_bin), np.float32)
+
+    def measure(part: slice) -> None:
+        kernels.class_distances(
+            recurrence.near, per_bin, per_bin, recurrence.phase, part.start, part.stop, nearest
+        )
+
+    map_threads(measure, even_slices(len(per_bin)))
+    usual = np.full(int(per_bin.max()) + 1, np.inf)
+    for action in range(len(usual)):
+        known = nearest[(per_bin == action) & np.isfinite(nearest)]
+        if known.size:
+            usual[action] = np.quantile(known, USUAL)
+    return usual
+
+
+def _distances(
+    recurrence: Recurrence, per_bin: Bins, action: int, bins: slice
+) -> NDArray[np.float32]:
+    """How far some bins are from the nearest of an action."""
+    nearest = np.empty(len(per_bin), np.float32)
+    wanted = np.full(len(per_bin), action)
+    kernels.class_distances(
+        recurrence.near, per_bin, wanted, recurrence.phase, bins.start, bins.stop, nearest
+    )
+    return nearest[bins]
+
+
+def _end(strange: NDArray[np.bool_], border: int) -> int:
+    """Where the familiar ends: before the border if it is strange there, else after it."""
+    back = leading(strange[:border][::-1])
+    return border - back if back else border + leading(~strange[border:])
+
+
+def _begin(strange: NDArray[np.bool_], border: int) -> int:
+    """Where the familiar begins: after the border if it is strange there, else before it."""
+    return len(strange) - _end(strange[::-1], len(strange) - border)
+
+
+def _slowest(recurrence: Recurrence, first: int, last: int) -> int:
+    """The frame from first to last about which the features change least."""
+    rows, step = recurrence.features, recurrence.step
+    frames = np.arange(first, last + 1)
+    before, after = np.maximum(frames - step, 0), np.minimum(frames + step, len(rows) - 1)
+    return first + int(np.linalg.norm(rows[after] - rows[before], axis=1).argmin())
+
+
+def leading(mask: NDArray[np.bool_]) -> int:
+    """How many of the first values are true."""
+    return len(mask) if mask.all() else int(np.argmin(mask))

@@ -1,0 +1,113 @@
+"""Clusters: segments that match each other, anywhere in the recording.
+
+A segment g is linked to a segment h if a warping path through the rows of g
+covers enough of both. Clusters are the connected components of these links;
+their number is a result, not a parameter.
+
+Sources: Vögele, Krüger and Klein 2014, section 4; coverage and strong
+components as in the authors' program and Krüger et al. 2017.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
+
+from kineme._threads import map_threads
+from kineme.graph import NeighborGraph, warping_paths
+from kineme.graph.warping import Step
+from kineme.methods.numbering import by_first_appearance
+from kineme.methods.region_growing import _kernels
+
+
+@dataclass(frozen=True, eq=False)
+class Clustering:
+    """``labels[g]``: cluster of segment g, numbered by first appearance from 0.
+
+    ``scores[g]`` is the largest share that a path covers of g and of another
+    segment of its cluster; 0 where g is alone.
+    """
+
+    labels: NDArray[np.int64]
+    scores: NDArray[np.float64]
+
+
+def cluster_segments(
+    graph: NeighborGraph,
+    borders: NDArray[np.int64],
+    *,
+    steps: Sequence[Step],
+    skip_penalty: float,
+    zero_cost: float,
+    min_nodes: int,
+    separation: int | None,
+    max_slope: float,
+    coverage: float,
+    interpolate: bool,
+    connection: Literal["weak", "strong"],
+) -> Clustering:
+    """Groups of segments that warping paths link.
+
+    Parameters
+    ----------
+    graph : NeighborGraph, main diagonal included
+    borders : (segments + 1,)
+        Ascending frames; segment g is ``borders[g]..borders[g + 1]``, both inclusive.
+    steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
+        As in :func:`kineme.graph.warping_paths`.
+    coverage : share of both segments that a path must cover
+    interpolate : take the rows of a path at the borders of h (2017), or all of them (2014)
+    connection : links in one direction suffice (weak), or must lead back (strong)
+    """
+    n = len(borders) - 1
+
+    def links_of(g: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        paths = warping_paths(
+            graph,
+            (int(borders[g]), int(borders[g + 1]) + 1),
+            (0, graph.n_columns),
+            steps=steps,
+            skip_penalty=skip_penalty,
+            zero_cost=zero_cost,
+            min_nodes=min_nodes,
+            separation=separation,
+            max_slope=max_slope,
+        )
+        linked: tuple[NDArray[np.int64], NDArray[np.float64]] = _kernels.linked_segments(
+            paths.ptr, paths.rows, paths.columns, borders, g, coverage, interpolate
+        )
+        return linked
+
+    targets, shares = zip(*map_threads(links_of, range(n)), strict=True)
+    links = _link_matrix(targets, shares)
+    _, components = connected_components(links, directed=True, connection=connection)
+    return Clustering(by_first_appearance(components), _best_shares(links, components))
+
+
+def _link_matrix(
+    targets: Sequence[NDArray[np.int64]], shares: Sequence[NDArray[np.float64]]
+) -> csr_array:
+    """Largest share per ordered pair of different segments."""
+    n = len(targets)
+    g = np.repeat(np.arange(n), [len(linked) for linked in targets])
+    h, share = np.concatenate(targets), np.concatenate(shares)
+    order = np.lexsort((-share, h, g))
+    g, h, share = g[order], h[order], share[order]
+    keep = g != h
+    keep[1:] &= (np.diff(g) != 0) | (np.diff(h) != 0)
+    return csr_array((share[keep], (g[keep], h[keep])), shape=(n, n))
+
+
+def _best_shares(links: csr_array, components: NDArray[np.int32]) -> NDArray[np.float64]:
+    coo = links.tocoo()
+    same = components[coo.row] == components[coo.col]
+    scores = np.zeros(len(components))
+    np.maximum.at(scores, coo.row[same], coo.data[same])
+    np.maximum.at(scores, coo.col[same], coo.data[same])
+    return scores

@@ -1,0 +1,90 @@
+"""Primitives: the repetitions inside an activity.
+
+Inside an activity every repetition draws a minor diagonal into the
+self-similarity matrix: a connected component of the neighbour graph, and
+through it a cheapest warping path. Where such a path meets the first rows of
+the activity, a repetition begins.
+
+Sources: Vögele, Krüger and Klein 2014, section 3.2, figure 3; Krüger et al.
+2017 and the authors' program for the rule between close cuts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.graph import NeighborGraph, WarpingPaths, warping_paths
+from kineme.graph.warping import Step
+from kineme.methods.region_growing import _kernels
+
+
+@dataclass(frozen=True, eq=False)
+class PrimitiveCuts:
+    """Where repetitions start inside one activity, and the paths that say so.
+
+    ``paths`` are those that hold; path ``sources[i]`` gave ``cuts[i]``.
+    """
+
+    cuts: NDArray[np.int64]
+    sources: NDArray[np.int64]
+    paths: WarpingPaths
+
+
+def primitive_cuts(
+    graph: NeighborGraph,
+    activity: tuple[int, int],
+    *,
+    steps: Sequence[Step],
+    skip_penalty: float,
+    zero_cost: float,
+    min_nodes: int,
+    separation: int | None,
+    max_slope: float,
+    symmetry: float,
+    min_length: float,
+) -> PrimitiveCuts:
+    """Frames at which repetitions start inside an activity, ascending.
+
+    Parameters
+    ----------
+    graph : NeighborGraph, main diagonal included
+    activity : (first, last), both inclusive; neighbouring activities share the border frame
+    steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
+        As in :func:`kineme.graph.warping_paths`.
+    symmetry : share of a path's rows and columns that another path (or itself)
+        must match the other way round (symmetry coherence)
+    min_length : frames; a cut closer than this to a border of the activity
+        falls, of two closer cuts the one with the shorter path
+    """
+    first, last = activity
+    box = (first, last + 1)
+    paths = warping_paths(
+        graph,
+        box,
+        box,
+        steps=steps,
+        skip_penalty=skip_penalty,
+        zero_cost=zero_cost,
+        min_nodes=min_nodes,
+        separation=separation,
+    )
+    coherent = _kernels.coherent_paths(paths.ptr, paths.rows, paths.columns, symmetry)
+    paths = paths.select(coherent & paths.within_slope(max_slope))
+    return _choose(paths, first + min_length, last - min_length, min_length)
+
+
+def _choose(paths: WarpingPaths, low: float, high: float, min_length: float) -> PrimitiveCuts:
+    starts = paths.starts[1].astype(np.int64)
+    cuts: list[int] = []
+    sources: list[int] = []
+    for p in np.argsort(-paths.n_nodes, kind="stable"):
+        cut = int(starts[p])
+        if low <= cut <= high and all(abs(cut - other) >= min_length for other in cuts):
+            cuts.append(cut)
+            sources.append(int(p))
+    order = np.argsort(cuts)
+    return PrimitiveCuts(np.array(cuts, np.int64)[order], np.array(sources, np.int64)[order], paths)

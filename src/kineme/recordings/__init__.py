@@ -1,0 +1,1 @@
+"""What is read from a file and segmented: the motion of a body, or signals."""

@@ -1,0 +1,91 @@
+"""Segmenter: segmentation by scikit-learn's rules, for arrays, data frames and grid searches.
+
+Rows are moments in time order, columns channels. Unlike the clusterers of
+scikit-learn, this one depends on that order: rows that are shuffled are another
+recording.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Self
+
+import numpy as np
+from sklearn.base import BaseEstimator, ClusterMixin
+from sklearn.utils.validation import validate_data
+
+from kineme.methods.presets import DEFAULT, Preset
+from kineme.recordings.signals import Signals
+from kineme.segmentation.channels import SMOOTHING, signal_preset
+from kineme.segmentation.signals import segment_signals_and_analysis
+
+
+class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
+    """The segments of a multivariate time series; ``fit_predict`` gives a cluster for each row.
+
+    Parameters
+    ----------
+    preset : ``kineme``, ``voegele2014`` or ``krueger2017``
+    fps : rows per second; by default rows are frames of the preset's working rate, 30 Hz
+    smoothing : seconds over which channels are averaged; 0 for none
+    emg : take the envelopes of muscle signals first
+    **constants : of the preset, to change, as in `kineme.segment_signals`; they are
+        parameters like the others for ``get_params``, ``set_params`` and grid searches
+
+    Attributes
+    ----------
+    labels_ : (rows,) cluster of the repetition that each row is in, -1 in transitions
+    segmentation_ : `Segmentation`, activities and repetitions in rows and seconds
+    n_features_in_ : int
+    feature_names_in_ : (columns,) where X had names
+
+    Raises
+    ------
+    ParameterError : in ``fit``: a constant that the preset does not have, or a value it
+        cannot take
+    """
+
+    labels_: np.ndarray[tuple[int], np.dtype[np.int64]]
+
+    def __init__(
+        self,
+        preset: str | Preset = DEFAULT,
+        *,
+        fps: float | None = None,
+        smoothing: float = SMOOTHING,
+        emg: bool = False,
+        **constants: Any,
+    ):
+        self.preset = preset
+        self.fps = fps
+        self.smoothing = smoothing
+        self.emg = emg
+        self._constants = constants
+
+    def fit(self, X: Any, y: Any = None) -> Self:  # noqa: ARG002, N803 (scikit-learn's names)
+        """Segment the rows of X, (frames, channels); y is there for scikit-learn alone."""
+        values = validate_data(self, X, dtype=np.float64)
+        preset = signal_preset(self.preset, **self._constants)
+        names = getattr(self, "feature_names_in_", ())
+        fps = preset.working_fps if self.fps is None else self.fps
+        signals = Signals(values, fps, tuple(map(str, names)))
+        if self.fps is None:
+            note = f"frame rate {preset.working_fps:g} Hz assumed: no fps was given"
+            signals = signals.noted(note)
+        result, _ = segment_signals_and_analysis(
+            signals, preset, emg=self.emg, smoothing=self.smoothing
+        )
+        self.segmentation_ = result
+        self.labels_ = result.per_frame("cluster")
+        return self
+
+    def get_params(self, deep: bool = True) -> dict[str, Any]:
+        """The parameters and the constants that were changed."""
+        return {**super().get_params(deep=deep), **self._constants}
+
+    def set_params(self, **params: Any) -> Self:
+        """Change parameters or constants of the preset; ``fit`` says which it cannot take."""
+        own = set(self._get_param_names())
+        constants = {name: value for name, value in params.items() if name not in own}
+        self._constants = {**self._constants, **constants}
+        super().set_params(**{name: value for name, value in params.items() if name in own})
+        return self

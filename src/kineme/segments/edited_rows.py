@@ -1,0 +1,106 @@
+"""Pieces of edits: rows of one level, in time order, and what becomes of them.
+
+:mod:`kineme.segments.editing` puts them together.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from kineme.errors import ParameterError
+from kineme.segments.table import Level, Segment
+
+Rows = list[Segment]
+
+
+def moved(rows: Rows, frame: int, to: int) -> Rows:
+    """The border at ``frame`` stands at ``to``."""
+    return [
+        replace(row, stop_frame=to, score=math.nan)
+        if row.stop_frame == frame
+        else replace(row, start_frame=to, score=math.nan)
+        if row.start_frame == frame
+        else row
+        for row in rows
+    ]
+
+
+def cut(rows: Rows, frame: int) -> Rows:
+    """The row that ``frame`` lies in, if any, as two."""
+    parts: Rows = []
+    for row in rows:
+        if row.start_frame < frame < row.stop_frame:
+            parts.append(replace(row, stop_frame=frame, score=math.nan))
+            row = replace(row, start_frame=frame, score=math.nan)  # noqa: PLW2901
+        parts.append(row)
+    return parts
+
+
+def joined(rows: Rows, first: int, last: int, like: int) -> Rows:
+    """Rows ``first`` to ``last`` as one that is like one of them."""
+    if first == last:
+        return rows
+    span = rows[first].start_frame, rows[last].stop_frame
+    one = replace(rows[like], start_frame=span[0], stop_frame=span[1], score=math.nan)
+    return [*rows[:first], one, *rows[last + 1 :]]
+
+
+def adopted(row: Segment, before: Segment, after: Segment) -> Segment:
+    """A primitive that lay in one activity and lies in another."""
+    new = replace(
+        row,
+        kind=after.kind if row.kind == before.kind else row.kind,
+        cluster=after.cluster if row.cluster == before.cluster >= 0 else row.cluster,
+        label=after.label if row.label == before.label != "" else row.label,
+    )
+    same = (new.kind, new.cluster) == (row.kind, row.cluster)
+    return new if same else replace(new, score=math.nan)
+
+
+def as_transition(row: Segment) -> Segment:
+    """The row as a transition, which is in no cluster."""
+    return replace(row, kind="transition", cluster=-1, score=math.nan)
+
+
+def as_activity(row: Segment) -> Segment:
+    """The row as an activity or a primitive in one."""
+    return replace(row, kind="activity", score=math.nan)
+
+
+def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, int, int]) -> Rows:
+    """The primitives once the border of activities (number, from, to) has moved."""
+    number, frame, to = move
+    low, high = min(frame, to), max(frame, to)
+    borders = cuts(primitives)
+    if to not in borders:
+        passed = [border for border in borders if low <= border <= high]
+        primitives = moved(primitives, min(passed, key=lambda border: abs(border - to)), to)
+    gave, took = (number - 1, number) if to < frame else (number, number - 1)
+    inside = [i for i, row in enumerate(primitives) if low <= row.start_frame < high]
+    inside = [i for i in inside if primitives[i].stop_frame <= high]
+    for i in inside:
+        primitives[i] = adopted(primitives[i], before[gave], after[took])
+    if inside and after[took].kind == "transition":
+        own = inside[-1] + 1 if to < frame else inside[0] - 1
+        primitives = joined(primitives, min(own, inside[0]), max(own, inside[-1]), own)
+    return primitives
+
+
+def cuts(rows: Rows) -> list[int]:
+    """Where one row stops and the next starts."""
+    return [row.start_frame for row in rows[1:]]
+
+
+def after_border(rows: Rows, level: Level, frame: int) -> int:
+    """The number of the segment after the border; ParameterError where there is none."""
+    if frame not in cuts(rows):
+        nearest = min(cuts(rows), key=lambda border: abs(border - frame), default=None)
+        hint = "there is none" if nearest is None else f"the nearest is at {nearest}"
+        raise ParameterError(f"no border of level {level!r} is at frame {frame}; {hint}")
+    return next(i for i, row in enumerate(rows) if row.start_frame == frame)
+
+
+def length(row: Segment) -> int:
+    """Frames."""
+    return row.stop_frame - row.start_frame

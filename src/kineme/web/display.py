@@ -1,0 +1,156 @@
+"""What a page draws of a motion: where its joints are, small enough to be sent once.
+
+The poses are those at 0, 1/30, 2/30, ... seconds (those of the file if it has
+fewer), joined in straight lines. Each coordinate of each joint is a column of
+whole numbers: ``position = origin + step * number``; -32768 stands for what was
+not seen. Columns follow each other, joint by joint, x, y, z of each. A column
+holds its first number, then the differences, as 16-bit integers, little end
+first, which wrap around; all columns together are compressed with zlib.
+
+``step`` is a ten-thousandth of the body, or a two-thousandth where that would
+be too long; motions longer still are shown at a lower rate.
+"""
+
+from __future__ import annotations
+
+import zlib
+from math import floor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import MotionError
+from kineme.features import PARTS, Names, end_effectors, heading
+from kineme.formats.marker_sets import PARENTS
+from kineme.recordings.motion import Motion
+from kineme.web.messages import MotionHead
+
+Floats = NDArray[np.float64]
+
+RATE = 30.0  # poses per second: what a page plays without visible steps
+MOST_BYTES = 11_000_000  # so that the report of an hour, with all else in it, is under 30 MB
+MISSING = -32768
+FINE, COARSE = 1e-4, 5e-4  # steps, as shares of the body's largest extent
+
+
+def display_motion(
+    motion: Motion, *, effectors: Names | None = None, most_bytes: int = MOST_BYTES
+) -> tuple[MotionHead, bytes]:
+    """How to read the binary motion, and the binary motion.
+
+    Parameters
+    ----------
+    motion : Motion
+    effectors : joints to take for head, hands and feet where names do not tell
+    most_bytes : length above which fewer digits are sent, then fewer poses
+    """
+    fps = min(motion.fps, RATE)
+    positions = sampled(motion, fps)
+    # Fine numbers take more than a byte each, so that many of them need not be tried.
+    shares = (FINE, COARSE) if positions.size <= most_bytes else (COARSE,)
+    for share in shares:
+        origin, step, data = encode(positions, share)
+        if len(data) <= most_bytes:
+            break
+    # Poses farther apart differ more, so that half of them take more than half the length.
+    while len(data) > most_bytes and len(positions) > 2:
+        fps *= max(0.25, 0.9 * most_bytes / len(data))
+        positions = sampled(motion, fps)
+        origin, step, data = encode(positions, COARSE)
+    joints, angles = _facing(motion, effectors, len(positions), fps)
+    head: MotionHead = {
+        "n_samples": len(positions),
+        "sample_fps": fps,
+        "joints": list(motion.skeleton.names),
+        "parents": list(motion.skeleton.parents),
+        "bones": bones(motion),
+        "origin": origin,
+        "step": step,
+        "heading": angles,
+        "effectors": joints,
+    }
+    return head, data
+
+
+def sampled(motion: Motion, fps: float) -> Floats:
+    """Positions (samples, joints, 3) at 0, 1/fps, 2/fps, ...; nan in the motion's gaps."""
+    ratio = motion.fps / fps
+    n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
+    at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
+    before = np.floor(at + 1e-9).astype(np.intp)
+    share = np.maximum(at - before, 0)[:, None, None]
+    positions: Floats = motion.positions[before]
+    if share.max() > 1e-6:
+        after = np.minimum(before + 1, motion.n_frames - 1)
+        positions += share * (motion.positions[after] - positions)
+    for start, stop in motion.gaps:
+        positions[(at > start - 1) & (at < stop)] = np.nan
+    return positions
+
+
+def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float], float, bytes]:
+    """Origin, step and the compressed columns of positions (samples, joints, 3), nan if not seen.
+
+    ``share``: the step, as a share of the largest extent of the median pose;
+    larger where 16 bits do not reach to both ends of the recording.
+    """
+    seen = np.asarray(np.isfinite(positions).all(axis=2))
+    points = positions[seen]
+    if not len(points):
+        points = np.zeros((1, 3))
+    low, high = points.min(axis=0), points.max(axis=0)
+    origin = (low + high) / 2
+    step = max(share * _extent(positions, seen), float((high - low).max()) / 65000) or 1.0
+    numbers = np.full(positions.shape, MISSING, np.int16)
+    numbers[seen] = np.rint((points[: seen.sum()] - origin) / step)
+    columns = np.ascontiguousarray(numbers.reshape(len(numbers), -1).T)
+    columns[:, 1:] -= columns[:, :-1].copy()
+    x, y, z = origin.tolist()
+    return (x, y, z), step, zlib.compress(columns.astype("<i2").tobytes(), 6)
+
+
+def bones(motion: Motion) -> list[tuple[int, int]]:
+    """Pairs (parent, child) of joints to draw a line between.
+
+    Of markers only the joints made from them are joined: the markers
+    themselves hang on the pelvis for want of anything better.
+    """
+    skeleton = motion.skeleton
+    lengths = np.linalg.norm(skeleton.offsets, axis=1)
+    pairs = [
+        (parent, joint)
+        for joint, parent in enumerate(skeleton.parents)
+        if parent >= 0 and lengths[joint] > 0
+    ]
+    if motion.rotations is not None:
+        return pairs
+    names = skeleton.names
+    of_bodies = [(a, b) for a, b in pairs if PARENTS.get(names[b]) == names[a]]
+    return of_bodies or pairs
+
+
+def _extent(positions: Floats, seen: NDArray[np.bool_]) -> float:
+    """Largest extent of the median pose along an axis, in metres."""
+    whole = positions[seen.all(axis=1)]
+    if not len(whole):
+        return 0.0
+    few = whole[:: max(1, len(whole) // 1000)]
+    return float(np.median(np.ptp(few, axis=1).max(axis=1)))
+
+
+def _facing(
+    motion: Motion, effectors: Names | None, n_samples: int, fps: float
+) -> tuple[dict[str, int], list[float] | None]:
+    """Joints of the parts and of the pelvis, and the heading of each sample, where known."""
+    try:
+        found = end_effectors(motion, names=effectors)
+    except MotionError:
+        return {}, None
+    joints = dict(zip(PARTS, found.indices, strict=True))
+    try:
+        pelvis, angles = heading(motion, effectors=found)
+    except MotionError:
+        return joints, None
+    nearest = np.rint(np.arange(n_samples) * (motion.fps / fps)).astype(np.intp)
+    shown = angles[np.minimum(nearest, motion.n_frames - 1)].round(3)
+    return {**joints, "pelvis": pelvis}, shown.tolist()

@@ -1,0 +1,262 @@
+// Made from src/kineme/web/messages.py by make_messages.py; change it there.
+
+export type Level = "activity" | "primitive";
+
+export type Kind = "activity" | "transition";
+
+/** A row of the segment table; `score` is null where there is none. */
+export interface Segment {
+  level: Level;
+  kind: Kind;
+  start_frame: number;
+  stop_frame: number;
+  start_s: number;
+  stop_s: number;
+  cluster: number;
+  activity: number;
+  label: string;
+  score: number | null;
+}
+
+/** A segment table as its JSON file has it (`kineme.segments/1`). */
+export interface Segments {
+  schema: string;
+  n_frames: number;
+  fps: number;
+  provenance: Record<string, unknown>;
+  timings: Record<string, number>;
+  segments: Segment[];
+}
+
+/**
+ * How to read the binary motion; see `kineme.web.display`.
+ *
+ * `n_samples` poses at `sample_fps`; position of a joint in metres, y up:
+ * `origin + step * integer`. `heading` is where the body looks at each
+ * sample: radians about y from +z towards +x; null where it is not known.
+ * `effectors` has the joint of `left_ankle`, `right_ankle`, `head`,
+ * `left_wrist`, `right_wrist` and `pelvis`; it is empty without a body.
+ */
+export interface MotionHead {
+  n_samples: number;
+  sample_fps: number;
+  joints: string[];
+  parents: number[];
+  bones: [number, number][];
+  origin: [number, number, number];
+  step: number;
+  heading: number[] | null;
+  effectors: Record<string, number>;
+}
+
+/**
+ * The pyramid of self-similarity tiles; see `kineme.web.matrix`.
+ *
+ * Level 0 has one cell per sample of `fps` and `sizes[0]` cells a side;
+ * each next level halves that; the last is one tile. Tiles are square, `tile`
+ * cells a side, the last of a row or column cut off at the end of the recording.
+ * A report has the tiles with row >= column only, the others being their mirror
+ * images; where `band` is a number, tiles of the finer levels farther than so
+ * many of their cells from the diagonal may be missing, too.
+ */
+export interface MatrixHead {
+  fps: number;
+  tile: number;
+  sizes: number[];
+  band: number | null;
+}
+
+/** Everything a page needs of one recording but the binary parts. */
+export interface Recording {
+  id: string;
+  name: string;
+  n_frames: number;
+  fps: number;
+  motion: MotionHead | null;
+  matrix: MatrixHead;
+  segmentation: Segments;
+  revision: number;
+  can_undo: boolean;
+  can_redo: boolean;
+  saved: string;
+  warnings: string[];
+}
+
+/** A constant of a preset that the page offers to change. */
+export interface Parameter {
+  name: string;
+  help: string;
+  value: number;
+  minimum: number;
+  maximum: number;
+  step: number;
+  unit: string;
+}
+
+/** A preset, and the few of its constants that matter most. */
+export interface PresetChoice {
+  name: string;
+  help: string;
+  parameters: Parameter[];
+}
+
+/** A recording of the folder, opened or not. */
+export interface Listing {
+  id: string;
+  name: string;
+  bytes: number;
+  corrected: boolean;
+}
+
+/** A file of the folder that an operation can take: a knowledge base, a label file. */
+export interface FileChoice {
+  id: string;
+  name: string;
+}
+
+/** A format segments can be written in. */
+export interface ExportFormat {
+  name: string;
+  suffix: string;
+  help: string;
+}
+
+/** What the studio offers: the first message a page asks for. */
+export interface State {
+  version: string;
+  folder: string;
+  recordings: Listing[];
+  presets: PresetChoice[];
+  default_preset: string;
+  knowledge_bases: FileChoice[];
+  annotations: FileChoice[];
+  export_formats: ExportFormat[];
+}
+
+/** The border at `frame` of a level goes to `to`. */
+export interface MoveBorder {
+  kind: "move_border";
+  level: Level;
+  frame: number;
+  to: number;
+}
+
+/** A new border at `frame`. */
+export interface Split {
+  kind: "split";
+  level: Level;
+  frame: number;
+}
+
+/** The segments of `[start_frame, stop_frame)` become one. */
+export interface Merge {
+  kind: "merge";
+  level: Level;
+  start_frame: number;
+  stop_frame: number;
+}
+
+/** The two segments that meet at `frame` become one: the longer takes the other. */
+export interface DeleteBorder {
+  kind: "delete_border";
+  level: Level;
+  frame: number;
+}
+
+/** The segment that starts at `frame` gets a label; an empty one takes it away. */
+export interface NameSegment {
+  kind: "name_segment";
+  level: Level;
+  frame: number;
+  label: string;
+}
+
+/** All segments of a cluster, of both levels, get a label. */
+export interface NameCluster {
+  kind: "name_cluster";
+  cluster: number;
+  label: string;
+}
+
+/** The segment that starts at `frame` joins a cluster; -1: none. */
+export interface SetCluster {
+  kind: "set_cluster";
+  level: Level;
+  frame: number;
+  cluster: number;
+}
+
+/** The segment that starts at `frame` is an activity, or a transition and in no cluster. */
+export interface SetKind {
+  kind: "set_kind";
+  level: Level;
+  frame: number;
+  to: Kind;
+}
+
+/** The whole table anew, by a preset. */
+export interface SegmentAgain {
+  kind: "segment";
+  preset: string;
+  parameters: Record<string, number>;
+}
+
+/** Labels from a knowledge base of the folder. */
+export interface Transfer {
+  kind: "transfer";
+  knowledge_base: string;
+  threshold?: number;
+  spread?: boolean;
+}
+
+/** The last edit is taken back. */
+export interface Undo {
+  kind: "undo";
+}
+
+/** The last edit taken back is done again. */
+export interface Redo {
+  kind: "redo";
+}
+
+export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | SegmentAgain | Transfer | Undo | Redo;
+
+/** An edit of the table as it was at `revision`. */
+export interface EditRequest {
+  revision: number;
+  edit: Edit;
+}
+
+/** The table after an edit, already on the disk as `saved`. */
+export interface Edited {
+  revision: number;
+  segmentation: Segments;
+  can_undo: boolean;
+  can_redo: boolean;
+  saved: string;
+  notes: string[];
+}
+
+/** Another result to lay beside the shown one: a preset's, or a file's of the folder. */
+export interface CompareRequest {
+  preset?: string;
+  annotation?: string;
+}
+
+/** The other result, and how well the shown one agrees with it. */
+export interface Comparison {
+  name: string;
+  segmentation: Segments;
+  scores: Record<string, number>;
+}
+
+/** Sent to every page when a recording's table changed or a file came. */
+export interface Changed {
+  recording: string;
+  revision: number;
+}
+
+/** Why a request was refused, in one sentence. */
+export interface Failure {
+  error: string;
+}

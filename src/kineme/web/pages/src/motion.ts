@@ -1,0 +1,69 @@
+/** Positions of joints over time, unpacked from the binary motion. */
+import type { MotionHead } from "./messages";
+
+const MISSING = -32768;
+
+/** Poses of a recording: `steps` holds x, y, z of each joint, sample after sample. */
+export interface Motion {
+  head: MotionHead;
+  steps: Int16Array;
+}
+
+/** The motion of a deflated message; see `kineme.web.display`. */
+export async function unpackMotion(head: MotionHead, packed: ArrayBuffer): Promise<Motion> {
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return decodeMotion(head, await new Response(stream).arrayBuffer());
+}
+
+/** Differences column by column (joint, then axis) become values sample by sample. */
+export function decodeMotion(head: MotionHead, bytes: ArrayBuffer): Motion {
+  const { n_samples } = head;
+  const n_columns = head.joints.length * 3;
+  if (bytes.byteLength !== 2 * n_samples * n_columns)
+    throw new Error(`The motion has ${bytes.byteLength} bytes, not ${2 * n_samples * n_columns}.`);
+  const view = new DataView(bytes);
+  const steps = new Int16Array(n_samples * n_columns);
+  for (let column = 0; column < n_columns; column++) {
+    let value = 0;
+    for (let sample = 0; sample < n_samples; sample++) {
+      value += view.getInt16(2 * (column * n_samples + sample), true);
+      steps[sample * n_columns + column] = value; // wraps, as the differences do
+    }
+  }
+  return { head, steps };
+}
+
+/**
+ * The pose at a time (seconds) goes into `out`: x, y, z per joint, metres, between the two
+ * nearest samples. A joint that is missing in either becomes NaN.
+ */
+export function poseAt(motion: Motion, seconds: number, out: Float32Array): void {
+  const { origin, step, n_samples, sample_fps } = motion.head;
+  const at = Math.min(Math.max(seconds * sample_fps, 0), n_samples - 1);
+  const first = Math.floor(at);
+  const share = at - first;
+  const n = motion.head.joints.length * 3;
+  const a = first * n;
+  const b = Math.min(first + 1, n_samples - 1) * n;
+  for (let i = 0; i < n; i++) {
+    const from = motion.steps[a + i]!;
+    const to = motion.steps[b + i]!;
+    out[i] =
+      from === MISSING || to === MISSING
+        ? NaN
+        : origin[i % 3]! + step * (from + share * (to - from));
+  }
+}
+
+/** Where the body looks at a time, radians about y from +z towards +x; 0 where not known. */
+export function headingAt(motion: Motion, seconds: number): number {
+  const { heading, sample_fps } = motion.head;
+  if (!heading || heading.length === 0) return 0;
+  const at = Math.min(Math.max(Math.round(seconds * sample_fps), 0), heading.length - 1);
+  return heading[at]!;
+}
+
+/** The joint that has no parent. */
+export function rootOf(head: MotionHead): number {
+  return Math.max(head.parents.indexOf(-1), 0);
+}

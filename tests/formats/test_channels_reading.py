@@ -1,0 +1,259 @@
+"""Signals from files: the tables people have, OpenSim's, analog channels, and bad ones."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pyarrow import parquet
+from scipy.io import savemat
+
+from kineme import read, read_signals, segment_signals
+from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
+from kineme.formats.channels.reading import is_signal_file
+
+MOT = (
+    "Coordinates\nversion=1\nnRows=3\nnColumns=3\ninDegrees=yes\n\nendheader\n"
+    "time\tknee_angle_r\thip_flexion_r\n"
+)
+
+
+def write(folder: Path, name: str, text: str) -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_table_of_a_phone(tmp_path) -> None:
+    rows = "".join(f"{i},{i * 10},walk,{i}.5,{-i},9.8\n" for i in range(20))
+    text = "sample,time_ms,activity,acc_x,acc_y,acc_z\n" + rows
+    signals = read_signals(write(tmp_path, "phone.csv", text))
+    assert signals.names == ("acc_x", "acc_y", "acc_z")
+    assert signals.fps == pytest.approx(100)
+    assert signals.values[3].tolist() == [3.5, -3, 9.8]
+    assert signals.provenance.notes == ("columns that are no channels: sample, activity",)
+    assert signals.provenance.format == "table"
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.csv", "# by a logger\na,b\n1,2\n3,4\n"),
+        ("a.tsv", "a\tb\n1\t2\n3\t4\n"),
+        ("a.txt", "a;b\n1;2\n3;4\n"),
+        ("a.dat", "a   b\n 1.0  2.0\n 3.0  4.0\n"),
+        ("a.csv", '"a","b"\n1,2\n3,4\n'),
+        ("a.csv", "\ufeffa,b\r\n1,2\r\n3,4\r\n"),
+    ],
+)
+def test_dialects(tmp_path, name, text) -> None:
+    signals = read_signals(write(tmp_path, name, text), fps=50)
+    assert signals.names == ("a", "b")
+    assert signals.values.tolist() == [[1, 2], [3, 4]]
+    assert signals.fps == 50
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        ",a,b\n0,1,2\n1,3,4\n",  # pandas with its index
+        "a,b,\n1,2,\n3,4,\n",
+        "__index_level_0__,a,b\n0,1,2\n1,3,4\n",
+    ],
+)
+def test_columns_without_a_name_are_no_channels(tmp_path, text) -> None:
+    signals = read_signals(write(tmp_path, "a.csv", text), fps=50)
+    assert signals.names == ("a", "b")
+    assert signals.values.tolist() == [[1, 2], [3, 4]]
+    assert signals.provenance.notes[0].startswith("columns that are no channels: ")
+
+
+@pytest.mark.parametrize("column", ["hip_x,hip_y,hip_z", "a,b,c"])
+def test_times_a_second_apart_are_refused(tmp_path, column) -> None:
+    rows = "".join(f"{i},{i % 7},2,3\n" for i in range(20))
+    path = write(tmp_path, "a.csv", f"time,{column}\n{rows}")
+    reader = read if column.startswith("hip") else read_signals
+    with pytest.raises(ReadError, match=r"times are 1 apart.*1000 for milliseconds"):
+        reader(path)
+
+
+def test_channels_of_another_length_are_named(tmp_path) -> None:
+    path = tmp_path / "two_rates.mat"
+    muscle = np.sin(np.arange(40))
+    savemat(path, {"fs": 100.0, "emg": muscle, "angles": np.zeros((10, 2))})
+    signals = read_signals(path)
+    assert signals.names == ("angles_1", "angles_2")
+    assert signals.provenance.notes == ("of another length, left out: emg",)
+    assert read_signals(path, columns=["emg"]).values[:, 0].tolist() == muscle.tolist()
+    with pytest.raises(ReadError, match="no columns JOINT_x.* named with --columns"):
+        read(path)
+    with pytest.raises(ReadError, match="'angles_1' is not as long as 'emg'"):
+        read_signals(path, columns=["emg", "angles_1"])
+
+
+def test_arrays_are_no_signal_files(tmp_path) -> None:
+    np.save(tmp_path / "a.npy", np.zeros((10, 2)))
+    with pytest.raises(ReadError, match=r"kineme\.Signals"):
+        read_signals(tmp_path / "a.npy", fps=10)
+
+
+def test_numbers_without_names(tmp_path) -> None:
+    signals = read_signals(write(tmp_path, "a.txt", "  1.5e-02 2\n  -3.5  4\n"), fps=10)
+    assert signals.names == ("1", "2")
+    assert signals.values.tolist() == [[0.015, 2], [-3.5, 4]]
+    one = read_signals(write(tmp_path, "b.txt", "1\n2\n"), fps=10, columns=["1"])
+    assert one.values.tolist() == [[1], [2]]
+
+
+def test_chosen_columns_in_the_order_given(tmp_path) -> None:
+    path = write(tmp_path, "a.csv", "time,a,label,b,frame\n0,1,x,2,7\n0.1,3,y,4,8\n")
+    signals = read_signals(path, columns=["frame", "b"])
+    assert signals.names == ("frame", "b")
+    assert signals.values.tolist() == [[7, 2], [8, 4]]
+    assert signals.fps == pytest.approx(10)
+    with pytest.raises(ReadError, match="no column 'c'; there are time, a, label, b, frame"):
+        read_signals(path, columns=["c"])
+    with pytest.raises(ReadError, match="line 2: 'x' is not a number"):
+        read_signals(path, columns=["label"])
+    with pytest.raises(ReadError, match="asked for twice"):
+        read_signals(path, columns=["a", "a"])
+
+
+def test_what_tells_the_rate(tmp_path) -> None:
+    epoch = "".join(f"{1700000000000 + 10 * i},{i}\n" for i in range(9))
+    with pytest.raises(ReadError, match=r"times are 10 apart.*100 for milliseconds"):
+        read_signals(write(tmp_path, "a.csv", "timestamp,a\n" + epoch))
+    assert read_signals(tmp_path / "a.csv", fps=100).names == ("a",)
+    with pytest.raises(ReadError, match="nothing in it tells the frame rate: give fps"):
+        read_signals(write(tmp_path, "b.csv", "a\n1\n2\n"))
+    rated = write(tmp_path, "c.csv", "fps,a\n60,1\n60,2\n")
+    assert read_signals(rated).fps == 60
+    with pytest.raises(ParameterError, match="fps is -1"):
+        read_signals(rated, fps=-1)
+
+
+def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
+    cells = [f"{i},{i}" for i in range(100)]
+    cells[10] = "10,"
+    cells[40:60] = [f"{i},nan" for i in range(40, 60)]
+    signals = read_signals(write(tmp_path, "a.csv", "a,b\n" + "\n".join(cells)), fps=50)
+    assert signals.values[10].tolist() == [10, 10]
+    assert signals.gaps == ((40, 60),)
+    assert signals.provenance.notes == (
+        "1 missing values filled in a straight line",
+        "1 gaps of more than 0.2 s, 20 frames",
+    )
+    with pytest.raises(ReadError, match="column 'b' holds no number"):
+        read_signals(write(tmp_path, "b.csv", "a,b\n1,\n2,\n"), fps=50)
+
+
+def test_opensim_tables(tmp_path) -> None:
+    path = write(tmp_path, "a.mot", MOT + "0.0\t1\t2\n0.01 3   4\n0.02\t5\t6\n")
+    signals = read_signals(path)
+    assert signals.names == ("knee_angle_r", "hip_flexion_r")
+    assert signals.fps == pytest.approx(100)
+    assert signals.values.tolist() == [[1, 2], [3, 4], [5, 6]]
+    assert signals.provenance.format == "MOT/STO"
+    assert is_signal_file(path)
+
+
+def test_parquet(tmp_path) -> None:
+    table = pa.table({"time": [0, 0.5, 1], "a": [1, 2, 3], "who": list("xyz"), "b": [4.0, 5, 6]})
+    parquet.write_table(table, tmp_path / "a.parquet")
+    signals = read_signals(tmp_path / "a.parquet")
+    assert signals.names == ("a", "b")
+    assert signals.values.tolist() == [[1, 4], [2, 5], [3, 6]]
+    assert signals.fps == 2
+    assert signals.provenance.notes == ("columns that are no channels: who",)
+    with pytest.raises(ReadError, match="cannot be read as numbers"):
+        read_signals(tmp_path / "a.parquet", columns=["who"])
+    data = (tmp_path / "a.parquet").read_bytes()
+    (tmp_path / "b.parquet").write_bytes(data[: len(data) // 2])
+    with pytest.raises(ReadError, match="is damaged"):
+        read_signals(tmp_path / "b.parquet")
+
+
+@pytest.mark.parametrize(
+    ("names", "signals"),
+    [
+        ("time,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z", True),
+        ("userAcceleration.x,userAcceleration.y,userAcceleration.z", True),
+        ("left_wrist_gyr_x,left_wrist_gyr_y,left_wrist_gyr_z", True),
+        ("LinAccX,LinAccY,LinAccZ", True),
+        ("biceps,triceps", True),
+        ("hip_x,hip_y,hip_z", False),
+        ("time,hip_x,hip_y,hip_z,acc_x,acc_y,acc_z", False),
+        ("hipX,hipY", False),
+        ("scorer,DLC,DLC", False),
+    ],
+)
+def test_sensors_are_told_from_joints(tmp_path, names, signals) -> None:
+    text = names + "\n" + ",".join("1" for _ in names.split(",")) + "\n"
+    assert is_signal_file(write(tmp_path, "a.csv", text)) is signals
+
+
+def test_recordings_of_bodies_are_no_signals(tmp_path) -> None:
+    assert not is_signal_file(write(tmp_path, "a.bvh", "HIERARCHY\n"))
+    assert not is_signal_file(tmp_path / "missing.csv")
+    assert not is_signal_file(write(tmp_path, "empty.csv", ""))
+
+
+@given(st.binary(max_size=200), st.sampled_from([".csv", ".txt", ".mot", ".parquet", ".c3d"]))
+@settings(max_examples=200)
+def test_anything_else_is_one_clear_error(tmp_path_factory, data, suffix) -> None:
+    path = tmp_path_factory.getbasetemp() / f"fuzz{suffix}"
+    path.write_bytes(data)
+    is_signal_file(path)
+    try:
+        with warnings.catch_warnings(action="ignore", category=KinemeWarning):
+            read_signals(path, fps=50)
+    except FileError as error:
+        assert str(path) in str(error)
+
+
+@given(st.text(alphabet="ab,;\t\n 0123456789.-#\"'xyz", max_size=60))
+@settings(max_examples=200)
+def test_odd_tables_are_read_or_refused(tmp_path_factory, text) -> None:
+    path = tmp_path_factory.getbasetemp() / "odd.csv"
+    path.write_text("endheader\n" * ("#" in text) + text, encoding="utf-8")
+    is_signal_file(path)
+    try:
+        with warnings.catch_warnings(action="ignore", category=KinemeWarning):
+            signals = read_signals(path, fps=50)
+    except FileError:
+        return
+    assert np.isfinite(signals.values).all()
+
+
+def test_real_channels(data_dir) -> None:
+    mot = read_signals(data_dir / "formats" / "subject01_walk_IK.mot")
+    assert (mot.n_frames, mot.n_channels, mot.fps) == (151, 10, 60)
+    files = [read_signals(data_dir / "formats" / f"Eb015{kind}.c3d") for kind in ("pi", "pr", "si")]
+    assert files[0].names[:3] == ("FX1", "FY1", "FZ1")
+    assert files[0].values.shape == (1800, 16)
+    assert files[0].fps == 200
+    for other in files[1:]:
+        assert np.abs(other.values - files[0].values).max() < 1e-3 * np.abs(files[0].values).max()
+    with pytest.raises(ReadError, match="holds no analog channels"):
+        read_signals(data_dir / "cmu_formats" / "02_01.c3d")
+
+
+@pytest.mark.parametrize("name", ["WalkJogRun1", "WalkJogRun2"])
+def test_walking_jogging_and_running(data_dir, name) -> None:
+    """Change points 3800 and 6800 (UTSA archive), from one accelerometer channel.
+
+    Three actions, and each change at a border, give or take 3 s, or in the transition between.
+    """
+    signals = read_signals(data_dir / "timeseries" / f"{name}.txt", fps=100)
+    found = segment_signals(signals)
+    walk, jog, run = found.per_frame(level="activity")[[2000, 5300, 8500]]
+    assert len({walk, jog, run} - {-1}) == 3
+    kinds = found.per_frame("kind", level="activity")
+    for change in (3800, 6800):
+        near = np.abs(found.cuts() - change).min() < 300
+        assert near or kinds[change] == "transition"

@@ -1,0 +1,555 @@
+"""Labels of other programs: what is written comes back, frame for frame."""
+
+from __future__ import annotations
+
+import json
+import math
+import tracemalloc
+import warnings
+from contextlib import suppress
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from praatio import textgrid
+from pympi import Elan
+
+from kineme.errors import KinemeError, KinemeWarning, ParameterError, ReadError, WriteError
+from kineme.labels import FORMATS, read_segments, write_segments
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level
+from segmentations import segmentations
+
+LABEL_FORMATS = [n for n, known in FORMATS.items() if known.holds != "all" and known.writes]
+BOTH_LEVELS = [name for name, known in FORMATS.items() if known.holds == "levels"]
+TELL_THE_RATE = ("elan", "bids", "boris", "clips")
+NASTY = [
+    "walk on the spot",
+    "Kniebeugen über Äpfel",
+    "a \"long\", 'quoted' step",
+    "<b>jump & run</b> &amp;",
+    '"',
+    "  blanks  ",
+    "\\backslash",
+    "歩く 🏃",
+    "cluster",
+    "0.5",
+]
+RATES = [25.0, 29.97, 30000 / 1001, 59.94, 60.0, 100.0, 119.88, 120.0, 240.0]
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("corpus")
+
+
+def place(folder: Path, name: str, stem: str = "take") -> Path:
+    """Where a file of the format may lie."""
+    suffix = (*FORMATS[name].suffixes, ".txt" if name == "ms-tcn" else ".dat")[0]
+    return (
+        folder / "groundTruth" / f"{stem}{suffix}" if name == "ms-tcn" else folder / (stem + suffix)
+    )
+
+
+def there_and_back(result: Segmentation, path: Path, name: str, level: Level | None = None):
+    for left_over in (*path.parent.glob("*.*"), path.parent.parent / "mapping.txt"):
+        if left_over.is_file():
+            left_over.unlink()
+    write_segments(result, path, format=name, level=level)
+    told = {} if name in TELL_THE_RATE else {"fps": result.fps}
+    return read_segments(path, format=name, n_frames=result.n_frames, **told)
+
+
+def spans(result: Segmentation, level: Level) -> list[tuple]:
+    """Frames, seconds and text of each segment of a level."""
+    rows = result.level(level)
+    return [
+        (r.start_frame, r.stop_frame, r.start_s, r.stop_s, r.kind, r.cluster, r.label) for r in rows
+    ]
+
+
+def kept(result: Segmentation, level: Level, name: str) -> list[tuple]:
+    """What of `spans` a format has room for."""
+    rows = []
+    for r in result.level(level):
+        label = r.label
+        if name == "ms-tcn":
+            label = "".join("_" if letter.isspace() else letter for letter in label)
+        if name == "elan":
+            label = label.replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
+        kind = "activity" if r.label else r.kind
+        cluster = r.cluster if kind == "activity" and not r.label else -1
+        if name == "bids":
+            cluster = r.cluster
+        rows.append((r.start_frame, r.stop_frame, r.start_s, r.stop_s, kind, cluster, label))
+    return rows
+
+
+def merged(rows: list[tuple]) -> list[tuple]:
+    """Equal neighbours as one, for a format that has one label per frame."""
+    out: list[tuple] = []
+    for row in rows:
+        if out and out[-1][4:] == row[4:]:
+            out[-1] = (out[-1][0], row[1], out[-1][2], row[3], *row[4:])
+        else:
+            out.append(row)
+    return out
+
+
+def example(labels: list[str], fps: float = 119.88) -> Segmentation:
+    """Two activities of every label, with a transition in the middle, and their repetitions."""
+    n = len(labels)
+    kinds = ["activity" if label else "transition" for label in labels]
+    borders = [7 * i for i in range(n + 1)]
+    inner = [0, *(7 * i + 3 for i in range(n)), 7 * n]
+    inner = sorted({*borders, *inner})
+    columns = {
+        "level": ["activity"] * n + ["primitive"] * (len(inner) - 1),
+        "kind": kinds + ["activity"] * (len(inner) - 1),
+        "start_frame": [*borders[:-1], *inner[:-1]],
+        "stop_frame": [*borders[1:], *inner[1:]],
+        "cluster": [-1] * n + [i % 3 for i in range(len(inner) - 1)],
+        "label": [*labels, *[""] * (len(inner) - 1)],
+        "score": [0.5] * (n + len(inner) - 1),
+    }
+    provenance = {"input": {"path": "takes/take.bvh"}}
+    return Segmentation.from_columns(columns, n_frames=7 * n, fps=fps, provenance=provenance)
+
+
+@pytest.mark.parametrize("name", LABEL_FORMATS)
+@given(result=segmentations(), level=st.sampled_from(["activity", "primitive"]))
+def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> None:
+    assume(len(result.level(level)))
+    assume(name != "elan" or result.fps < 1000)
+    labels = result.table.label.tolist()
+    assume(not {"transition", "activity", "n/a"} & set(labels))
+    assume(name != "ms-tcn" or not any(label.startswith("\ufeff") for label in labels))
+    back = there_and_back(result, place(folder, name), name, level)
+    assert back.n_frames == result.n_frames
+    assert back.fps == pytest.approx(result.fps, rel=1e-12)
+    expected = kept(result, level, name)
+    got = spans(back, "activity")
+    if name == "ms-tcn":
+        expected, got = merged(expected), merged(got)
+    for mine, theirs in zip(got, expected, strict=True):
+        assert (*mine[:2], *mine[4:]) == (*theirs[:2], *theirs[4:])
+        assert mine[2:4] == pytest.approx(theirs[2:4], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", BOTH_LEVELS)
+@given(result=segmentations())
+def test_both_levels_come_back_together(folder, name, result) -> None:
+    assume(name != "elan" or result.fps < 1000)
+    assume(not {"transition", "activity", "n/a"} & set(result.table.label.tolist()))
+    back = there_and_back(result, place(folder, name), name)
+    for level in ("activity", "primitive"):
+        assert [row[:2] + row[4:] for row in spans(back, level)] == [
+            row[:2] + row[4:] for row in kept(result, level, name)
+        ]
+
+
+@pytest.mark.parametrize("name", LABEL_FORMATS)
+@pytest.mark.parametrize("fps", RATES)
+def test_frames_and_seconds_are_right_at_any_rate(tmp_path, name, fps) -> None:
+    n = 20_000
+    cuts = [0, *range(1, 40), *range(40, n, 997), n]
+    columns = {
+        "level": ["activity"] * (len(cuts) - 1),
+        "kind": ["activity"] * (len(cuts) - 1),
+        "start_frame": cuts[:-1],
+        "stop_frame": cuts[1:],
+        "label": [f"step {i}" for i in range(len(cuts) - 1)],
+    }
+    result = Segmentation.from_columns(columns, n_frames=n, fps=fps)
+    back = there_and_back(result, place(tmp_path, name), name)
+    assert back.table.start_frame.tolist() == cuts[:-1]
+    assert back.table.stop_s.tolist() == pytest.approx([cut / fps for cut in cuts[1:]], rel=1e-13)
+    assert (back.n_frames, back.fps) == (n, pytest.approx(fps, rel=1e-13))
+
+
+@pytest.mark.parametrize("name", LABEL_FORMATS)
+def test_blanks_umlauts_quotes_and_html_survive(tmp_path, name) -> None:
+    result = example(NASTY)
+    back = there_and_back(result, place(tmp_path, name), name)
+    assert back.activities.label.tolist() == [row[-1] for row in kept(result, "activity", name)]
+
+
+@pytest.mark.parametrize("name", LABEL_FORMATS)
+def test_what_has_no_label_goes_by_its_cluster(tmp_path, name) -> None:
+    columns = {
+        "level": ["activity"] * 4,
+        "kind": ["activity", "transition", "activity", "activity"],
+        "start_frame": [0, 5, 10, 20],
+        "stop_frame": [5, 10, 20, 30],
+        "cluster": [12, -1, -1, 3],
+        "label": ["", "", "", "walk"],
+    }
+    result = Segmentation.from_columns(columns, n_frames=30, fps=30.0)
+    back = there_and_back(result, place(tmp_path, name), name)
+    assert back.activities.kind.tolist() == ["activity", "transition", "activity", "activity"]
+    assert back.activities.cluster.tolist() == [12, -1, -1, 3 if name == "bids" else -1]
+    assert back.activities.label.tolist() == ["", "", "", "walk"]
+
+
+# Against the programs and packages these files are for.
+
+
+def test_praatio_reads_what_we_write_and_we_read_both_of_its_forms(tmp_path) -> None:
+    result = example([label for label in NASTY if label == label.strip()])
+    write_segments(result, tmp_path / "mine.TextGrid")
+    theirs = textgrid.openTextgrid(str(tmp_path / "mine.TextGrid"), includeEmptyIntervals=True)
+    assert theirs.tierNames == ("activity", "primitive")
+    for level in theirs.tierNames:
+        entries = theirs.getTier(level).entries
+        rows = result.level(level)
+        assert [entry.start for entry in entries] == pytest.approx(rows.start_s.tolist())
+        assert [entry.end for entry in entries] == pytest.approx(rows.stop_s.tolist())
+    assert [e.label for e in theirs.getTier("activity").entries] == result.activities.label.tolist()
+    for form in ("short_textgrid", "long_textgrid"):
+        theirs.save(str(tmp_path / "theirs.TextGrid"), format=form, includeBlankSpaces=True)
+        back = read_segments(tmp_path / "theirs.TextGrid", fps=result.fps)
+        assert spans(back, "activity") == kept(result, "activity", "textgrid")
+        assert spans(back, "primitive") == kept(result, "primitive", "textgrid")
+
+
+def test_a_textgrid_in_utf_16_with_points_and_gaps(tmp_path) -> None:
+    text = """File type = "ooTextFile"
+Object class = "TextGrid"
+
+0
+2
+<exists>
+2
+"TextTier"
+"beats"
+0
+2
+1
+0.5
+"clap"
+"IntervalTier"
+"Bewegung"
+0
+2
+3
+0
+0.5
+""
+0.5
+1
+"Kniebeuge
+tief"
+1
+2
+""
+"""
+    (tmp_path / "wide.TextGrid").write_text(text, encoding="utf-16")
+    back = read_segments(tmp_path / "wide.TextGrid", fps=10)
+    assert back.activities.start_frame.tolist() == [0, 5, 10]
+    assert back.activities.kind.tolist() == ["transition", "activity", "transition"]
+    assert back.activities.label.tolist() == ["", "Kniebeuge tief", ""]
+    assert back.n_frames == 20
+
+
+def test_pympi_reads_what_we_write_and_we_read_what_it_writes(tmp_path) -> None:
+    result = example(NASTY, fps=100.0)
+    write_segments(result, tmp_path / "mine.eaf")
+    theirs = Elan.Eaf(str(tmp_path / "mine.eaf"))
+    found = sorted(theirs.get_annotation_data_for_tier("activity"))
+    rows = result.activities
+    assert [a[0] for a in found] == [round(1000 * s) for s in rows.start_s.tolist()]
+    assert [a[2] for a in found] == rows.label.tolist()
+    other = Elan.Eaf()
+    other.remove_tier("default")
+    other.add_tier("Bewegung")
+    for start, stop, label, *_ in found:
+        other.add_annotation("Bewegung", start, stop, label)
+    other.to_file(str(tmp_path / "theirs.eaf"))
+    back = read_segments(tmp_path / "theirs.eaf", fps=100)
+    assert spans(back, "activity") == kept(result, "activity", "elan")
+
+
+def test_several_unknown_tiers_are_a_question_to_the_user(tmp_path) -> None:
+    document = Elan.Eaf()
+    document.remove_tier("default")
+    for tier in ("left", "right"):
+        document.add_tier(tier)
+        document.add_annotation(tier, 0, 500, "up")
+    document.to_file(str(tmp_path / "two.eaf"))
+    with pytest.raises(ReadError, match=r"has 2 tiers \(left, right\): keep one, or name one"):
+        read_segments(tmp_path / "two.eaf", fps=100)
+
+
+def test_pandas_reads_bids_events_and_the_sidecar_describes_every_column(tmp_path) -> None:
+    result = example(NASTY, fps=30.0)
+    write_segments(result, tmp_path / "walk_events.tsv")
+    frame = pd.read_csv(tmp_path / "walk_events.tsv", sep="\t", keep_default_na=False)
+    assert frame.trial_type[: len(NASTY)].tolist() == NASTY
+    assert frame.onset.tolist() == result.table.start_s.tolist()
+    sidecar = json.loads((tmp_path / "walk_events.json").read_text())
+    assert set(frame.columns) - {"onset", "duration"} <= set(sidecar)
+    assert sidecar["SamplingFrequency"] == 30.0
+    back = read_segments(tmp_path / "walk_events.tsv")
+    assert back.table.score.tolist() == result.table.score.tolist()
+    assert back.primitives.cluster.tolist() == result.primitives.cluster.tolist()
+
+
+def test_a_bids_sidecar_keeps_what_others_wrote_and_a_segment_table_is_not_taken_for_one(
+    tmp_path,
+) -> None:
+    result = example(["walk", "run"])
+    (tmp_path / "a.json").write_text('{"trial_type": {"HED": {"walk": "Action/Walk"}}}')
+    write_segments(result, tmp_path / "a.tsv")
+    assert "HED" in json.loads((tmp_path / "a.json").read_text())["trial_type"]
+    write_segments(result, tmp_path / "b.json")
+    before = (tmp_path / "b.json").read_bytes()
+    with pytest.raises(WriteError, match="is in the way"):
+        write_segments(result, tmp_path / "b.tsv")
+    assert (tmp_path / "b.json").read_bytes() == before
+    assert not (tmp_path / "b.tsv").exists()
+
+
+def test_boris_of_old_and_new_versions(tmp_path) -> None:
+    old = """Observation id,observation #1,,,,,,,
+,,,,,,,,
+Time offset (s),0.0,,,,,,,
+variable,value,,,,,,,
+Time,Media file path,Total length,FPS,Subject,Behavior,Behavioral category,Comment,Status
+1.200,video.mp4,5.960,25.0,subject1,step,,,START
+1.000,video.mp4,5.960,25.0,subject1,blink,,,POINT
+2.000,video.mp4,5.960,25.0,subject1,step,,,STOP
+2.000,video.mp4,5.960,25.0,subject1,step,,,START
+3.040,video.mp4,5.960,25.0,subject1,step,,,STOP
+"""
+    aggregated = """Media duration (s),FPS (frame/s),Behavior,Behavior type,Start (s),Stop (s)
+5.960,25.0,step,STATE,1.200,2.000
+5.960,25.0,blink,POINT,1.000,1.000
+5.960,25.0,step,STATE,2.000,3.040
+"""
+    for text in (old, aggregated):
+        (tmp_path / "events.csv").write_text(text)
+        back = read_segments(tmp_path / "events.csv", format="boris")
+        assert back.activities.start_frame.tolist() == [0, 30, 50, 76]
+        assert back.activities.label.tolist() == ["", "step", "step", ""]
+        assert (back.fps, back.n_frames) == (25.0, 149)
+    (tmp_path / "events.csv").write_text(old.rsplit("\n", 2)[0])
+    with pytest.raises(ReadError, match="'step' has a START without a STOP"):
+        read_segments(tmp_path / "events.csv", format="boris")
+
+
+def test_boris_rows_alternate_and_carry_the_frame(tmp_path) -> None:
+    write_segments(example(["walk", "walk"]), tmp_path / "e.csv", format="boris", level="activity")
+    frame = pd.read_csv(tmp_path / "e.csv")
+    assert frame["Behavior type"].tolist() == ["START", "STOP", "START", "STOP"]
+    assert frame["Image index"].tolist() == [0, 7, 7, 14]
+    assert frame["Time"].tolist() == [0, 7 / 119.88, 7 / 119.88, 14 / 119.88]
+
+
+def babel(*labels: tuple[str, float, float], dur: float = 4.0) -> str:
+    annotated = [
+        {"proc_label": text, "start_t": start, "end_t": stop} for text, start, stop in labels
+    ]
+    return json.dumps({"5788": {"babel_sid": 5788, "dur": dur, "frame_ann": {"labels": annotated}}})
+
+
+def test_overlapping_babel_labels_become_segments_of_both(tmp_path) -> None:
+    path = tmp_path / "train.json"
+    path.write_text(babel(("walk", 0, 3), ("wave", 1, 2), ("turn", 3, 3.5)))
+    with pytest.warns(KinemeWarning, match="1 segments carry the texts of several"):
+        back = read_segments(path, format="babel", fps=10)
+    assert back.activities.label.tolist() == ["walk", "walk + wave", "walk", "turn", ""]
+    assert back.activities.stop_frame.tolist() == [10, 20, 30, 35, 40]
+
+
+def test_babel_without_frame_labels_takes_those_of_the_sequence(tmp_path) -> None:
+    path = tmp_path / "one.json"
+    labels = [{"raw_label": "walk on a treadmill", "proc_label": None}]
+    path.write_text(json.dumps({"dur": 2.0, "frame_ann": None, "seq_ann": {"labels": labels}}))
+    back = read_segments(path, format="babel", fps=10)
+    assert spans(back, "activity") == [(0, 20, 0.0, 2.0, "activity", -1, "walk on a treadmill")]
+
+
+def test_the_ms_tcn_mapping_grows_and_keeps_its_numbers(tmp_path) -> None:
+    for stem, labels in (("a", ["walk", "high jump"]), ("b", ["run", "walk"])):
+        write_segments(example(labels), tmp_path / "groundTruth" / f"{stem}.txt", format="ms-tcn")
+    lines = (tmp_path / "mapping.txt").read_text().splitlines()
+    assert lines == ["0 walk", "1 high_jump", "2 run"]
+    assert (tmp_path / "groundTruth" / "b.txt").read_text() == "run\n" * 7 + "walk\n" * 7
+    with pytest.raises(WriteError, match="give groundTruth/c.txt"):
+        write_segments(example(["run"]), tmp_path / "c.txt", format="ms-tcn")
+
+
+def test_background_of_ms_tcn_corpora_is_transition(tmp_path) -> None:
+    (tmp_path / "t.txt").write_text("SIL\nSIL\npour\nbackground\n")
+    back = read_segments(tmp_path / "t.txt", format="ms-tcn", fps=15)
+    assert back.activities.kind.tolist() == ["transition", "activity", "transition"]
+
+
+def test_a_clip_list_as_motion_matching_has_it(tmp_path) -> None:
+    rows = "file,start,stop,mirror\nrun1.bvh,90,200,0\nrun1.bvh,90,200,1\nrun1.bvh,300,310,0\n"
+    (tmp_path / "clips.csv").write_text(rows)
+    back = read_segments(tmp_path / "clips.csv", format="clips", fps=60, n_frames=400)
+    assert back.activities.start_frame.tolist() == [0, 90, 200, 300, 310]
+    (tmp_path / "clips.csv").write_text(rows + "run2.bvh,0,4,0\n")
+    with pytest.raises(ReadError, match=r"lists clips of 2 files \(run1.bvh, run2.bvh\): keep one"):
+        read_segments(tmp_path / "clips.csv", format="clips", fps=60)
+
+
+# What is missing, wrong or hostile.
+
+
+def test_gaps_become_transitions_that_respect_the_borders_of_activities(tmp_path) -> None:
+    rows = [
+        ("onset", "duration", "trial_type", "level"),
+        (1, 2, "walk", "activity"),
+        (3, 1, "run", "activity"),
+        (1.5, 0.5, "step", "primitive"),
+    ]
+    text = "\n".join("\t".join(map(str, row)) for row in rows)
+    (tmp_path / "e.tsv").write_text(text)
+    back = read_segments(tmp_path / "e.tsv", fps=10, n_frames=50)
+    assert back.activities.start_frame.tolist() == [0, 10, 30, 40]
+    assert back.primitives.start_frame.tolist() == [0, 10, 15, 20, 30, 40]
+    assert back.primitives.label.tolist() == ["", "", "step", "", "", ""]
+
+
+def test_points_are_left_out_and_the_end_is_said_to_be_guessed(tmp_path) -> None:
+    (tmp_path / "l.txt").write_text(
+        "0\t1\twalk\n0.5\t0.5\tclap\n\\\t100\t200\n1.0\t2.0\trun\tfast\n"
+    )
+    with pytest.warns(KinemeWarning, match="1 labels shorter than a frame are left out"):
+        back = read_segments(tmp_path / "l.txt", fps=10)
+    assert back.activities.label.tolist() == ["walk", "run fast"]
+    assert "taken from the end of the last label" in back.provenance["notes"][0]
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "message"),
+    [
+        ("", {"fps": 10}, "has no labels"),
+        ("0\t1\twalk\n", {}, "audacity does not tell the frame rate .*: give fps"),
+        ("0\t1\twalk\n0.5\t2\trun\n", {"fps": 10}, "'run' starts at frame 5, before .* stops .10."),
+        ("1\t0\twalk\n", {"fps": 10}, "'walk' stops at 0.0, before 1.0"),
+        ("-1\t1\twalk\n", {"fps": 10}, "has a label at -1.0"),
+        ("0\t1e300\twalk\n", {"fps": 10}, r"has a label at 1e\+300"),
+        ("0\tone\twalk\n", {"fps": 10}, "line 1: the stop must be a number, not 'one'"),
+        ("0\tnan\twalk\n", {"fps": 10}, "line 1: the stop must be a number, not 'nan'"),
+        ("walk\n", {"fps": 10}, "line 1: a label is a start, a stop and a text"),
+        ("0\t9\twalk\n", {"fps": 10, "n_frames": 50}, "labels up to frame 90, .* has 50"),
+    ],
+)
+def test_bad_labels_are_one_clear_error(tmp_path, text, options, message) -> None:
+    (tmp_path / "l.txt").write_text(text)
+    with pytest.raises(ReadError, match=message):
+        read_segments(tmp_path / "l.txt", **options)
+
+
+def test_bad_arguments_name_what_there_is(tmp_path) -> None:
+    result = example(["walk"])
+    with pytest.raises(ParameterError, match="format must be one of csv, json, .* not 'srt'"):
+        write_segments(result, tmp_path / "l.srt", format="srt")
+    with pytest.raises(ParameterError, match="csv always holds both levels"):
+        write_segments(result, tmp_path / "l.csv", level="activity")
+    with pytest.raises(ParameterError, match="fps is 0"):
+        read_segments(tmp_path / "l.txt", fps=0)
+    with pytest.raises(ParameterError, match="n_frames is 0"):
+        read_segments(tmp_path / "l.txt", n_frames=0)
+    with pytest.raises(WriteError, match="cannot tell frames at 2000 per second apart"):
+        write_segments(example(["walk"], fps=2000.0), tmp_path / "l.eaf")
+    write_segments(result, tmp_path / "l.eaf")
+    with pytest.raises(ReadError, match="says 119.88 frames per second, but fps is 60"):
+        read_segments(tmp_path / "l.eaf", fps=60)
+
+
+def test_a_document_type_is_refused_before_it_can_grow(tmp_path) -> None:
+    levels = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 10))
+    text = f'<?xml version="1.0"?><!DOCTYPE d [<!ENTITY e0 "ha">{levels}]><d>&e9;</d>'
+    (tmp_path / "bomb.eaf").write_text(text)
+    with pytest.raises(ReadError, match="it has a document type"):
+        read_segments(tmp_path / "bomb.eaf", fps=10)
+
+
+@pytest.mark.parametrize("name", LABEL_FORMATS)
+@settings(max_examples=80)
+@given(data=st.data())
+def test_a_damaged_file_is_read_or_refused(folder, name, data) -> None:
+    path = place(folder, name, "damaged")
+    result = example(data.draw(st.lists(st.sampled_from([*NASTY, ""]), min_size=1, max_size=4)))
+    write_segments(result, path, format=name)
+    content = bytearray(path.read_bytes())
+    for _ in range(data.draw(st.integers(1, 3))):
+        at = data.draw(st.integers(0, len(content) - 1))
+        patch = st.binary(max_size=4) | st.sampled_from(
+            [b"9" * 30, b"-", b'"', b"1e308", b"\t", b","]
+        )
+        content[at : at + data.draw(st.integers(0, 40))] = data.draw(patch)
+        content = content or bytearray(b"\0")
+    path.write_bytes(content)
+    outcome(path, name)
+
+
+@pytest.mark.parametrize("name", LABEL_FORMATS)
+@settings(max_examples=60)
+@given(
+    content=st.binary(max_size=300)
+    | st.text(max_size=300).map(lambda t: t.encode(errors="replace"))
+)
+def test_random_bytes_are_read_or_refused(folder, name, content) -> None:
+    path = place(folder, name, "random")
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes(content)
+    outcome(path, name)
+
+
+def outcome(path: Path, name: str) -> None:
+    with warnings.catch_warnings(), suppress(ReadError):
+        warnings.simplefilter("ignore", KinemeWarning)
+        result = read_segments(path, format=name, fps=119.88)
+        assert result.n_frames >= result.table.stop_frame.max()
+
+
+@pytest.mark.parametrize("name", LABEL_FORMATS)
+def test_memory_is_bounded_by_the_size_of_the_file(tmp_path, name) -> None:
+    path = place(tmp_path, name)
+    path.parent.mkdir(exist_ok=True)
+    huge = "999999999999999"
+    claims = {
+        "audacity": f"0\t{huge[:12]}\twalk\n",
+        "elan": '<ANNOTATION_DOCUMENT><TIME_ORDER><TIME_SLOT TIME_SLOT_ID="a" TIME_VALUE="0"/>'
+        f'<TIME_SLOT TIME_SLOT_ID="b" TIME_VALUE="{huge}"/></TIME_ORDER><TIER TIER_ID="t">'
+        '<ANNOTATION><ALIGNABLE_ANNOTATION TIME_SLOT_REF1="a" TIME_SLOT_REF2="b"/></ANNOTATION>'
+        "</TIER></ANNOTATION_DOCUMENT>",
+        "textgrid": f'"ooTextFile" "TextGrid" 0 {huge} 1 "IntervalTier" "t" 0 {huge} 900000000',
+        "bids": f"onset\tduration\ttrial_type\n0\t{huge[:12]}\twalk\n",
+        "boris": f"Behavior,Start (s),Stop (s)\nwalk,0,{huge[:12]}\n",
+        "babel": babel(("walk", 0, 1e12), dur=1e12),
+        "ms-tcn": "walk\n",
+        "clips": f"file,start,stop\na.bvh,0,{huge}\n",
+    }
+    path.write_text(claims[name])
+    read_or_refuse(path, name)
+    tracemalloc.start()
+    read_or_refuse(path, name)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 1_000_000
+
+
+def read_or_refuse(path: Path, name: str) -> None:
+    with suppress(KinemeError):
+        result = read_segments(path, format=name, fps=119.88)
+        assert math.isfinite(result.table.stop_s[-1])
+
+
+def test_a_label_without_length_is_no_recording(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("0\t0\twalk\n", encoding="utf-8")
+    with pytest.raises(ReadError, match="no label that lasts a frame"):
+        read_segments(tmp_path / "a.txt", format="audacity", fps=30)
+
+
+def test_clips_that_last_no_seconds_do_not_tell_the_rate(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("file,start,stop,stop_s\nx.bvh,0,7,0.0\n", encoding="utf-8")
+    with pytest.raises(ReadError, match="frame rate"):
+        read_segments(tmp_path / "a.csv", format="clips")

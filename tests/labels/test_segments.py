@@ -1,0 +1,253 @@
+"""Segment tables as files: exact round trips, and clear words on bad files."""
+
+from __future__ import annotations
+
+import json
+from contextlib import suppress
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kineme.errors import MissingDependencyError, ReadError, WriteError
+from kineme.labels import read_segments, write_segments
+from kineme.labels.csv_table import provenance_path
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import COLUMNS
+from segmentations import segmentations
+
+SUFFIXES = (".csv", ".json", ".parquet")
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("tables")
+
+
+@pytest.fixture
+def small() -> Segmentation:
+    columns = {
+        "level": ["activity", "primitive", "primitive"],
+        "kind": ["activity"] * 3,
+        "start_frame": [0, 0, 50],
+        "stop_frame": [120, 50, 120],
+        "cluster": [-1, 0, 0],
+        "label": ["walk", 'a "long", step', ""],
+    }
+    return Segmentation.from_columns(
+        columns, n_frames=120, fps=120.0, provenance={"preset": "voegele2014", "notes": ["é"]}
+    )
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+@given(result=segmentations())
+def test_what_was_written_is_read_again(folder: Path, suffix: str, result: Segmentation) -> None:
+    path = folder / f"table{suffix}"
+    write_segments(result, path)
+    assert read_segments(path) == result
+
+
+@given(segmentations())
+def test_a_csv_alone_keeps_the_whole_table(folder: Path, result: Segmentation) -> None:
+    path = folder / "alone.csv"
+    write_segments(result, path)
+    provenance_path(path).unlink()
+    alone = read_segments(path)
+    assert alone.n_frames == result.n_frames
+    assert alone.fps == pytest.approx(result.fps, rel=1e-15)
+    for name in set(COLUMNS) - {"score", "start_s", "stop_s"}:
+        assert alone.table.columns()[name].tolist() == result.table.columns()[name].tolist()
+    assert "computed from frames and seconds" in alone.provenance["notes"][0]
+
+
+@pytest.mark.parametrize("fps", [25.0, 29.97, 30000 / 1001, 59.94, 119.88, 120.0])
+def test_a_csv_alone_gives_the_exact_frame_rate(tmp_path: Path, fps: float) -> None:
+    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [77]}
+    path = tmp_path / "cuts.csv"
+    write_segments(Segmentation.from_columns(columns, n_frames=77, fps=fps), path)
+    provenance_path(path).unlink()
+    assert read_segments(path).table.stop_s[0] == 77 / fps
+    assert read_segments(path).fps == pytest.approx(fps, rel=1e-15)
+
+
+def test_pandas_reads_csv_and_parquet_directly(tmp_path: Path, small: Segmentation) -> None:
+    for suffix, reader in ((".csv", pd.read_csv), (".parquet", pd.read_parquet)):
+        write_segments(small, tmp_path / f"cuts{suffix}")
+        frame = reader(tmp_path / f"cuts{suffix}")
+        assert tuple(frame.columns) == COLUMNS
+        assert frame.stop_frame.tolist() == [120, 50, 120]
+        assert frame.stop_s.tolist() == [1.0, 50 / 120, 1.0]
+        assert frame.label[1] == 'a "long", step'
+        assert frame.score.isna().all()
+
+
+def test_a_csv_that_went_through_pandas_is_still_read(tmp_path: Path, small: Segmentation) -> None:
+    path = tmp_path / "cuts.csv"
+    write_segments(small, path)
+    frame = pd.read_csv(path)
+    frame.loc[2, "label"] = "step"
+    frame[frame.columns[::-1]].assign(mine=1).to_csv(path, index=False)
+    edited = read_segments(path)
+    assert edited.table.label.tolist() == ["walk", 'a "long", step', "step"]
+    assert edited.provenance == small.provenance
+
+
+def test_json_follows_its_documented_schema(tmp_path: Path, small: Segmentation) -> None:
+    write_segments(small, tmp_path / "cuts.json")
+    data = json.loads((tmp_path / "cuts.json").read_text())
+    assert list(data) == ["schema", "n_frames", "fps", "provenance", "timings", "segments"]
+    assert data["schema"] == "kineme.segments/1"
+    assert data["segments"][1] == {
+        "level": "primitive",
+        "kind": "activity",
+        "start_frame": 0,
+        "stop_frame": 50,
+        "start_s": 0.0,
+        "stop_s": 50 / 120,
+        "cluster": 0,
+        "activity": 0,
+        "label": 'a "long", step',
+        "score": None,
+    }
+
+
+def test_names_a_reader_does_not_know_are_ignored(tmp_path: Path, small: Segmentation) -> None:
+    path = tmp_path / "cuts.json"
+    write_segments(small, path)
+    data = json.loads(path.read_text())
+    data["colour"] = "blue"
+    data["segments"][0]["colour"] = "blue"
+    path.write_text(json.dumps(data))
+    assert read_segments(path) == small
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+@pytest.mark.parametrize("content", [b"", b"\0\xff\xfe" * 40, b"PAR1garbagePAR1", b"a,b\n1,2\n"])
+def test_a_foreign_file_is_one_read_error(tmp_path: Path, suffix: str, content: bytes) -> None:
+    path = tmp_path / f"foreign{suffix}"
+    path.write_bytes(content)
+    with pytest.raises(ReadError) as caught:
+        read_segments(path)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+@settings(max_examples=60)
+@given(data=st.data())
+def test_a_damaged_file_is_read_or_refused(folder: Path, suffix: str, data: st.DataObject) -> None:
+    path = folder / f"damaged{suffix}"
+    write_segments(data.draw(segmentations()), path)
+    content = bytearray(path.read_bytes())
+    for _ in range(data.draw(st.integers(1, 3))):
+        at = data.draw(st.integers(0, len(content) - 1))
+        content[at : at + data.draw(st.integers(0, 40))] = data.draw(st.binary(max_size=4))
+        content = content or bytearray(b"\0")
+    path.write_bytes(content)
+    with suppress(ReadError):
+        read_segments(path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"kineme.segments/1"', '"kineme.segments/2"', "this version of kineme reads .*: upgrade"),
+        ('"kineme.segments/1"', '"other/1"', "is not a segment table"),
+        ('"fps": 120.0', '"fps": "120"', '"fps" must be a positive number'),
+        ('"fps": 120.0', '"fps": 1e999', '"fps" must be a positive number'),
+        ('"n_frames": 120', '"n_frames": 119', "must cover frames 0 to 119"),
+        ('"stop_frame": 50,', "", "segment 1 has no 'stop_frame'"),
+        ('"start_frame": 50', '"start_frame": 51', "segments of a level must touch"),
+        ('"cluster": 0', '"cluster": "0"', "'cluster' must hold whole numbers"),
+        ("  ]\n}", "", "line .*: is not valid JSON, or is cut short"),
+    ],
+)
+def test_bad_json_says_what_is_wrong(
+    tmp_path: Path, small: Segmentation, old: str, new: str, message: str
+) -> None:
+    path = tmp_path / "cuts.json"
+    write_segments(small, path)
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+    with pytest.raises(ReadError, match=message):
+        read_segments(path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "activity,0,120",
+            "activity,0,12o",
+            "line 2: stop_frame must be a whole number, not '12o'",
+        ),
+        ("score\n", "points\n", "it has no column 'score'"),
+        ("activity,50,120,", "activity,50\n#", "line 4: the line ends before column"),
+        (",120,", ",121,", "ends at frame 121, but cuts.provenance.json speaks of 120 frames"),
+    ],
+)
+def test_bad_csv_says_what_is_wrong(
+    tmp_path: Path, small: Segmentation, old: str, new: str, message: str
+) -> None:
+    path = tmp_path / "cuts.csv"
+    write_segments(small, path)
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+    with pytest.raises(ReadError, match=message):
+        read_segments(path)
+
+
+def test_missing_file_and_unknown_suffix(tmp_path: Path, small: Segmentation) -> None:
+    with pytest.raises(ReadError, match="No such file"):
+        read_segments(tmp_path / "none.json")
+    with pytest.raises(WriteError, match=r"stored as \.csv, \.json, .*, not '\.xlsx'"):
+        write_segments(small, tmp_path / "cuts.xlsx")
+    with pytest.raises(WriteError, match=r"the folder .* does not exist"):
+        write_segments(small, tmp_path / "nowhere" / "cuts.csv")
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_a_failed_write_leaves_the_old_file(
+    tmp_path: Path, small: Segmentation, suffix: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / f"cuts{suffix}"
+    write_segments(small, path)
+    before = {file.name: file.read_bytes() for file in tmp_path.iterdir()}
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("pathlib.Path.replace", full)
+    with pytest.raises(WriteError, match="No space left on device"):
+        write_segments(small, path)
+    assert {file.name: file.read_bytes() for file in tmp_path.iterdir()} == before
+
+
+def test_parquet_without_pyarrow_names_the_extra(
+    tmp_path: Path, small: Segmentation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
+    with pytest.raises(MissingDependencyError, match=r"pip install 'kineme\[tables\]'"):
+        write_segments(small, tmp_path / "cuts.parquet")
+
+
+def test_a_list_kept_by_hand_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "by_hand.csv"
+    path.write_text("label,start_s,stop_s,by\nsquat,4,6.5,me\nwalk,0.5,4,me\n")
+    found = read_segments(path, fps=10, n_frames=70)
+    rows = [(row.kind, row.start_frame, row.stop_frame, row.label) for row in found]
+    assert rows == [
+        ("transition", 0, 5, ""),
+        ("activity", 5, 40, "walk"),
+        ("activity", 40, 65, "squat"),
+        ("transition", 65, 70, ""),
+    ]
+    path.write_text("start_frame,stop_frame,label\n0,40,walk\n")
+    assert read_segments(path, fps=10).activities.stop_frame.tolist() == [40]
+    path.write_text("start,end,label\n0,40,walk\n")
+    with pytest.raises(ReadError, match="no header line with the columns 'start_s', 'stop_s'"):
+        read_segments(path, fps=10)

@@ -1,0 +1,198 @@
+"""ACA and HACA: kernels against naive twins, laws, and the original program's runs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import kineme
+import naive
+from kineme.errors import MotionError, ParameterError
+from kineme.evaluation import Labelling, read_trials
+from kineme.evaluation.aca_protocol import aca_accuracy
+from kineme.methods.baselines._kernels import (
+    cheapest_lengths,
+    propagate,
+    window_alignments,
+)
+from kineme.methods.baselines.aca import State, aca, improve, majority_pieces
+from kineme.methods.baselines.haca import haca, haca_levels
+from kineme.methods.baselines.joints import joint_quaternions, log_maps
+from kineme.methods.baselines.pieces import Pieces
+from kineme.methods.baselines.reduction import block_starts, frame_kernel
+
+SEEDS = st.integers(0, 2**32 - 1)
+
+
+def random_kernel(seed: int, n: int) -> np.ndarray:
+    return frame_kernel(np.random.default_rng(seed).normal(size=(n, 2)), nearest=0.5)
+
+
+def two_movements(rounds: int = 4) -> np.ndarray:
+    """Four seconds each of two circles at 120 Hz, in turn."""
+    t = np.arange(480) / 120 * 2 * np.pi
+    circle = np.stack([np.cos(t), np.sin(t), 0 * t], axis=1)
+    other = np.stack([0 * t + 4, np.cos(2 * t), np.sin(2 * t)], axis=1)
+    noise = np.random.default_rng(0).normal(scale=0.02, size=(rounds * 480, 3))
+    return np.concatenate([circle, other] * (rounds // 2)) + noise
+
+
+@given(SEEDS, st.integers(3, 14), st.integers(1, 6))
+def test_propagation_matches_its_naive_twin(seed, n, longest):
+    kernel = random_kernel(seed, n)
+    np.testing.assert_array_equal(
+        propagate(kernel, longest), naive.propagated_kernel(kernel, longest)
+    )
+
+
+@given(SEEDS, st.integers(2, 14), st.integers(1, 6), st.data())
+def test_window_alignments_are_the_dtak_of_every_window(seed, n, longest, data):
+    kernel = random_kernel(seed, n)
+    weights = np.random.default_rng(seed).integers(1, 9, n).astype(float)
+    start = data.draw(st.integers(0, n - 1))
+    stop = data.draw(st.integers(start + 1, n))
+    found = window_alignments(kernel, weights, start, stop, longest)
+    for v in range(n):
+        for length in range(1, min(longest, v + 1) + 1):
+            window = slice(v - length + 1, v + 1)
+            expected = naive.dtak(kernel[window, start:stop], weights[window], weights[start:stop])
+            assert found[v, length - 1] == pytest.approx(expected, rel=1e-12)
+
+
+@given(SEEDS, st.integers(1, 10), st.integers(1, 4), st.integers(0, 3))
+def test_cheapest_lengths_are_the_cheapest_cover(seed, n, shortest, more):
+    longest = shortest + more
+    costs = np.random.default_rng(seed).random((n, longest))
+    ways = naive.covers(n, shortest, longest)
+    found = cheapest_lengths(costs, shortest, False).tolist()
+    if not ways:
+        assert found == []
+    else:
+        assert found == min(ways, key=lambda way: naive.cover_cost(costs, way))
+
+
+@given(SEEDS, st.integers(1, 3), st.integers(1, 4))
+def test_first_segmentation_repeats_the_programs_slip(seed, shortest, more):
+    labels = np.random.default_rng(seed).integers(0, 3, 24)
+    state = majority_pieces(labels, 3, shortest, shortest + more)
+    expected = naive.first_segmentation(labels, shortest, shortest + more)
+    assert np.diff(state.borders).tolist() == expected
+
+
+def test_search_improves_until_pieces_repeat():
+    kernel = random_kernel(3, 60)
+    start = State(np.arange(0, 61, 6), np.arange(10) % 2)
+    weights = np.ones(60)
+    end = improve(kernel, weights, start, 2, 8)
+    again = improve(kernel, weights, end, 2, 8)
+    assert end.same(again)
+    assert end.objective == again.objective
+
+
+def test_a_lost_class_is_no_result():
+    kernel = np.ones((12, 12))
+    start = State(np.array([0, 6, 12]), np.array([0, 1]))
+    assert improve(kernel, np.ones(12), start, 2, 12).objective == np.inf
+
+
+def test_two_movements_in_turn_are_told_apart():
+    """Borders may be off by as much as a piece: nothing but its length holds one in place."""
+    features = two_movements()
+    truth = np.repeat([0, 1] * 2, 480)
+    for pieces in (
+        aca(features, n_classes=2, shortest=12, longest=30, centres=8),
+        haca(features, n_classes=2, fine_lengths=(4, 6), coarse_lengths=(2, 4), centres=8),
+    ):
+        labels = pieces.per_frame()
+        agreement = np.mean(labels == truth)
+        assert max(agreement, 1 - agreement) > 0.85
+
+
+def test_equal_seeds_give_equal_pieces_and_turned_features_the_same():
+    features = two_movements()
+    turn = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
+    first, second, turned = (
+        aca(x, n_classes=2, shortest=12, longest=30, centres=8, seed=5)
+        for x in (features, features, features @ turn)
+    )
+    assert np.array_equal(first.cuts, second.cuts)
+    assert first.objective == second.objective
+    assert np.array_equal(first.cuts, turned.cuts)
+    assert turned.objective == pytest.approx(first.objective)
+
+
+def test_second_level_pieces_are_made_of_first_level_ones():
+    fine, coarse = haca_levels(
+        two_movements(), n_classes=2, fine_lengths=(4, 6), coarse_lengths=(2, 4), centres=8
+    )
+    assert set(coarse.cuts) <= set(fine.cuts)
+    assert coarse.n_frames == fine.n_frames == 1920
+
+
+def test_blocks_are_runs_of_one_centre_of_at_most_five_frames():
+    features = np.repeat([[0.0], [5.0], [0.0]], [7, 3, 11], axis=0)
+    starts = block_starts(features, centres=2, random=np.random.RandomState(0))
+    assert starts.tolist() == [0, 5, 7, 10, 15, 20]
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"n_classes": 40}, "cannot hold 40 classes"),
+        ({"shortest": 30, "longest": 20}, "pieces of 30 to 20 blocks"),
+        ({"shortest": 300, "longest": 301}, "cannot hold 2 classes"),
+        ({"shortest": 95, "longest": 97, "n_classes": 1}, "let them differ more"),
+    ],
+)
+def test_impossible_lengths_are_refused(values, message):
+    options = {"n_classes": 2, "shortest": 12, "longest": 30, "centres": 8, **values}
+    with pytest.raises(ParameterError, match=message):
+        aca(two_movements(2), **options)
+
+
+def test_motions_without_the_joints_are_refused(data_dir):
+    motion = kineme.read(data_dir / "formats" / "cmu_131_01_bvh11.bvh")
+    with pytest.raises(MotionError, match="no joint 'upperback'"):
+        joint_quaternions(motion)
+
+
+def test_log_maps_are_half_the_rotation_vector():
+    angle = np.array([0.0, 1e-9, 0.5, np.pi])
+    q = np.stack([np.cos(angle / 2), 0 * angle, np.sin(angle / 2), 0 * angle], axis=1)
+    expected = np.stack([0 * angle, angle / 2, 0 * angle], axis=1)
+    np.testing.assert_allclose(log_maps(q[:, None]), expected, atol=1e-15)
+
+
+@pytest.mark.parametrize("trial", ["86_01", "86_09", "86_10", "86_11", "86_14"])
+def test_accuracy_agrees_with_the_original_program(data_dir: Path, trial: str):
+    """Two of the five seeds that benchmarks/aca_haca.py compares; their spread is up to 0.04."""
+    folder = data_dir / "cmu86"
+    reference = json.loads((folder / "reference" / f"aca_haca_{trial}.json").read_text())
+    truth = read_trials(folder / "annotations.json", fps=120.0)[trial]
+    features = log_maps(joint_quaternions(kineme.read(folder / f"{trial}.amc")))
+    short = {} if trial != "86_11" else {"centres": 15}
+    lengths = (32, 60) if trial != "86_11" else (21, 36)
+    levels = {} if trial != "86_11" else {"fine_lengths": (7, 9), "coarse_lengths": (3, 4)}
+
+    def accuracy(pieces: Pieces) -> float:
+        labels = pieces.clusters.tolist()
+        found = Labelling.from_cuts(pieces.cuts, labels, frames=pieces.n_frames, fps=120.0)
+        return aca_accuracy(truth, found)
+
+    for name, run in (
+        (
+            "aca",
+            lambda s: aca(
+                features, n_classes=4, shortest=lengths[0], longest=lengths[1], seed=s, **short
+            ),
+        ),
+        ("haca", lambda s: haca(features, n_classes=4, seed=s, **levels, **short)),
+    ):
+        theirs = [r[name]["accuracy"] for r in reference["runs"]]
+        ours = np.mean([accuracy(run(seed)) for seed in (1, 2)])
+        assert ours == pytest.approx(np.mean(theirs), abs=0.03), name

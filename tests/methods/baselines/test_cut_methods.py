@@ -1,0 +1,130 @@
+"""Uniform cuts, PCA, probabilistic PCA and Gaussian mixtures."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from threadpoolctl import threadpool_limits
+
+import kineme
+import naive
+from kineme.errors import ParameterError
+from kineme.evaluation import Labelling, border_score, read_trials
+from kineme.methods.baselines.gmm import gmm
+from kineme.methods.baselines.joints import joint_quaternions
+from kineme.methods.baselines.pca import pca, ppca
+from kineme.methods.baselines.uniform import uniform
+
+SEEDS = st.integers(0, 2**32 - 1)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _one_thread():
+    """Many small matrices: more threads only wait for each other."""
+    with threadpool_limits(1):
+        yield
+
+
+def changing(seed: int, spans: tuple[int, ...] = (60, 70, 50)) -> np.ndarray:
+    """Frames of one behaviour after another, each in its own plane of six dimensions."""
+    random = np.random.default_rng(seed)
+    parts = []
+    for span in spans:
+        plane = random.normal(size=(2, 6))
+        parts.append(random.normal(size=6) + random.normal(size=(span, 2)) @ plane)
+    return np.concatenate(parts) + random.normal(scale=0.05, size=(sum(spans), 6))
+
+
+@given(st.integers(1, 2000), st.floats(0.01, 5), st.sampled_from([30.0, 59.94, 120.0]))
+def test_uniform_cuts_are_evenly_spaced(n_frames, seconds, fps):
+    if seconds * fps < 1:
+        with pytest.raises(ParameterError, match="less than a frame apart"):
+            uniform(n_frames, fps=fps, seconds=seconds)
+        return
+    borders = [0, *uniform(n_frames, fps=fps, seconds=seconds).cuts.tolist(), n_frames]
+    lengths = np.diff(borders)
+    assert (lengths > 0).all()
+    assert (abs(lengths[:-1] - seconds * fps) <= 1).all()
+    assert lengths[-1] <= seconds * fps + 1
+
+
+@settings(max_examples=15)
+@given(SEEDS)
+def test_pca_cuts_match_the_naive_twin(seed):
+    features = changing(seed)
+    starts = [0, *pca(features, fps=10.0).cuts.tolist()]
+    for start, stop in pairwise([*starts, None]):
+        cut = naive.pca_cut(features[start:], first=20, lag=5)
+        assert (cut is None) == (stop is None)
+        assert cut is None or start + cut == stop
+
+
+@settings(max_examples=15)
+@given(SEEDS)
+def test_ppca_cuts_match_the_naive_twin(seed):
+    features = changing(seed)
+    starts = [0, *ppca(features, fps=10.0).cuts.tolist()]
+    for start, stop in pairwise([*starts, None]):
+        cut = naive.ppca_cut(features[start:], ahead=12, growth=1)
+        assert (cut is None) == (stop is None)
+        assert cut is None or start + cut == stop
+
+
+@pytest.mark.parametrize("method", [pca, ppca])
+@given(seed=SEEDS)
+@settings(max_examples=10)
+def test_turned_moved_and_scaled_features_are_cut_alike(method, seed):
+    features = changing(seed)
+    turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(6, 6)))[0]
+    plain, other = method(features, fps=10.0), method(3 * features @ turn + 5, fps=10.0)
+    assert plain.cuts.tolist() == other.cuts.tolist()
+
+
+@pytest.mark.parametrize("method", [pca, ppca])
+@pytest.mark.parametrize("n_frames", [1, 5, 40, 400])
+def test_what_stands_still_or_is_short_is_not_cut(method, n_frames):
+    assert method(np.full((n_frames, 4), 0.3), fps=30.0).cuts.size == 0
+
+
+@pytest.mark.parametrize("method", [pca, ppca])
+def test_a_start_from_rest_is_cut_without_a_warning(method):
+    still = np.full((300, 3), 0.2)
+    moving = 0.2 + np.sin(np.arange(300)[:, None] / [3, 5, 7])
+    assert method(np.concatenate([still, moving]), fps=30.0).cuts.size > 0
+
+
+@pytest.mark.parametrize("method", [pca, ppca])
+def test_bad_features_are_refused(method):
+    with pytest.raises(ParameterError, match="shape"):
+        method(np.zeros(4), fps=30.0)
+    with pytest.raises(ParameterError, match="finite"):
+        method(np.full((4, 2), np.nan), fps=30.0)
+    with pytest.raises(ParameterError, match="frame rate"):
+        method(np.zeros((4, 2)), fps=0.0)
+
+
+def test_gaussians_are_clusters_that_come_back():
+    first, second, third = changing(1)[:60], changing(1)[60:130], changing(1)[:60]
+    pieces = gmm(np.concatenate([first, second, third]), n_classes=2)
+    assert pieces.cuts.tolist() == [60, 130]
+    assert pieces.clusters[0] == pieces.clusters[2] != pieces.clusters[1]
+
+
+def test_more_gaussians_than_frames_are_refused():
+    with pytest.raises(ParameterError, match="3 frames cannot be told into 4"):
+        gmm(np.zeros((3, 2)), n_classes=4)
+
+
+def test_pca_methods_find_the_borders_of_a_real_recording(data_dir):
+    folder = data_dir / "cmu86"
+    truth = read_trials(folder / "annotations.json", fps=120.0)["86_09"]
+    quaternions = joint_quaternions(kineme.read(folder / "86_09.amc"))
+    for method in (pca, ppca):
+        pieces = method(quaternions.reshape(len(quaternions), -1), fps=120.0)
+        labels = pieces.clusters.tolist()
+        found = Labelling.from_cuts(pieces.cuts, labels, frames=pieces.n_frames, fps=120.0)
+        assert border_score(truth, found).recall == 1

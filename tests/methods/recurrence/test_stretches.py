@@ -1,0 +1,117 @@
+"""Borders and actions against their naive twins, and on recordings of known blocks."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import naive
+from bands import one_sided
+from kineme.methods.numbering import by_first_appearance
+from kineme.methods.recurrence import _action_kernels as kernels
+from kineme.methods.recurrence.recurrence import Recurrence, recurrence
+from kineme.methods.recurrence.stretches import (
+    change_points,
+    link,
+    merge_parts,
+    repeating,
+)
+from loops import swing
+
+seconds = settings(max_examples=120)
+
+
+@st.composite
+def likeness(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
+    """Symmetric, from 0 to 1, each moment alike to itself."""
+    n = draw(st.integers(1, max_bins))
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    alike = rng.random((n, n)) ** draw(st.sampled_from([0.1, 1, 10]))
+    alike = np.round(np.minimum(alike, alike.T), 2)
+    np.fill_diagonal(alike, 1)
+    return alike
+
+
+@given(likeness(), st.integers(0, 9), st.integers(0, 4), st.sampled_from([0.0, 0.3, 1.0, 5.0]))
+@seconds
+def test_no_division_is_cheaper(alike, width, shortest, penalty) -> None:
+    width = min(width, len(alike) - 1)
+    divisions = naive.divisions(len(alike), shortest, width + 1)
+    found = kernels.change_points(one_sided(alike, width), penalty, shortest).tolist()
+    assert found in divisions
+    costs = [naive.division_cost(alike, borders, penalty) for borders in divisions]
+    assert naive.division_cost(alike, found, penalty) == pytest.approx(min(costs), abs=1e-4)
+
+
+@given(likeness(max_bins=12), st.integers(0, 12), st.integers(0, 5), st.integers(1, 4), st.data())
+@seconds
+def test_affinities_are_those_of_the_naive_version(alike, width, gap, min_count, data) -> None:
+    n = len(alike)
+    labels = np.array(data.draw(st.lists(st.integers(0, 2), min_size=n, max_size=n)), np.int64)
+    found = np.full((n, 3), np.nan)
+    band = one_sided(alike, width)
+    kernels.class_affinities(band, labels, gap, min_count, 0, n, found)
+    expected = naive.class_affinities(alike, width, labels, 3, gap, min_count)
+    np.testing.assert_allclose(found, expected, atol=1e-6)
+
+
+@given(st.integers(1, 6), st.integers(1, 3), st.sampled_from([0.0, 0.2, 1.0]), st.integers(0, 99))
+@seconds
+def test_no_labels_are_cheaper(n, classes, switch_cost, seed) -> None:
+    costs = np.random.default_rng(seed).integers(0, 5, (n, classes)) / 4
+    found = kernels.cheapest_labels(costs, switch_cost)
+    every = np.indices((classes,) * n).reshape(n, -1).T
+    cheapest = min(naive.labels_cost(costs, labels, switch_cost) for labels in every)
+    assert naive.labels_cost(costs, found, switch_cost) == pytest.approx(cheapest)
+
+
+@given(st.lists(st.integers(-1, 4), max_size=20))
+@seconds
+def test_labels_are_counted_by_first_appearance(labels) -> None:
+    found = by_first_appearance(np.array(labels, np.int64)).tolist()
+    known = [label for label in dict.fromkeys(labels) if label >= 0]
+    assert found == [known.index(label) if label >= 0 else -1 for label in labels]
+
+
+def measured(*parts: np.ndarray) -> Recurrence:
+    options = {"step": 3, "width": 600, "phase": 12, "rank": 30, "low": 0.08, "high": 0.16}
+    return recurrence(np.concatenate(parts), **options, softness=1.6)
+
+
+def test_borders_are_where_the_movement_changes() -> None:
+    found = measured(swing(8, period=1), swing(10, period=1.2, axis=2), swing(9, period=0.8))
+    borders = change_points(found, penalty=17.5, min_length=6)
+    np.testing.assert_allclose(borders, [0, 80, 200, 272], atol=1)
+
+
+def test_two_slow_repetitions_are_parts_of_one_stretch() -> None:
+    found = measured(swing(2, period=6), swing(8, period=1.2, axis=2))
+    parts = np.array([0, 60, 120, len(found)])
+    merged = merge_parts(parts, found, gap=8, softness=2.0, least=0.3)
+    assert merged.tolist() == [0, 120, len(found)]
+    # Nothing is left to merge.
+    assert merge_parts(merged, found, gap=8, softness=2.0, least=0.3).tolist() == merged.tolist()
+
+
+def test_an_action_is_known_again() -> None:
+    walk, turn = swing(8, period=1), swing(10, period=1.2, axis=2)
+    found = measured(walk, turn, walk, turn, turn)
+    borders = np.array([0, 80, 200, 280, 400, 520])
+    options = {"likeness": 0.6, "softness": 1.3}
+    linked = link(borders, found, found.features, **options, max_lag=None)
+    assert linked.tolist() == [0, 1, 0, 1, 1]
+    # 12 s away is too far to be compared, 0 s is not.
+    near_by = link(borders, found, found.features, **options, max_lag=60)
+    assert near_by.tolist() == [0, 1, 2, 3, 3]
+
+
+def test_what_recurs_nowhere_does_not_repeat() -> None:
+    away = np.linspace(0, 5, 180)[:, None] * [0, 0, 0, 0, 1, 0]
+    found = measured(swing(8, period=1), away, swing(8, period=1, axis=2))
+    borders, labels = np.array([0, 80, 140, 220]), np.array([0, 1, 2])
+    options = {"softness": 2.0, "least": 0.5}
+    assert repeating(borders, labels, found, **options).tolist() == [True, False, True]
+    shared = np.array([0, 1, 1])  # the same action elsewhere is repetition enough
+    assert repeating(borders, shared, found, **options).all()

@@ -1,0 +1,214 @@
+"""Laws of the whole chain from features to clusters, and where they must hold exactly."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.stats import ortho_group
+
+from graphs import features
+from kineme.datasets import random_recording
+from kineme.errors import ParameterError
+from kineme.graph import BASIC_STEPS
+from kineme.methods.presets import PUBLISHED, RegionPreset, resolve_preset
+from kineme.methods.region_growing.analysis import Analysis, analyze
+from kineme.segmentation.segmenter import motion_features
+
+presets = pytest.mark.parametrize("preset", PUBLISHED.values(), ids=PUBLISHED.keys())
+few = settings(max_examples=10)
+
+
+@cache
+def recorded(seed: int, preset: RegionPreset) -> np.ndarray:
+    return motion_features(random_recording(seed).motion, preset)
+
+
+@cache
+def found_in(seed: int, preset: RegionPreset) -> Analysis:
+    return analyze(recorded(seed, preset), preset)
+
+
+def assert_same(found: Analysis, expected: Analysis) -> None:
+    for name in ("blocks", "repeats", "repetition", "segments"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
+    np.testing.assert_array_equal(found.clustering.labels, expected.clustering.labels)
+    np.testing.assert_array_equal(found.clustering.scores, expected.clustering.scores)
+
+
+def assert_tiles(found: Analysis, n: int) -> None:
+    for borders in (found.blocks, found.segments):
+        assert borders[0] == 0
+        assert borders[-1] == n
+        assert (np.diff(borders) > 0).all()
+    assert set(found.blocks.tolist()) <= set(found.segments.tolist())
+    assert len(found.repeats) == len(found.repetition) == len(found.blocks) - 1
+    assert len(found.clustering.labels) == len(found.segments) - 1
+    assert ((found.repetition >= 0) & (found.repetition <= 1)).all()
+    assert ((found.clustering.scores >= 0) & (found.clustering.scores <= 1)).all()
+
+
+@presets
+@given(st.integers(0, 3), st.integers(0, 2**32 - 1), st.floats(-1e4, 1e4))
+@few
+def test_moving_and_turning_the_features_changes_nothing(preset, seed, turn, shift) -> None:
+    rows = recorded(seed, preset)
+    turned = rows @ ortho_group.rvs(rows.shape[1], random_state=turn) + shift
+    assert_same(analyze(turned, preset), found_in(seed, preset))
+
+
+@presets
+@given(st.integers(0, 3), st.floats(1e-3, 1e3))
+@few
+def test_scaling_the_features_with_all_lengths_changes_nothing(preset, seed, factor) -> None:
+    factor = 2.0 ** round(np.log2(factor))  # distances are then scaled exactly
+    growth = preset.growth_radius
+    scaled = replace(
+        preset,
+        radius=factor * preset.radius,
+        growth_radius=None if growth is None else factor * growth,
+        zero_cost=factor * preset.zero_cost,
+    )
+    found = analyze(factor * recorded(seed, preset), scaled)
+    assert_same(found, found_in(seed, preset))
+
+
+@presets
+def test_a_reach_beyond_the_recording_is_no_limit(preset: RegionPreset) -> None:
+    rows = recorded(1, preset)
+    far = analyze(rows, preset.replace(max_lag=len(rows) / preset.working_fps))
+    assert_same(far, found_in(1, preset))
+
+
+@presets
+def test_recordings_have_something_to_find(preset: RegionPreset) -> None:
+    for seed in range(4):
+        found = found_in(seed, preset)
+        assert found.repeats.sum() >= 3
+        assert len(found.segments) > 2 * len(found.blocks)
+        assert len(set(found.clustering.labels.tolist())) < len(found.segments) - 5
+
+
+PRINT_DIGEST = """
+import hashlib, numpy as np
+from kineme.datasets import random_recording
+from kineme.methods.region_growing.analysis import analyze
+from kineme.methods.presets import PUBLISHED
+from kineme.segmentation.segmenter import motion_features
+digest = hashlib.sha256()
+for preset in PUBLISHED.values():
+    for _ in range(2):
+        found = analyze(motion_features(random_recording(2).motion, preset), preset)
+        for part in (found.graph.indices, found.graph.distances, found.blocks, found.repetition,
+                     found.segments, found.clustering.labels, found.clustering.scores):
+            digest.update(np.ascontiguousarray(part).tobytes())
+        print(digest.hexdigest())
+        digest = hashlib.sha256()
+"""
+
+
+def test_threads_and_repetition_change_nothing() -> None:
+    digests = [
+        subprocess.run(
+            [sys.executable, "-c", PRINT_DIGEST],
+            env={**os.environ, "KINEME_THREADS": threads},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.split()
+        for threads in ("1", "2", "5")
+    ]
+    assert digests[0] == digests[1] == digests[2]
+    assert digests[0][0] == digests[0][1] != digests[0][2] == digests[0][3]
+
+
+@st.composite
+def constants(draw: st.DrawFn) -> RegionPreset:
+    """A preset with constants changed in every direction it allows."""
+    seconds = st.sampled_from([0.0, 0.01, 1 / 30, 0.2, 1.0, 50.0])
+    some = st.sampled_from([0.01, 1 / 30, 0.2, 50.0])
+    few_frames = st.integers(1, 20)
+    steps = st.lists(st.tuples(st.integers(0, 5), st.integers(0, 5)).filter(any), min_size=1)
+    choices = {
+        "radius": st.sampled_from([1e-9, 0.5, 1.0, 3.0, 1e12]),
+        "max_neighbors": few_frames,
+        "max_lag": st.none() | some,
+        "bundling": st.none() | few_frames,
+        "mirror": st.booleans(),
+        "steps": st.just(BASIC_STEPS) | steps.map(tuple),
+        "skip_penalty": st.sampled_from([0.0, 1.0]),
+        "growth": st.sampled_from(["squares", "scan_lines"]),
+        "growth_radius": st.none() | st.sampled_from([0.5, 10.0]),
+        "growth_neighbors": st.none() | few_frames,
+        "diagonal": st.sampled_from(["band", "component"]),
+        "diagonal_width": seconds,
+        "growth_gap": some,
+        "growth_count": st.integers(0, 200),
+        "growth_distance": seconds,
+        "min_path": seconds,
+        "path_separation": st.none() | some,
+        "max_slope": st.sampled_from([1.0, 2.0, 9.0]),
+        "symmetry": st.sampled_from([0.01, 0.5, 1.0]),
+        "min_primitive": seconds,
+        "cluster_neighbors": st.none() | few_frames,
+        "cluster_min_path": seconds,
+        "coverage": st.sampled_from([0.01, 0.5, 1.0]),
+        "interpolate": st.booleans(),
+        "connection": st.sampled_from(["weak", "strong"]),
+    }
+    changed = draw(st.sets(st.sampled_from(sorted(choices))))
+    overrides = {name: draw(choices[name]) for name in sorted(changed)}
+    return resolve_preset(draw(st.sampled_from(sorted(PUBLISHED))), **overrides)
+
+
+@given(features(max_frames=60), constants())
+@settings(max_examples=300)
+def test_segments_tile_whatever_the_constants(points, preset) -> None:
+    assert_tiles(analyze(points, preset, mirror=np.negative), len(points))
+
+
+def test_progress_and_timings_name_the_stages() -> None:
+    stages = ["neighbors", "activities", "primitives", "clusters"]
+    for name, expected in (
+        ("voegele2014", stages),
+        ("krueger2017", ["bundling", *stages]),
+    ):
+        names: list[str] = []
+        found = analyze(np.zeros((40, 2)), PUBLISHED[name], progress=names.append)
+        assert names == [*found.timings] == expected
+        assert all(seconds >= 0 for seconds in found.timings.values())
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("radius", 0),
+        ("radius", float("nan")),
+        ("path_separation", 0),
+        ("path_separation", -1.0),
+        ("path_separation", float("nan")),
+        ("growth_gap", -1),
+        ("coverage", 1.5),
+        ("symmetry", 0),
+        ("bundling", 0),
+        ("max_slope", 0.5),
+        ("connection", "loose"),
+        ("raduis", 1.0),
+        ("name", "mine"),
+    ],
+)
+def test_a_constant_out_of_range_is_named(name: str, value: object) -> None:
+    with pytest.raises(ParameterError, match=name):
+        resolve_preset("krueger2017", **{name: value})
+
+
+def test_an_unknown_preset_is_answered_with_the_known_ones() -> None:
+    with pytest.raises(ParameterError, match=r"'best'.*voegele2014, krueger2017"):
+        resolve_preset("best")

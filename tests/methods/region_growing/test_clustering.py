@@ -1,0 +1,94 @@
+"""Links between segments and the clusters they make."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import naive
+from graphs import as_lists, flat, sparse_graphs, staircases
+from kineme.graph import BASIC_STEPS, neighbor_graph, warping_paths
+from kineme.methods.region_growing import _kernels
+from kineme.methods.region_growing.clustering import cluster_segments
+
+seconds = settings(max_examples=100)
+CONSTANTS = {"steps": BASIC_STEPS, "skip_penalty": 0.0, "zero_cost": 1e-6, "separation": None}
+COVERAGES = st.sampled_from([0.1, 0.5, 0.66, 1.0])
+
+
+@given(st.lists(staircases(), max_size=4), st.data(), COVERAGES, st.booleans())
+@seconds
+def test_links_are_those_of_the_naive_version(paths, data, coverage, interpolate) -> None:
+    borders = sorted(data.draw(st.sets(st.integers(0, 25), min_size=2)))
+    g = data.draw(st.integers(0, len(borders) - 2))
+    linked, shares = _kernels.linked_segments(
+        *flat(paths), np.array(borders, np.int64), g, coverage, interpolate
+    )
+    expected = naive.linked_segments(paths, borders, g, coverage=coverage, interpolate=interpolate)
+    assert linked.tolist() == [h for h, _ in expected]
+    np.testing.assert_allclose(shares, [share for _, share in expected])
+
+
+@given(sparse_graphs(), st.data(), COVERAGES, st.booleans(), st.sampled_from(["weak", "strong"]))
+@seconds
+def test_clusters_are_those_of_the_naive_rules(
+    graph, data, coverage, interpolate, connection
+) -> None:
+    n = len(graph)
+    inner = data.draw(st.sets(st.integers(1, n - 2), max_size=4)) if n > 2 else set()
+    borders = [0, *sorted(inner), n - 1]
+    found = cluster_segments(
+        graph,
+        np.array(borders, np.int64),
+        min_nodes=2,
+        max_slope=2.0,
+        coverage=coverage,
+        interpolate=interpolate,
+        connection=connection,
+        **CONSTANTS,
+    )
+    links = []
+    for g in range(len(borders) - 1):
+        rows = (borders[g], borders[g + 1] + 1)
+        paths = warping_paths(graph, rows, (0, n), min_nodes=2, max_slope=2.0, **CONSTANTS)
+        links.append(
+            dict(
+                sorted(
+                    naive.linked_segments(
+                        as_lists(paths), borders, g, coverage=coverage, interpolate=interpolate
+                    ),
+                    key=lambda link: link[1],
+                )
+            )
+        )
+    labels = naive.clusters(links, connection)
+    assert found.labels.tolist() == labels
+    scores = [0.0] * len(labels)
+    for g, targets in enumerate(links):
+        for h, share in targets.items():
+            if h != g and labels[g] == labels[h]:
+                scores[g], scores[h] = max(scores[g], share), max(scores[h], share)
+    np.testing.assert_allclose(found.scores, scores)
+
+
+@pytest.mark.parametrize("interpolate", [True, False])
+@pytest.mark.parametrize("connection", ["weak", "strong"])
+def test_equal_segments_share_a_cluster(interpolate: bool, connection: str) -> None:
+    rng = np.random.default_rng(4)
+    a, b = np.cumsum(rng.normal(size=(2, 30, 3)), axis=1)
+    b += 40
+    features = np.concatenate([a, b, a, a, b])
+    found = cluster_segments(
+        neighbor_graph(features, radius=0.1),
+        np.array([0, 30, 60, 90, 120, 149]),
+        min_nodes=15,
+        max_slope=2.0,
+        coverage=0.66,
+        interpolate=interpolate,
+        connection=connection,
+        **CONSTANTS,
+    )
+    assert found.labels.tolist() == [0, 1, 0, 0, 1]
+    assert (found.scores > 0.9).all()

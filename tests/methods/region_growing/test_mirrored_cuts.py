@@ -1,0 +1,87 @@
+"""Mirrored cuts: left and right steps become primitives of their own."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import naive
+from kineme.datasets import Action, synthesize
+from kineme.errors import ParameterError
+from kineme.features import mirror, mirror_features
+from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
+from kineme.methods.region_growing.analysis import Analysis, analyze
+from kineme.methods.region_growing.mirroring import merged_cuts
+from kineme.segmentation.segmenter import motion_features, segment_and_analysis
+
+MIRRORING = {
+    "voegele2014": VOEGELE2014.replace(mirror=True),
+    "krueger2017": KRUEGER2017.replace(mirror=True),
+}
+presets = pytest.mark.parametrize("preset", MIRRORING.values(), ids=MIRRORING.keys())
+frames = st.lists(st.integers(0, 200), unique=True).map(sorted)
+
+
+@cache
+def found_in(preset: RegionPreset, *actions: str, side: str = "right") -> Analysis:
+    made = synthesize([Action(name, 6, side=side) for name in actions], fps=30, seed=5)
+    return segment_and_analysis(made.motion, preset)[1]
+
+
+def longest(found: Analysis) -> str:
+    return str(found.symmetry[np.argmax(np.diff(found.blocks) * found.repeats)])
+
+
+@given(frames, frames, st.sampled_from([0.5, 7.5, 30.0]))
+def test_merging_equals_the_naive_version(main, mirrored, gap) -> None:
+    found = merged_cuts(np.array(main, np.int64), np.array(mirrored, np.int64), gap)
+    assert found.tolist() == naive.merged_cuts(main, mirrored, gap)
+
+
+@presets
+def test_steps_are_told_apart_in_walking(preset: RegionPreset) -> None:
+    plain = found_in(preset.replace(mirror=False), "walk")
+    found = found_in(preset, "walk")
+    assert plain.symmetry is None
+    assert longest(found) == "alternating"
+    assert len(found.segments) >= 1.6 * len(plain.segments)
+    assert set(plain.segments.tolist()) <= set(found.segments.tolist())
+    np.testing.assert_array_equal(found.blocks, plain.blocks)
+
+
+@presets
+@pytest.mark.parametrize(
+    ("action", "expected"),
+    [("squat", "symmetric"), ("arm circles", "symmetric"), ("run", "alternating"),
+     ("punch", "one-sided"), ("wave", "one-sided")],
+)  # fmt: skip
+def test_the_symmetry_of_an_activity_is_told(preset, action: str, expected: str) -> None:
+    found = found_in(preset, action)
+    assert longest(found) == expected
+    assert ((found.symmetry == "") == ~found.repeats).all()
+
+
+@presets
+def test_a_kick_with_the_other_leg_has_the_same_cuts(preset: RegionPreset) -> None:
+    motion = synthesize([Action("kick", 5), Action("walk", 4)], fps=30, seed=3).motion
+    found, other = (segment_and_analysis(m, preset)[1] for m in (motion, mirror(motion)))
+    np.testing.assert_array_equal(found.segments, other.segments)
+    np.testing.assert_array_equal(found.symmetry, other.symmetry)
+
+
+def test_features_without_sides_are_refused() -> None:
+    with pytest.raises(ParameterError, match="mirror=False"):
+        analyze(np.zeros((30, 2)), MIRRORING["krueger2017"])
+
+
+def test_stages_are_named() -> None:
+    motion = synthesize([Action("walk", 3)], fps=30).motion
+    features = motion_features(motion, KRUEGER2017)
+    found = analyze(features, MIRRORING["krueger2017"], mirror=mirror_features)
+    assert [*found.timings] == [
+        "bundling", "neighbors", "activities", "primitives", "mirroring", "clusters",
+    ]  # fmt: skip

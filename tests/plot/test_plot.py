@@ -1,0 +1,184 @@
+"""The picture: what it shows, what it costs, where it goes."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tracemalloc
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from matplotlib.figure import Figure
+from matplotlib.image import imread
+
+from kineme._colors import NO_CLUSTER, PALETTE, cluster_color
+from kineme.errors import WriteError
+from kineme.graph import NeighborGraph, neighbor_graph
+from kineme.plot.segmentation import (
+    draw_segmentation,
+    plot_segmentation,
+    similarity_image,
+)
+from kineme.plot.segmentation import segmentation as plot
+from kineme.segments.segmentation import Segmentation
+from segmentations import segmentations
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("pictures")
+
+
+def turning(frames: int) -> NeighborGraph:
+    """The neighbour graph of a point that goes round and round."""
+    angle = np.linspace(0, 40, frames)
+    return neighbor_graph(np.column_stack([np.cos(angle), np.sin(angle)]), radius=0.3)
+
+
+def whole(n_frames: int) -> Segmentation:
+    columns = {
+        "level": ["activity", "primitive"],
+        "kind": ["activity"] * 2,
+        "start_frame": [0, 0],
+        "stop_frame": [n_frames] * 2,
+        "cluster": [0, 0],
+    }
+    return Segmentation.from_columns(columns, n_frames=n_frames, fps=30.0)
+
+
+def test_the_image_is_the_dense_matrix_where_it_fits() -> None:
+    graph = turning(200)
+    image = similarity_image(graph)
+    assert image.shape == (200, 200)
+    np.testing.assert_array_equal(np.diag(image), 1)
+    near = graph.to_scipy()
+    rows, columns = near.nonzero()
+    assert image[rows, columns].min() > 0.1
+    assert np.count_nonzero(image) == graph.n_entries
+
+
+@given(st.integers(1, 80), st.integers(1, 90), st.integers(1, 500))
+def test_a_smaller_image_keeps_the_most_similar_pair(frames: int, pixels: int, block: int) -> None:
+    graph = turning(frames)
+    full = similarity_image(graph, frames)
+    size = min(frames, pixels)
+    expected = np.zeros((size, size), np.float32)
+    for t, j in np.ndindex(full.shape):
+        cell = t * size // frames, j * size // frames
+        expected[cell] = max(expected[cell], full[t, j])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(plot, "ENTRIES_AT_ONCE", block)
+        np.testing.assert_array_equal(similarity_image(graph, pixels), expected)
+
+
+def test_an_hour_takes_little_memory(folder: Path) -> None:
+    frames, per_frame = 108_000, 100
+    indptr = np.arange(frames + 1, dtype=np.int64) * per_frame
+    columns = np.arange(frames)[:, None] + np.arange(per_frame) * 7
+    indices = np.clip(columns, 0, frames - 1).astype(np.int32).ravel()
+    graph = NeighborGraph(indptr, indices, np.full(len(indices), 0.3, np.float32), frames, 0.64)
+    cuts = np.arange(0, frames, 40)
+    columns_of = {
+        "level": ["activity"] + ["primitive"] * len(cuts),
+        "kind": ["activity"] * (len(cuts) + 1),
+        "start_frame": [0, *cuts],
+        "stop_frame": [frames, *cuts[1:], frames],
+        "cluster": [0, *(cuts // 40 % 300)],
+    }
+    result = Segmentation.from_columns(columns_of, n_frames=frames, fps=30.0)
+    tracemalloc.start()
+    similarity_image(graph)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 100e6
+    plot_segmentation(result, graph, folder / "hour.png")
+    assert imread(folder / "hour.png").shape[0] < 4000
+
+
+@pytest.mark.parametrize("suffix", [".png", ".pdf", ".svg"])
+def test_pictures_by_suffix(folder: Path, suffix: str) -> None:
+    path = folder / f"picture{suffix}"
+    plot_segmentation(whole(90), turning(90), path)
+    first = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<?xml"}[suffix]
+    assert path.read_bytes().startswith(first)
+
+
+def test_what_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
+    with pytest.raises(WriteError, match=r"pictures are written as \.png"):
+        plot_segmentation(whole(9), turning(9), tmp_path / "x.bmp")
+    with pytest.raises(WriteError, match="does not exist"):
+        plot_segmentation(whole(9), turning(9), tmp_path / "none" / "x.png")
+    assert list(tmp_path.iterdir()) == []
+
+
+@settings(max_examples=30)
+@given(segmentations())
+def test_every_segmentation_can_be_drawn(result: Segmentation) -> None:
+    axes = Figure().add_subplot()
+    draw_segmentation(axes, result, turning(max(1, result.n_frames // 4)))
+    legend = [text.get_text() for text in axes.get_legend().get_texts()]
+    for cluster, count in result.repetitions().items():
+        assert f"{cluster}  ({count}×)" in legend
+
+
+def test_a_legend_of_many_clusters_says_how_many_are_left_out() -> None:
+    n = 50
+    columns = {
+        "level": ["activity"] + ["primitive"] * n,
+        "kind": ["activity"] * (n + 1),
+        "start_frame": [0, *range(n)],
+        "stop_frame": [n, *range(1, n + 1)],
+        "cluster": [-1, *range(n - 1), 17],
+    }
+    result = Segmentation.from_columns(columns, n_frames=n, fps=30.0)
+    axes = Figure().add_subplot()
+    draw_segmentation(axes, result, turning(n))
+    legend = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert "17  (2×)" in legend
+    assert legend[-1] == f"and {n - 1 - plot.MAX_LEGEND} more"
+
+
+def test_no_global_plotting_state() -> None:
+    code = "import sys, kineme.plot.segmentation; print('matplotlib.pyplot' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
+
+
+def test_colours_repeat_only_after_three_rounds() -> None:
+    first = [cluster_color(cluster) for cluster in range(3 * len(PALETTE))]
+    assert len(set(first)) == len(first)
+    assert first[: len(PALETTE)] == list(PALETTE)
+    assert cluster_color(3 * len(PALETTE)) == first[0]
+    assert cluster_color(-1) == NO_CLUSTER
+
+
+# Linear RGB as seen without red, green or blue cones: Machado, Oliveira and Fernandes 2009.
+BLINDNESS = {
+    "protanopia": [[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]],
+    "deuteranopia": [[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]],
+    "tritanopia": [[1.256, -0.077, -0.179], [-0.078, 0.931, 0.148], [0.005, 0.691, 0.304]],
+}
+
+
+@pytest.mark.parametrize("kind", ["none", *BLINDNESS])
+def test_colours_stay_apart_for_colour_blind_eyes(kind: str) -> None:
+    matrix = np.array(BLINDNESS.get(kind, np.eye(3)))
+    seen = [lab(matrix @ linear(color)) for color in (*PALETTE, NO_CLUSTER)]
+    for one, other in combinations(seen, 2):
+        assert np.linalg.norm(one - other) > 10
+
+
+def linear(color: str) -> np.ndarray:
+    channels = np.array([int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)])
+    return np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+
+
+def lab(rgb: np.ndarray) -> np.ndarray:
+    """CIE L*a*b* of linear sRGB."""
+    to_xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
+    x, y, z = np.cbrt(np.array(to_xyz) @ np.clip(rgb, 0, 1) / [0.9505, 1.0, 1.089])
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])

@@ -1,0 +1,194 @@
+"""What may change nothing in signals, and what resampling and envelopes must do."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from kineme import Signals, segment_signals
+from kineme.errors import ParameterError
+from kineme.features.emg import emg_envelope
+from kineme.methods.presets import KINEME, KRUEGER2017, VOEGELE2014
+from kineme.segmentation.channels import (
+    RECURS_AT,
+    at_rate,
+    recurrence_unit,
+    search_vectors,
+    signal_preset,
+)
+from kineme.segmentation.channels import standardized as standard
+
+VALUES = arrays.arrays(
+    np.float64, st.tuples(st.integers(1, 40), st.integers(1, 4)), elements=st.floats(-1e3, 1e3)
+)
+RATES = st.floats(5, 500)
+
+
+@given(VALUES, RATES, RATES)
+def test_resampled_values_are_means_of_what_is_there(values, fps, new) -> None:
+    found = at_rate(values, fps, new)
+    assert len(found) == int((len(values) - 1) * new / fps + 1e-9) + 1
+    assert (found >= values.min(axis=0) - 1e-6).all()
+    assert (found <= values.max(axis=0) + 1e-6).all()
+
+
+@given(VALUES, RATES)
+def test_the_same_rate_without_smoothing_changes_nothing(values, fps) -> None:
+    assert np.allclose(at_rate(values, fps, fps, smoothing=0), values, atol=1e-6)
+
+
+def naive_mean(values: np.ndarray, fps: float, at: float, width: float) -> np.ndarray:
+    """The mean over a stretch of samples that are held for a period each, literally."""
+    total, weight = np.zeros(values.shape[1]), 0.0
+    for i, value in enumerate(values):
+        start, stop = max(i - 0.5, (at - width / 2) * fps), min(i + 0.5, (at + width / 2) * fps)
+        if stop > start:
+            total, weight = total + (stop - start) * value, weight + stop - start
+    return total / weight
+
+
+@given(VALUES, st.floats(20, 200), st.floats(20, 60), st.floats(0, 0.3))
+@settings(max_examples=30)
+def test_resampling_is_what_it_says(values, fps, new, smoothing) -> None:
+    found = at_rate(values, fps, new, smoothing=smoothing)
+    width = max(smoothing, 1 / fps, 1 / new)
+    for i in range(0, len(found), 5):
+        assert np.allclose(found[i], naive_mean(values, fps, i / new, width), atol=1e-6)
+
+
+def test_what_is_too_fast_for_the_new_rate_does_not_fold_back() -> None:
+    t = np.arange(5000) / 1000
+    hum = np.sin(2 * np.pi * 59 * t)[:, None]  # every 33rd sample of it would look like 1 Hz
+    assert np.abs(at_rate(hum, 1000, 30)[3:-3]).max() < 0.1
+
+
+@given(VALUES)
+def test_standard_channels(values) -> None:
+    found = standard(values)
+    assert np.allclose(found.mean(axis=0), 0, atol=1e-6)
+    deviation = found.std(axis=0)
+    assert (np.isclose(deviation, 1) | (deviation == 0)).all()
+
+
+def recording(fps: float = 60.0, seconds: float = 20) -> np.ndarray:
+    t = np.arange(int(seconds * fps)) / fps
+    switch = (t < seconds / 2)[:, None]
+    one = np.column_stack([np.sin(6 * t), np.cos(6 * t)])
+    two = np.column_stack([np.sin(11 * t) ** 3, np.cos(11 * t)])
+    rng = np.random.default_rng(3)
+    return np.where(switch, one, two) + 0.03 * rng.standard_normal((len(t), 2))
+
+
+@given(
+    gain=arrays.arrays(np.float64, 2, elements=st.floats(0.01, 100) | st.floats(-100, -0.01)),
+    offset=arrays.arrays(np.float64, 2, elements=st.floats(-1e3, 1e3)),
+    swap=st.booleans(),
+    preset=st.sampled_from(["kineme", "krueger2017"]),
+)
+@settings(max_examples=10)
+def test_units_zeros_signs_and_order_of_channels_change_no_cut(gain, offset, swap, preset) -> None:
+    x = recording()
+    other = (gain * x + offset)[:, ::-1] if swap else gain * x + offset
+    a, b = (
+        segment_signals(Signals(x, 60), preset=preset),
+        segment_signals(Signals(other, 60), preset=preset),
+    )
+    assert a.cuts("primitive").tolist() == b.cuts("primitive").tolist()
+
+
+def test_repeated_channels_change_no_cut() -> None:
+    """The generalised radius: twice the channels are no farther apart."""
+    x = recording()
+    for preset in ("kineme", "voegele2014"):
+        once = segment_signals(Signals(x, 60), preset=preset)
+        twice = segment_signals(Signals(np.hstack([x, x]), 60), preset=preset)
+        assert once.cuts("primitive").tolist() == twice.cuts("primitive").tolist()
+
+
+def test_lengths_of_published_presets_are_those_of_a_body() -> None:
+    r = signal_preset(KRUEGER2017).radius
+    assert r * np.sqrt(5 * 15) * 0.13 == pytest.approx(KRUEGER2017.radius)
+    assert signal_preset("voegele2014").radius == pytest.approx(0.734, abs=1e-3)
+    assert signal_preset("voegele2014", radius=0.5).radius == 0.5
+    assert signal_preset(VOEGELE2014).max_neighbors == VOEGELE2014.max_neighbors
+    assert signal_preset("kineme") == KINEME.replace(any_pace=False)
+    assert signal_preset("kineme", any_pace=True) == KINEME
+
+
+def test_the_unit_of_kineme_is_the_distance_of_recurrence() -> None:
+    features, _ = search_vectors(Signals(recording(), 60), KINEME)
+    unit = recurrence_unit(features, KINEME)
+    assert recurrence_unit(features / unit, KINEME) == pytest.approx(1, rel=1e-4)
+    assert recurrence_unit(features[:20], KINEME) == 1
+    assert recurrence_unit(np.zeros_like(features), KINEME) == pytest.approx(0.1)
+    assert KINEME.max_scale < RECURS_AT
+
+
+def test_a_gap_is_a_transition_and_what_lies_around_it_is_compared() -> None:
+    x = np.tile(recording(seconds=10)[:300], (4, 1))
+    x[600:640] = 1e6
+    found = segment_signals(Signals(x, 60, gaps=[(600, 640)]))
+    assert {600, 640} <= set(found.cuts().tolist())
+    assert found.per_frame("kind")[600:640].tolist() == ["transition"] * 40
+    assert found.per_frame()[300] == found.per_frame()[900]
+
+
+def test_envelopes_follow_the_strength_of_a_muscle() -> None:
+    fps = 1000.0
+    t = np.arange(8000) / fps
+    strength = np.clip(np.sin(2 * np.pi * 0.5 * t), 0, None)
+    rng = np.random.default_rng(0)
+    raw = strength * rng.standard_normal(len(t)) + 3.0
+    envelope = emg_envelope(raw[:, None], fps)[:, 0]
+    assert np.corrcoef(envelope, strength)[0, 1] > 0.97
+    assert envelope.min() >= 0
+    busy, quiet = envelope[250:750].mean(), envelope[1250:1750].mean()
+    assert quiet < 0.1 * busy
+    lag = np.argmax(np.correlate(envelope - envelope.mean(), strength - strength.mean(), "full"))
+    assert abs(lag - (len(t) - 1)) < 0.02 * fps  # no delay
+
+
+def test_bursts_of_a_muscle_are_repetitions() -> None:
+    fps = 500.0
+    t = np.arange(int(30 * fps)) / fps
+    rng = np.random.default_rng(1)
+    phases = [np.clip(np.sin(2 * np.pi * 0.5 * t + p), 0, None) for p in (0, 2)]
+    raw = np.column_stack([s * rng.standard_normal(len(t)) for s in phases])
+    found = segment_signals(Signals(raw, fps), emg=True)
+    (count,) = found.repetitions().values()
+    assert count == 15
+    assert "muscle signals: rectified and low-passed" in found.provenance["notes"]
+
+
+def test_a_cutoff_beyond_the_samples_is_refused() -> None:
+    with pytest.raises(ParameterError, match="needs signals of more than 12 Hz, not 10"):
+        emg_envelope(np.ones((50, 1)), 10)
+    assert len(emg_envelope(np.ones((1, 1)), 100)) == 1
+
+
+def test_signals_that_contradict_themselves() -> None:
+    with pytest.raises(ParameterError, match="frames x channels, not of shape"):
+        Signals(np.zeros((0, 2)), 10)
+    with pytest.raises(ParameterError, match="first in frame 1"):
+        Signals(np.array([0, np.nan]), 10)
+    with pytest.raises(ParameterError, match="frame rate is 0"):
+        Signals(np.zeros(4), 0)
+    with pytest.raises(ParameterError, match="different names"):
+        Signals(np.zeros((4, 2)), 10, ["a", "a"])
+    with pytest.raises(ParameterError, match="in time order inside 4 frames"):
+        Signals(np.zeros(4), 10, gaps=[(2, 1)])
+    with pytest.raises(ParameterError, match="leave nothing"):
+        Signals(np.zeros(4), 10, gaps=[(0, 4)])
+    signals = Signals(np.zeros((4, 3)), 10)
+    assert signals.names == ("1", "2", "3")
+    assert signals.select(["3", "1"]).names == ("3", "1")
+    with pytest.raises(ParameterError, match="no channel '4'; there are 1, 2, 3"):
+        signals.select("4")
+
+
+def test_a_rate_beyond_all_measure_is_refused() -> None:
+    with pytest.raises(ParameterError, match="is the frame rate right"):
+        segment_signals(Signals(np.zeros((10, 1)), 1e-6))

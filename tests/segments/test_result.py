@@ -1,0 +1,143 @@
+"""Segmentation: what always holds, and what is refused."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kineme.errors import ParameterError
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import COLUMNS
+from segmentations import segmentations
+
+WALK_JUMP = {
+    "level": ["activity"] * 3 + ["primitive"] * 5,
+    "kind": [
+        "activity",
+        "transition",
+        "activity",
+        "activity",
+        "activity",
+        "transition",
+        "activity",
+        "activity",
+    ],
+    "start_frame": [0, 40, 50, 0, 20, 40, 50, 70],
+    "stop_frame": [40, 50, 90, 20, 40, 50, 70, 90],
+    "cluster": [-1, -1, -1, 0, 0, -1, 1, 0],
+}
+
+
+def walk_jump(**changes: object) -> Segmentation:
+    return Segmentation.from_columns({**WALK_JUMP, **changes}, n_frames=90, fps=30.0)  # type: ignore[dict-item]
+
+
+def test_rows_carry_frames_and_seconds() -> None:
+    transition = walk_jump().activities[1]
+    assert (transition.start_frame, transition.stop_frame) == (40, 50)
+    assert (transition.start_s, transition.stop_s) == (40 / 30, 50 / 30)
+    assert (transition.kind, transition.activity, transition.label) == ("transition", 1, "")
+    assert np.isnan(transition.score)
+
+
+def test_cuts_repetitions_and_frames() -> None:
+    result = walk_jump()
+    assert result.cuts().tolist() == [40, 50]
+    assert result.cuts("primitive").tolist() == [20, 40, 50, 70]
+    assert result.repetitions() == {0: 3, 1: 1}
+    assert result.primitives.activity.tolist() == [0, 0, 1, 2, 2]
+    assert result.per_frame("kind", level="activity").tolist() == (
+        ["activity"] * 40 + ["transition"] * 10 + ["activity"] * 40
+    )
+    assert len(result) == len(list(result)) == 8
+    assert "2 activities, 1 transition, 4 primitives, 2 clusters" in repr(result)
+
+
+def test_pandas_sees_the_documented_columns() -> None:
+    frame = walk_jump().to_pandas()
+    assert tuple(frame.columns) == COLUMNS
+    assert frame.query("level == 'primitive' and cluster == 0").start_frame.tolist() == [0, 20, 70]
+
+
+@given(segmentations())
+def test_every_level_tiles_the_recording(result: Segmentation) -> None:
+    for rows in filter(len, (result.activities, result.primitives)):
+        covered = np.concatenate([np.arange(r.start_frame, r.stop_frame) for r in rows])
+        np.testing.assert_array_equal(covered, np.arange(result.n_frames))
+        np.testing.assert_array_equal(rows.start_s, rows.start_frame / result.fps)
+    for row in result.primitives:
+        parent = result.activities[row.activity]
+        assert parent.start_frame <= row.start_frame < row.stop_frame <= parent.stop_frame
+
+
+@given(segmentations(), st.randoms(use_true_random=False))
+def test_row_order_does_not_matter(result: Segmentation, random: object) -> None:
+    order = list(range(len(result)))
+    random.shuffle(order)  # type: ignore[attr-defined]
+    columns = {name: column[order] for name, column in result.table.columns().items()}
+    shuffled = Segmentation.from_columns(
+        columns,
+        n_frames=result.n_frames,
+        fps=result.fps,
+        provenance=result.provenance,
+        timings=result.timings,
+    )
+    assert shuffled == result
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"stop_frame": [40, 50, 90, 20, 40, 50, 70, 89]}, "primitive level must cover"),
+        ({"start_frame": [0, 41, 50, 0, 20, 40, 50, 70]}, "stops at frame 40, .* starts at 41"),
+        ({"start_frame": [0, 30, 50, 0, 20, 40, 50, 70]}, "stops at frame 40, .* starts at 30"),
+        ({"level": ["primitive"] * 8}, "activity level must cover frames 0 to 90"),
+        ({"level": ["action"] * 8}, "level must be activity or primitive, not 'action'"),
+        ({"kind": ["rest"] * 8}, "kind must be activity or transition, not 'rest'"),
+        ({"activity": [0, 1, 2, 0, 0, 1, 2, 1]}, "names activity 1, but lies in activity 2"),
+        ({"activity": [1, 1, 2, 0, 0, 1, 2, 2]}, "must count 0, 1, 2"),
+        ({"cluster": [0.5] * 8}, "'cluster' must hold whole numbers"),
+        ({"cluster": [0] * 7}, "'cluster' has shape"),
+        ({"score": [np.inf] * 8}, "'score' must be finite"),
+        ({"label": ["two\nlines"] * 8}, "must be one line"),
+        ({"label": [None] * 8}, "must hold texts, not None"),
+    ],
+)
+def test_contradictions_are_refused(changes: dict[str, object], message: str) -> None:
+    with pytest.raises(ParameterError, match=message):
+        walk_jump(**changes)
+
+
+def test_a_primitive_may_not_cross_an_activity_border() -> None:
+    columns = {
+        "level": ["activity", "activity", "primitive"],
+        "kind": ["activity"] * 3,
+        "start_frame": [0, 5, 0],
+        "stop_frame": [5, 9, 9],
+    }
+    with pytest.raises(ParameterError, match=r"frames 0 to 9 crosses the border .* at 5"):
+        Segmentation.from_columns(columns, n_frames=9, fps=30.0)
+
+
+@pytest.mark.parametrize(("n_frames", "fps"), [(0, 30.0), (90, 0.0), (90, np.nan), (90, np.inf)])
+def test_a_recording_has_frames_and_a_rate(n_frames: int, fps: float) -> None:
+    with pytest.raises(ParameterError, match=r"recording|frame rate"):
+        Segmentation.from_columns(WALK_JUMP, n_frames=n_frames, fps=fps)
+
+
+def test_provenance_must_fit_into_json() -> None:
+    with pytest.raises(ParameterError, match="provenance cannot be written as JSON"):
+        Segmentation(walk_jump().table, 90, 30.0, provenance={"radius": object()})
+
+
+def test_the_table_needs_no_pandas() -> None:
+    code = (
+        "import sys, kineme.segments.segmentation; print({'pandas', 'pyarrow'} & set(sys.modules))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
