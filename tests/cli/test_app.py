@@ -82,7 +82,7 @@ def test_constants_given_one_by_one_make_the_preset(
         asked.update(overrides)
         raise package.ParameterError("enough")
 
-    monkeypatch.setattr("kineme.cli.segment.resolve_preset", remember)
+    monkeypatch.setattr("kineme.cli.request.resolve_preset", remember)
     options = []
     for name in preset.constants():
         options += [f"--{name.replace('_', '-')}", typed(getattr(preset, name))]

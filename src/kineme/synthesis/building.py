@@ -106,21 +106,25 @@ def _check(motions: Sequence[Motion], threshold: float, window: float) -> None:
         check_motion(motion, "motion_graph")
     if not motions:
         raise ParameterError("a motion graph needs at least one recording")
-    first = motions[0]
     for motion in motions:
-        where = motion.provenance.path or "a motion"
-        if motion.rotations is None:
-            raise ParameterError(f"{where} has no rotations: give BVH or AMC files")
-        same = (
-            motion.skeleton.names == first.skeleton.names
-            and motion.skeleton.parents == first.skeleton.parents
-            and np.allclose(motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3)
+        check_source(motion, motions[0])
+
+
+def check_source(motion: Motion, first: Motion) -> None:
+    """ParameterError for a motion that cannot be in one graph with the first."""
+    where = motion.provenance.path or "a motion"
+    if motion.rotations is None:
+        raise ParameterError(f"{where} has no rotations: give BVH or AMC files")
+    same = (
+        motion.skeleton.names == first.skeleton.names
+        and motion.skeleton.parents == first.skeleton.parents
+        and np.allclose(motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3)
+    )
+    if not same or motion.fps != first.fps:
+        raise ParameterError(
+            f"{where} has another skeleton or frame rate than "
+            f"{first.provenance.path or 'the first motion'}; build one graph for each"
         )
-        if not same or motion.fps != first.fps:
-            raise ParameterError(
-                f"{where} has another skeleton or frame rate than "
-                f"{first.provenance.path or 'the first motion'}; build one graph for each"
-            )
 
 
 def _nodes_of(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
