@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kineme.signals import write_signals
+from kineme.formats.channels.writing import write_signals
 
 import kineme
 from kineme.clips.loops import Carry, loop
