@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme import Signals, read_signals, segment_signals
+from kineme import Signals, read, segment_signals
 from kineme import _rotations as rot
 from kineme.datasets import random_recording
 from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
@@ -115,7 +115,7 @@ def main() -> None:
     ):
         print(table(title, sets, units=options.units))
     for path in sorted((options.data / "timeseries").glob("WalkJogRun*.txt")):
-        found = segment_signals(read_signals(path, fps=FPS))
+        found = segment_signals(read(path, fps=FPS))
         borders = ", ".join(map(str, found.cuts().tolist()))
         print(f"{path.stem}: {borders} of {found.n_frames} frames")
 

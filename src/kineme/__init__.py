@@ -67,7 +67,6 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
         segment_and_analysis as segment_and_analysis,
     )
     from kineme.segments.table import Segment as Segment, SegmentTable as SegmentTable
-    from kineme.formats.channels.reading import read_signals as read_signals
     from kineme.segmentation.signals import segment_signals as segment_signals
     from kineme.segmentation.estimator import Segmenter as Segmenter
     from kineme.synthesis import (
@@ -115,7 +114,6 @@ _HOMES = {
     "kineme.segments.segmentation": ("Segmentation",),
     "kineme.segmentation.segmenter": ("segment", "segment_and_analysis"),
     "kineme.segments.table": ("Segment", "SegmentTable"),
-    "kineme.formats.channels.reading": ("read_signals",),
     "kineme.segmentation.signals": ("segment_signals",),
     "kineme.segmentation.estimator": ("Segmenter",),
     "kineme.synthesis": ("MotionGraph", "motion_graph", "synthesize"),

@@ -170,7 +170,7 @@ def test_what_is_no_motion_is_refused_with_the_way_to_one() -> None:
     for wrong in ("take.bvh", np.zeros((90, 15))):
         with pytest.raises(ParameterError, match=r"takes a Motion, not \w+: kineme.read"):
             segment(wrong)  # type: ignore[arg-type]
-    with pytest.raises(ParameterError, match="takes Signals, not ndarray: kineme.read_signals"):
+    with pytest.raises(ParameterError, match="takes Signals, not ndarray: kineme.read"):
         segment_signals(np.zeros((90, 3)))  # type: ignore[arg-type]
 
 

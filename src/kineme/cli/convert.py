@@ -34,14 +34,16 @@ def _is_recording(path: Path) -> bool:
 
 def _names_channels(path: Path) -> bool:
     """Whether a text file is a table of channels: these name columns, labels begin with a time."""
-    from kineme.formats.channels.reading import is_signal_file
-    from kineme.formats.channels.text_table import TextTable
+    from kineme.errors import ReadError
+    from kineme.formats.channels.sensors import hold_channels
+    from kineme.formats.channels.text import TextTable
     from kineme.formats.files import load
 
-    if not is_signal_file(path):
+    try:
+        table = TextTable.of(load(path))
+    except ReadError:
         return False
-    table = TextTable.of(load(path))
-    return table.names[0] != "1" and bool(table.numeric())
+    return hold_channels(table.names) and table.names[0] != "1" and bool(table.numeric())
 
 
 def convert(

@@ -74,9 +74,9 @@ def _returns(graph: NeighborGraph, frame: int, gap: int) -> bool:
 
 
 def _read(path: Path) -> Motion | None:
-    from kineme.formats import read
+    from kineme.formats import read_motion
 
     try:
-        return read(path)
+        return read_motion(path)
     except KinemeError:
         return None

@@ -75,7 +75,7 @@ def segment_signals_and_analysis(
         signals,
         Signals,
         "segment_signals",
-        "kineme.read_signals(path) gives them; arrays go to Segmenter",
+        "kineme.read(path) gives them; arrays go to Segmenter",
     )
     preset = signal_preset(preset)
     if not (is_number(smoothing) and smoothing >= 0):

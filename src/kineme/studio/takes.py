@@ -188,10 +188,6 @@ class Take:
 
 def _read(path: Path, options: Mapping[str, Any]) -> Motion | Signals:
     """What a file holds; a table of channels without a body is signals."""
-    from kineme.formats.channels.reading import is_signal_file, read_signals
-
-    if is_signal_file(path):
-        return read_signals(path, fps=options.get("fps"))
     return read(path, **options)
 
 

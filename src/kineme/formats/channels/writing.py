@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import csv
 import re
-import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from io import StringIO
@@ -22,14 +21,17 @@ from typing import Any, Protocol
 import numpy as np
 
 from kineme._files import atomic_write
-from kineme.errors import KinemeWarning, WriteError
-from kineme.formats.channels.tables import KINDS, kind_of, parquet_file
-from kineme.formats.channels.text_table import TextTable, named
+from kineme.errors import ReadError, WriteError
+from kineme.formats.channels.parquet import parquet_channels, parquet_file
+from kineme.formats.channels.table import named
+from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.columns import is_timing
-from kineme.formats.files import Source, load
+from kineme.formats.files import FileContent, load
 from kineme.recordings import Signals
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
+TEXT = ("table", "MOT/STO")
+PARQUET = "Parquet table"
 
 _ROW_COUNT = re.compile(r"^(\s*(?:nrows\s*=|datarows\s)\s*)\d+", re.IGNORECASE | re.MULTILINE)
 
@@ -82,11 +84,11 @@ def rows_of(signals: Signals) -> Rows:
     """The frames of signals as rows of their own file, or of a CSV where these are others."""
     path = signals.provenance.path
     if path is not None and Path(path).is_file():
-        source = load(path)
-        if source.digest == signals.provenance.sha256 and _holds(source, signals):
-            if kind_of(source) == "Parquet table":
-                return _ParquetRows.of(source)
-            return _TextRows.of(source, signals.n_frames)
+        content = load(path)
+        if content.digest == signals.provenance.sha256 and _holds(content, signals):
+            if signals.provenance.format == PARQUET:
+                return _ParquetRows.of(content)
+            return _TextRows.of(content, signals.n_frames)
     return _of_values(signals)
 
 
@@ -102,10 +104,10 @@ class _TextRows:
     separator: str
 
     @classmethod
-    def of(cls, source: Source, n_rows: int) -> _TextRows:
+    def of(cls, content: FileContent, n_rows: int) -> _TextRows:
         """The first rows of a file, blank lines left out."""
-        table = TextTable.of(source)
-        text = source.data.decode("utf-8", errors="surrogateescape")
+        table = TextTable.of(content)
+        text = content.data.decode("utf-8", errors="surrogateescape")
         lines = text.splitlines(keepends=True)
         head, below = lines[: table.first_row - 1], lines[table.first_row - 1 :]
         reader = csv.reader(table.rows, delimiter=table.separator)
@@ -117,7 +119,7 @@ class _TextRows:
             start = reader.line_num
         numbered = [str(i) for i in range(1, len(table.names) + 1)]
         names = None if table.names == numbered else table.names
-        suffix = source.path.suffix.lower()
+        suffix = content.path.suffix.lower()
         return cls(suffix, names, "".join(head), kept[:n_rows], table.rows, table.separator)
 
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
@@ -141,8 +143,8 @@ class _ParquetRows:
     suffix: str = ".parquet"
 
     @classmethod
-    def of(cls, source: Source) -> _ParquetRows:
-        table = parquet_file(source).read()
+    def of(cls, content: FileContent) -> _ParquetRows:
+        table = parquet_file(content).read()
         return cls(named(table.column_names), table)
 
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
@@ -158,16 +160,17 @@ class _ParquetRows:
             yield ["" if cell is None else str(cell) for cell in row]
 
 
-def _holds(source: Source, signals: Signals) -> bool:
+def _holds(content: FileContent, signals: Signals) -> bool:
     """Whether the rows of a table on disk are the frames of signals, holes aside."""
-    kind = kind_of(source)
-    if kind not in ("table", "MOT/STO", "Parquet table"):
+    try:
+        if signals.provenance.format == PARQUET:
+            values = parquet_channels(content, parquet_file(content), signals.names).values
+        elif signals.provenance.format in TEXT:
+            values = text_channels(content, TextTable.of(content), signals.names).values
+        else:
+            return False
+    except ReadError:  # channels of other names
         return False
-    if not set(signals.names) <= set(KINDS[kind].names(source)):
-        return False
-    with warnings.catch_warnings():  # said when it was read
-        warnings.simplefilter("ignore", KinemeWarning)
-        values = KINDS[kind].read(source, signals.names).values
     if values.shape != signals.values.shape:
         return False
     return bool(((values == signals.values) | ~np.isfinite(values)).all())
