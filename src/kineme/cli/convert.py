@@ -24,12 +24,12 @@ def _known(name: str | None) -> str | None:
 
 def _is_recording(path: Path) -> bool:
     """Whether a file is a recording and no labels, by its suffix and how it begins."""
-    from kineme.formats.listing import holds_motion
+    from kineme.formats.listing import holds_recording
 
     suffix = path.suffix.lower()
     if suffix == ".txt":
         return _names_channels(path)
-    return path.is_dir() or holds_motion(path) or suffix in (".asf", ".dat")
+    return path.is_dir() or holds_recording(path) or suffix in (".asf", ".dat")
 
 
 def _names_channels(path: Path) -> bool:

@@ -221,7 +221,7 @@ def read(
     --------
     >>> import kineme
     >>> kineme.read(kineme.bundled_recording())
-    <Motion of 2460 frames (20.5 s) at 120 Hz: 26 joints, 5 of them end sites>
+    <Motion of 2898 frames (48.3 s) at 60 Hz: 26 joints, 5 of them end sites>
     """
     who = None if person is None else str(person)
     options = ReadOptions(skeleton, fps, unit, up, who, confidence, columns, emg)

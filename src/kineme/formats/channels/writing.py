@@ -21,12 +21,13 @@ from typing import Any, Protocol
 import numpy as np
 
 from kineme._files import atomic_write
-from kineme.errors import ReadError, WriteError
+from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.table import named
 from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.columns import is_timing
 from kineme.formats.files import FileContent, load
+from kineme.formats.gaps import covered
 from kineme.recordings import Signals
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
@@ -54,7 +55,7 @@ class Rows(Protocol):
 def write_signals(
     signals: Signals, path: str | PathLike[str], *, columns: Sequence[str] | None = None
 ) -> None:
-    """Leave signals in a file of their own format, a CSV or a TSV, whole or not at all.
+    """Leave signals in a file of their own format, a CSV, TSV or Parquet, whole or not at all.
 
     Parameters
     ----------
@@ -75,8 +76,10 @@ def write_signals(
         rows.write(target)
     elif suffix in SEPARATORS:
         _table(rows, suffix, columns).write(target)
+    elif suffix == ".parquet":
+        _ParquetRows.of_values(signals).write(target)
     else:
-        known = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS)))
+        known = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS, ".parquet")))
         raise WriteError(target, f"signals are written as {known}, not {suffix or 'that'!r}")
 
 
@@ -147,6 +150,20 @@ class _ParquetRows:
         table = parquet_file(content).read()
         return cls(named(table.column_names), table)
 
+    @classmethod
+    def of_values(cls, signals: Signals) -> _ParquetRows:
+        """Times and channels, null in gaps."""
+        try:
+            import pyarrow as pa
+        except ImportError as error:
+            raise MissingDependencyError("pyarrow", "tables") from error
+        missing = covered(signals.gaps, signals.n_frames)
+        columns = {"time": pa.array(signals.times)} | {
+            name: pa.array(values, mask=missing)
+            for name, values in zip(signals.names, signals.values.T, strict=True)
+        }
+        return cls(list(columns), pa.table(columns))
+
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
         from pyarrow import parquet
 
@@ -178,9 +195,7 @@ def _holds(content: FileContent, signals: Signals) -> bool:
 
 def _of_values(signals: Signals) -> _TextRows:
     """Times and channels as a CSV that reads back to the same numbers."""
-    missing = np.zeros(signals.n_frames, np.bool_)
-    for start, stop in signals.gaps:
-        missing[start:stop] = True
+    missing = covered(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels
     rows = (
         [repr(i / signals.fps), *(empty if gap else map(repr, row))]

@@ -99,14 +99,16 @@ def _skeleton(
     order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
 ) -> Skeleton:
     names: list[str] = []
+    at: dict[str, int] = {}
     above: list[int] = []
     offsets: list[Floats] = []
     ends = []
     inner = set(parents.values())
     for name in order:
         parent = parents.get(name)
-        above.append(-1 if parent is None else names.index(parent))
+        above.append(-1 if parent is None else at[parent])
         offsets.append(np.zeros(3) if parent is None else bones[parent].tip)
+        at[name] = len(names)
         names.append(name)
         if name not in inner and bones[name].tip.any():
             above.append(len(names) - 1)
@@ -231,7 +233,8 @@ def _from_root(content: FileContent, parents: dict[str, str], bones: dict[str, B
     while waiting:
         order.append(waiting.pop())
         waiting.extend(reversed(children[order[-1]]))
-    lost = [name for name in bones if name not in set(order)]
+    reached = set(order)
+    lost = [name for name in bones if name not in reached]
     if lost:
         raise content.error(
             f"bone {lost[0]!r} does not hang on the root: its line in :hierarchy is missing "

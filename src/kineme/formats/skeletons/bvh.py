@@ -73,11 +73,12 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
 
 def _skeleton(joints: list[Joint]) -> Skeleton:
     parents = tuple(joint.parent for joint in joints)
+    inner = set(parents)
     return Skeleton(
         tuple(joint.name for joint in joints),
         parents,
         np.array([joint.offset for joint in joints]),
-        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in parents),
+        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
     )
 
 

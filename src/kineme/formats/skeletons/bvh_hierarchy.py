@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from itertools import count
 
 from kineme.formats.files import FileContent, numbers
 
@@ -127,9 +126,11 @@ class _Hierarchy:
                 if joint.name in taken:
                     raise self.content.error(f"a second joint is called {joint.name!r}", joint.line)
                 taken.add(joint.name)
+        tried: dict[str, int] = {}  # the last number behind each name
         for joint in self.joints:
             if joint.end:
-                stem = f"{self.joints[joint.parent].name}_end"
-                names = (stem if i == 1 else f"{stem}{i}" for i in count(1))
-                joint.name = next(name for name in names if name not in taken)
+                stem = joint.name = f"{self.joints[joint.parent].name}_end"
+                while joint.name in taken:
+                    tried[stem] = tried.get(stem, 1) + 1
+                    joint.name = f"{stem}{tried[stem]}"
                 taken.add(joint.name)
