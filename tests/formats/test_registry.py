@@ -104,7 +104,7 @@ def test_writers_are_of_motions_or_of_signals(tmp_path: Path) -> None:
         assert again.values[[0, 2]].tolist() == signals.values[[0, 2]].tolist()
     with pytest.raises(WriteError, match=r"no writer of signals for the suffix '.bvh': use one of"):
         kineme.write(signals, tmp_path / "a.bvh")
-    with pytest.raises(ParameterError, match="write takes a Motion or Signals, not ndarray"):
+    with pytest.raises(ParameterError, match="write takes Motion or Signals, not ndarray"):
         kineme.write(np.zeros(3), tmp_path / "a.csv")
 
 
