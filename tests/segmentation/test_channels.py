@@ -11,7 +11,8 @@ from hypothesis.extra import numpy as arrays
 from kineme import Signals, segment_signals
 from kineme.errors import ParameterError
 from kineme.features.emg import emg_envelope
-from kineme.methods.presets import KINEME, KRUEGER2017, VOEGELE2014
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
 from kineme.segmentation.channels import (
     RECURS_AT,
     at_rate,

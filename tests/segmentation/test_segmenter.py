@@ -18,8 +18,7 @@ from kineme.features import end_effectors
 from kineme.methods.presets import PRESETS
 from kineme.recordings.motion import Motion
 from kineme.recordings.operations import cut, move, resample, turn
-from kineme.segmentation.segmenter import segment, segment_and_analysis
-from kineme.segmentation.signals import segment_signals
+from kineme.segmentation.segmenter import segment, segment_and_found
 from kineme.segments.segmentation import Segmentation
 
 presets = pytest.mark.parametrize("preset", PRESETS)
@@ -106,7 +105,7 @@ def test_segments_tile_at_any_frame_rate(preset: str, fps: float) -> None:
 @presets
 def test_cuts_are_those_of_the_analysis_in_frames_of_the_source(preset: str) -> None:
     motion = recording(1)
-    found, analysis = segment_and_analysis(motion, PRESETS[preset])
+    found, analysis = segment_and_found(motion, PRESETS[preset])
     assert motion.fps == 120
     np.testing.assert_array_equal(found.activities.start_frame, 4 * analysis.blocks[:-1])
     np.testing.assert_array_equal(found.primitives.start_frame, 4 * analysis.segments[:-1])
@@ -144,7 +143,7 @@ def test_what_is_no_motion_is_refused_with_the_way_to_one() -> None:
         with pytest.raises(ParameterError, match=r"takes a Motion, not \w+: kineme.read"):
             segment(wrong)  # type: ignore[arg-type]
     with pytest.raises(ParameterError, match="takes Signals, not ndarray: kineme.read_signals"):
-        segment_signals(np.zeros((90, 3)))  # type: ignore[arg-type]
+        segment(np.zeros((90, 3)))  # type: ignore[arg-type]
 
 
 def test_an_unknown_constant_is_refused() -> None:

@@ -11,7 +11,7 @@ from kineme.cli.messages import Failures
 from kineme.cli.reading import Quiet
 from kineme.cli.segment import run, write_results
 from kineme.cli.targets import check_writable
-from kineme.methods.presets import KINEME
+from kineme.methods.recurrence.preset import KINEME
 
 
 def demo(

@@ -15,16 +15,13 @@ from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import typer
 
-from kineme.methods.presets import (
-    PRESETS,
-    ActionPreset,
-    Preset,
-    RegionPreset,
-    constant_help,
-)
+from kineme.methods.base import Preset
+from kineme.methods.presets import PRESETS, constant_help
+from kineme.methods.recurrence.preset import RecurrencePreset
+from kineme.methods.region_growing.preset import RegionGrowingPreset
 
 PANEL = "Constants of the preset (seconds, metres; body sizes in kineme)"
-KINDS = (ActionPreset, RegionPreset)
+KINDS = (RecurrencePreset, RegionGrowingPreset)
 NAMES = tuple(
     dict.fromkeys(field.name for kind in KINDS for field in fields(kind) if field.name != "name")
 )

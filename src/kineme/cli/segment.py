@@ -14,13 +14,14 @@ from kineme.cli.reading import Effectors, Json, Quiet, effector_names
 from kineme.cli.signals import Columns, Emg, SignalOptions, run_signals
 from kineme.cli.targets import check_writable, targets
 from kineme.errors import ParameterError
-from kineme.methods.presets import DEFAULT, PRESETS, Preset, resolve_preset
+from kineme.methods.base import Preset
+from kineme.methods.presets import DEFAULT, PRESETS, resolve_preset
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.methods.recurrence.analysis import ActionAnalysis
-    from kineme.methods.region_growing.analysis import Analysis
+    from kineme.methods.recurrence.analysis import RecurrenceFound
+    from kineme.methods.region_growing.analysis import RegionsFound
     from kineme.recordings.motion import Motion
     from kineme.recordings.signals import Signals
     from kineme.segments.segmentation import Segmentation
@@ -102,21 +103,21 @@ def run(
     effectors: Names | None,
     *,
     quiet: bool,
-) -> tuple[Segmentation, Analysis | ActionAnalysis, Motion]:
+) -> tuple[Segmentation, RegionsFound | RecurrenceFound, Motion]:
     """The segments of a file, what each stage found on the way to them, and the motion."""
     with progress(path.name, quiet=quiet) as stage:
         stage("reading")
         from kineme.formats import read
-        from kineme.segmentation.segmenter import segment_and_analysis
+        from kineme.segmentation.segmenter import segment_and_found
 
         motion = read(path, **reading)
-        found = segment_and_analysis(motion, preset, effectors=effectors, progress=stage)
+        found = segment_and_found(motion, preset, effectors=effectors, progress=stage)
         return *found, motion
 
 
 def write_results(
     result: Segmentation,
-    analysis: Analysis | ActionAnalysis,
+    analysis: RegionsFound | RecurrenceFound,
     table: Path | None,
     picture: Path | None,
 ) -> None:

@@ -11,8 +11,8 @@ import typer
 from kineme.cli.messages import progress
 
 if TYPE_CHECKING:
-    from kineme.methods.recurrence.analysis import ActionAnalysis
-    from kineme.methods.region_growing.analysis import Analysis
+    from kineme.methods.recurrence.analysis import RecurrenceFound
+    from kineme.methods.region_growing.analysis import RegionsFound
     from kineme.recordings.signals import Signals
     from kineme.segments.segmentation import Segmentation
 
@@ -73,16 +73,16 @@ class SignalOptions:
 
 def run_signals(
     path: Path, options: SignalOptions, preset: str, overrides: dict[str, Any], *, quiet: bool
-) -> tuple[Segmentation, Analysis | ActionAnalysis, Signals]:
+) -> tuple[Segmentation, RegionsFound | RecurrenceFound, Signals]:
     """The segments of a file of signals, what each stage found, and the signals to draw."""
     with progress(path.name, quiet=quiet) as stage:
         stage("reading")
         from kineme.segmentation.channels import signal_preset
-        from kineme.segmentation.signals import segment_signals_and_analysis
+        from kineme.segmentation.segmenter import segment_and_found
 
         signals = options.read(path)
         chosen = signal_preset(preset, **overrides)
-        found = segment_signals_and_analysis(signals, chosen, emg=options.emg, progress=stage)
+        found = segment_and_found(signals, chosen, emg=options.emg, progress=stage)
         return *found, options.drawn(signals)
 
 

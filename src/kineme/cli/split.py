@@ -15,7 +15,7 @@ from kineme.segments.table import Level
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.methods.presets import Preset
+    from kineme.methods.base import Preset
     from kineme.recordings.motion import Motion
     from kineme.segments.segmentation import Segmentation
 
@@ -83,6 +83,6 @@ def _cuts(
             from kineme.labels import read_segments
 
             return motion, read_segments(table, fps=motion.fps, n_frames=motion.n_frames)
-        from kineme.segmentation.segmenter import segment_and_analysis
+        from kineme.segmentation.segmenter import segment_and_found
 
-        return motion, segment_and_analysis(motion, preset, effectors=names, progress=stage)[0]
+        return motion, segment_and_found(motion, preset, effectors=names, progress=stage)[0]

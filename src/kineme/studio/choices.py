@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 from kineme.errors import ParameterError
 from kineme.labels import FORMATS
-from kineme.methods.presets import PRESETS, Preset, constant_help, resolve_preset
+from kineme.methods.base import Preset
+from kineme.methods.presets import PRESETS, constant_help, resolve_preset
 from kineme.web.messages import ExportFormat, Parameter, PresetChoice
 
 

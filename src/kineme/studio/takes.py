@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError
 from kineme.formats import read
-from kineme.methods.presets import DEFAULT, PRESETS, Preset
+from kineme.methods.base import Preset
+from kineme.methods.presets import DEFAULT, PRESETS
 from kineme.recordings.motion import Motion
 from kineme.segments.segmentation import Segmentation
 
@@ -127,13 +128,13 @@ class Take:
         """The segments by a preset."""
         found = self.source
         if isinstance(found, Motion):
-            from kineme.segmentation.segmenter import segment_and_analysis
+            from kineme.segmentation.segmenter import segment_and_found
 
-            return segment_and_analysis(found, preset, effectors=self.effectors)[0]
+            return segment_and_found(found, preset, effectors=self.effectors)[0]
         from kineme.segmentation.channels import signal_preset
-        from kineme.segmentation.signals import segment_signals_and_analysis
+        from kineme.segmentation.segmenter import segment_and_found
 
-        return segment_signals_and_analysis(found, signal_preset(preset))[0]
+        return segment_and_found(found, signal_preset(preset))[0]
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
         """The segments by the default preset, or one for all; and what to know about them."""

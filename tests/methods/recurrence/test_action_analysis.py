@@ -16,9 +16,10 @@ from scipy.stats import ortho_group
 
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
-from kineme.methods.presets import KINEME, resolve_preset
-from kineme.methods.recurrence.analysis import ActionAnalysis, analyze_actions
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.presets import resolve_preset
+from kineme.methods.recurrence.analysis import RecurrenceFound, analyze_actions
+from kineme.methods.recurrence.preset import KINEME
+from kineme.segmentation.bodies import motion_features
 from loops import swing
 
 few = settings(max_examples=8)
@@ -30,18 +31,18 @@ def recorded(seed: int) -> np.ndarray:
 
 
 @cache
-def analysis_of(seed: int) -> ActionAnalysis:
+def analysis_of(seed: int) -> RecurrenceFound:
     return analyze_actions(recorded(seed), KINEME)
 
 
-def assert_same(found: ActionAnalysis, expected: ActionAnalysis) -> None:
+def assert_same(found: RecurrenceFound, expected: RecurrenceFound) -> None:
     for name in ("blocks", "labels", "segments"):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
     for name in ("confidence", "agreement"):
         np.testing.assert_allclose(getattr(found, name), getattr(expected, name), atol=1e-3)
 
 
-def repetitions_of(found: ActionAnalysis) -> list[int]:
+def repetitions_of(found: RecurrenceFound) -> list[int]:
     """How many repetitions each activity has; transitions left out."""
     parents = np.searchsorted(found.blocks, found.segments[:-1], side="right") - 1
     return np.bincount(parents)[found.labels >= 0].tolist()
@@ -140,7 +141,7 @@ def test_threads_and_repetition_change_nothing() -> None:
 # --- what holds for every input ---------------------------------------------------------------
 
 
-def assert_whole(found: ActionAnalysis, frames: int) -> None:
+def assert_whole(found: RecurrenceFound, frames: int) -> None:
     for borders in (found.blocks, found.segments):
         assert borders[0] == 0
         assert borders[-1] == frames

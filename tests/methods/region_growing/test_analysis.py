@@ -18,32 +18,33 @@ from graphs import features
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
 from kineme.graph import BASIC_STEPS
-from kineme.methods.presets import PUBLISHED, RegionPreset, resolve_preset
-from kineme.methods.region_growing.analysis import Analysis, analyze
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.presets import PUBLISHED, resolve_preset
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
+from kineme.methods.region_growing.preset import RegionGrowingPreset
+from kineme.segmentation.bodies import motion_features
 
 presets = pytest.mark.parametrize("preset", PUBLISHED.values(), ids=PUBLISHED.keys())
 few = settings(max_examples=10)
 
 
 @cache
-def recorded(seed: int, preset: RegionPreset) -> np.ndarray:
+def recorded(seed: int, preset: RegionGrowingPreset) -> np.ndarray:
     return motion_features(random_recording(seed).motion, preset)
 
 
 @cache
-def found_in(seed: int, preset: RegionPreset) -> Analysis:
-    return analyze(recorded(seed, preset), preset)
+def found_in(seed: int, preset: RegionGrowingPreset) -> RegionsFound:
+    return analyze_regions(recorded(seed, preset), preset)
 
 
-def assert_same(found: Analysis, expected: Analysis) -> None:
+def assert_same(found: RegionsFound, expected: RegionsFound) -> None:
     for name in ("blocks", "repeats", "repetition", "segments"):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
     np.testing.assert_array_equal(found.clustering.labels, expected.clustering.labels)
     np.testing.assert_array_equal(found.clustering.scores, expected.clustering.scores)
 
 
-def assert_tiles(found: Analysis, n: int) -> None:
+def assert_tiles(found: RegionsFound, n: int) -> None:
     for borders in (found.blocks, found.segments):
         assert borders[0] == 0
         assert borders[-1] == n
@@ -61,7 +62,7 @@ def assert_tiles(found: Analysis, n: int) -> None:
 def test_moving_and_turning_the_features_changes_nothing(preset, seed, turn, shift) -> None:
     rows = recorded(seed, preset)
     turned = rows @ ortho_group.rvs(rows.shape[1], random_state=turn) + shift
-    assert_same(analyze(turned, preset), found_in(seed, preset))
+    assert_same(analyze_regions(turned, preset), found_in(seed, preset))
 
 
 @presets
@@ -76,19 +77,19 @@ def test_scaling_the_features_with_all_lengths_changes_nothing(preset, seed, fac
         growth_radius=None if growth is None else factor * growth,
         zero_cost=factor * preset.zero_cost,
     )
-    found = analyze(factor * recorded(seed, preset), scaled)
+    found = analyze_regions(factor * recorded(seed, preset), scaled)
     assert_same(found, found_in(seed, preset))
 
 
 @presets
-def test_a_reach_beyond_the_recording_is_no_limit(preset: RegionPreset) -> None:
+def test_a_reach_beyond_the_recording_is_no_limit(preset: RegionGrowingPreset) -> None:
     rows = recorded(1, preset)
-    far = analyze(rows, preset.replace(max_lag=len(rows) / preset.working_fps))
+    far = analyze_regions(rows, preset.replace(max_lag=len(rows) / preset.working_fps))
     assert_same(far, found_in(1, preset))
 
 
 @presets
-def test_recordings_have_something_to_find(preset: RegionPreset) -> None:
+def test_recordings_have_something_to_find(preset: RegionGrowingPreset) -> None:
     for seed in range(4):
         found = found_in(seed, preset)
         assert found.repeats.sum() >= 3
@@ -99,13 +100,13 @@ def test_recordings_have_something_to_find(preset: RegionPreset) -> None:
 PRINT_DIGEST = """
 import hashlib, numpy as np
 from kineme.datasets import random_recording
-from kineme.methods.region_growing.analysis import analyze
+from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.presets import PUBLISHED
 from kineme.segmentation.segmenter import motion_features
 digest = hashlib.sha256()
 for preset in PUBLISHED.values():
     for _ in range(2):
-        found = analyze(motion_features(random_recording(2).motion, preset), preset)
+        found = analyze_regions(motion_features(random_recording(2).motion, preset), preset)
         for part in (found.graph.indices, found.graph.distances, found.blocks, found.repetition,
                      found.segments, found.clustering.labels, found.clustering.scores):
             digest.update(np.ascontiguousarray(part).tobytes())
@@ -130,7 +131,7 @@ def test_threads_and_repetition_change_nothing() -> None:
 
 
 @st.composite
-def constants(draw: st.DrawFn) -> RegionPreset:
+def constants(draw: st.DrawFn) -> RegionGrowingPreset:
     """A preset with constants changed in every direction it allows."""
     seconds = st.sampled_from([0.0, 0.01, 1 / 30, 0.2, 1.0, 50.0])
     some = st.sampled_from([0.01, 1 / 30, 0.2, 50.0])
@@ -171,7 +172,7 @@ def constants(draw: st.DrawFn) -> RegionPreset:
 @given(features(max_frames=60), constants())
 @settings(max_examples=300)
 def test_segments_tile_whatever_the_constants(points, preset) -> None:
-    assert_tiles(analyze(points, preset, mirror=np.negative), len(points))
+    assert_tiles(analyze_regions(points, preset, mirror=np.negative), len(points))
 
 
 def test_progress_and_timings_name_the_stages() -> None:
@@ -181,7 +182,7 @@ def test_progress_and_timings_name_the_stages() -> None:
         ("krueger2017", ["bundling", *stages]),
     ):
         names: list[str] = []
-        found = analyze(np.zeros((40, 2)), PUBLISHED[name], progress=names.append)
+        found = analyze_regions(np.zeros((40, 2)), PUBLISHED[name], progress=names.append)
         assert names == [*found.timings] == expected
         assert all(seconds >= 0 for seconds in found.timings.values())
 

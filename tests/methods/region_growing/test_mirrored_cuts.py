@@ -13,10 +13,11 @@ import naive
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
 from kineme.features import mirror, mirror_features
-from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
-from kineme.methods.region_growing.analysis import Analysis, analyze
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
 from kineme.methods.region_growing.mirroring import merged_cuts
-from kineme.segmentation.segmenter import motion_features, segment_and_analysis
+from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
+from kineme.segmentation.bodies import motion_features
+from kineme.segmentation.segmenter import segment_and_found
 
 MIRRORING = {
     "voegele2014": VOEGELE2014.replace(mirror=True),
@@ -27,12 +28,12 @@ frames = st.lists(st.integers(0, 200), unique=True).map(sorted)
 
 
 @cache
-def found_in(preset: RegionPreset, *actions: str, side: str = "right") -> Analysis:
+def found_in(preset: RegionGrowingPreset, *actions: str, side: str = "right") -> RegionsFound:
     made = synthesize([Action(name, 6, side=side) for name in actions], fps=30, seed=5)
-    return segment_and_analysis(made.motion, preset)[1]
+    return segment_and_found(made.motion, preset)[1]
 
 
-def longest(found: Analysis) -> str:
+def longest(found: RegionsFound) -> str:
     return str(found.symmetry[np.argmax(np.diff(found.blocks) * found.repeats)])
 
 
@@ -43,7 +44,7 @@ def test_merging_equals_the_naive_version(main, mirrored, gap) -> None:
 
 
 @presets
-def test_steps_are_told_apart_in_walking(preset: RegionPreset) -> None:
+def test_steps_are_told_apart_in_walking(preset: RegionGrowingPreset) -> None:
     plain = found_in(preset.replace(mirror=False), "walk")
     found = found_in(preset, "walk")
     assert plain.symmetry is None
@@ -66,22 +67,22 @@ def test_the_symmetry_of_an_activity_is_told(preset, action: str, expected: str)
 
 
 @presets
-def test_a_kick_with_the_other_leg_has_the_same_cuts(preset: RegionPreset) -> None:
+def test_a_kick_with_the_other_leg_has_the_same_cuts(preset: RegionGrowingPreset) -> None:
     motion = synthesize([Action("kick", 5), Action("walk", 4)], fps=30, seed=3).motion
-    found, other = (segment_and_analysis(m, preset)[1] for m in (motion, mirror(motion)))
+    found, other = (segment_and_found(m, preset)[1] for m in (motion, mirror(motion)))
     np.testing.assert_array_equal(found.segments, other.segments)
     np.testing.assert_array_equal(found.symmetry, other.symmetry)
 
 
 def test_features_without_sides_are_refused() -> None:
     with pytest.raises(ParameterError, match="mirror=False"):
-        analyze(np.zeros((30, 2)), MIRRORING["krueger2017"])
+        analyze_regions(np.zeros((30, 2)), MIRRORING["krueger2017"])
 
 
 def test_stages_are_named() -> None:
     motion = synthesize([Action("walk", 3)], fps=30).motion
     features = motion_features(motion, KRUEGER2017)
-    found = analyze(features, MIRRORING["krueger2017"], mirror=mirror_features)
+    found = analyze_regions(features, MIRRORING["krueger2017"], mirror=mirror_features)
     assert [*found.timings] == [
         "bundling", "neighbors", "activities", "primitives", "mirroring", "clusters",
     ]  # fmt: skip
