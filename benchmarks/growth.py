@@ -46,8 +46,8 @@ def one(name: str, hours: float, max_lag: float | None) -> None:
     if isinstance(preset, RecurrencePreset):
         from kineme.methods.recurrence.analysis import analyze_actions as analyze_regions
     else:
-        from kineme.methods.region_growing.analysis import analyze_regions
-    analyze_regions(features[: round(60 * preset.working_fps)], preset)
+        from kineme.methods.region_growing.analysis import analyze_regions as analyze
+    analyze(features[: round(60 * preset.working_fps)], preset)
     start = perf_counter()
     found = analyze_regions(features, preset)
     took = perf_counter() - start

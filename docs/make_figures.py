@@ -103,7 +103,7 @@ def draw_recurrence(pair: np.ndarray, found: RecurrenceFound) -> None:
     frames = len(found.features)
     _matrix(pair[0], similarity_image(found.graph), frames)
     _matrix(pair[1], image, frames)
-    for start, stop, label in zip(found.blocks[:-1], found.blocks[1:], found.labels, strict=True):
+    for start, stop, label in zip(found.borders[:-1], found.borders[1:], found.labels, strict=True):
         if label >= 0:
             size = (stop - start) / FPS
             corner = (start / FPS, start / FPS)
@@ -114,13 +114,13 @@ def draw_recurrence(pair: np.ndarray, found: RecurrenceFound) -> None:
 
 def draw_visits(axes: Axes, found: RecurrenceFound) -> None:
     """How far the squats are from three of their own poses, and where the repetitions begin."""
-    start, stop = found.blocks[ZOOMED : ZOOMED + 2].tolist()
+    start, stop = found.borders[ZOOMED : ZOOMED + 2].tolist()
     seconds = np.arange(start, stop) / FPS
     for share, color in zip((0.03, 0.1, 0.17), PALETTE[2:], strict=False):
         at = round(start + share * (stop - start))
         distance = np.linalg.norm(found.features[start:stop] - found.features[at], axis=1)
         axes.plot(seconds, distance, color=color, linewidth=1.2, label=f"{at / FPS:.1f} s")
-    for cut in found.segments[(found.segments > start) & (found.segments < stop)] / FPS:
+    for cut in found.primitives[(found.primitives > start) & (found.primitives < stop)] / FPS:
         axes.axvline(cut, color=BORDER, linewidth=1.5)
     axes.set(xlabel="seconds", ylabel="body sizes", xlim=(seconds[0], seconds[-1]), ylim=(0, None))
     axes.spines[["top", "right"]].set_visible(False)
@@ -167,7 +167,7 @@ def draw_regions(pair: np.ndarray, analysis: kineme.Analysis) -> None:
 
 def draw_paths(pair: np.ndarray, analysis: kineme.Analysis) -> None:
     """The connected components inside one activity, and the paths and cuts they give."""
-    first, stop = analysis.blocks[ZOOMED : ZOOMED + 2].tolist()
+    first, stop = analysis.borders[ZOOMED : ZOOMED + 2].tolist()
     image, extent = components(analysis.graph, first, stop)
     found = primitive_cuts(
         analysis.graph,

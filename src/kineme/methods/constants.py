@@ -8,11 +8,11 @@ holds a preset against its own fields: types, limits, choices.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cache
 from types import NoneType
-from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
+from typing import Any, Literal, NamedTuple, cast, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -40,7 +40,9 @@ class Limits(NamedTuple):
         number = float(value)
         if not math.isfinite(number):
             return False
-        return self.minimum <= number <= self.maximum and not (self.above and number == self.minimum)
+        return self.minimum <= number <= self.maximum and not (
+            self.above and number == self.minimum
+        )
 
     def describe(self) -> str:
         """The limits in words."""
@@ -140,10 +142,10 @@ def constant(
 
 def constants_of(preset: Any) -> tuple[Constant, ...]:
     """The constants of a preset, in the order of its fields."""
-    hints = _hints(type(preset))
+    hints = _hints(preset.__class__)
     return tuple(
         Constant(name, value=getattr(preset, name), hint=hints[name], **told)
-        for name, told in _told(type(preset)).items()
+        for name, told in _told(preset.__class__).items()
     )
 
 
@@ -187,14 +189,14 @@ def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None) -> Non
 
 
 @cache
-def _told(kind: Any) -> Mapping[str, Mapping[str, Any]]:
+def _told(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
     return {
         known.name: known.metadata["constant"]
-        for known in fields(kind)
+        for known in fields(cast(Any, kind))
         if "constant" in known.metadata
     }
 
 
 @cache
-def _hints(kind: Any) -> dict[str, Any]:
-    return get_type_hints(kind)
+def _hints(kind: Hashable) -> dict[str, Any]:
+    return get_type_hints(cast(Any, kind))

@@ -142,6 +142,11 @@ def segment_and_found(
     if isinstance(seen, Signals):
         scaled = features is None if standardize is None else standardize
         view = view_of_signals(seen, chosen, emg=emg, standardize=scaled, unit=unit)
+    elif chosen.unit == "standard deviations":
+        raise ParameterError(
+            f"{chosen.name} is in standard deviations, for signals: a motion takes one in metres "
+            f"or body sizes"
+        )
     else:
         view = view_of_motion(seen, chosen, effectors)
     if features is not None:

@@ -45,13 +45,13 @@ def assert_same(found: RegionsFound, expected: RegionsFound) -> None:
 
 
 def assert_tiles(found: RegionsFound, n: int) -> None:
-    for borders in (found.blocks, found.segments):
+    for borders in (found.borders, found.primitives):
         assert borders[0] == 0
         assert borders[-1] == n
         assert (np.diff(borders) > 0).all()
-    assert set(found.blocks.tolist()) <= set(found.segments.tolist())
-    assert len(found.repeats) == len(found.repetition) == len(found.blocks) - 1
-    assert len(found.clustering.labels) == len(found.segments) - 1
+    assert set(found.borders.tolist()) <= set(found.primitives.tolist())
+    assert len(found.repeats) == len(found.repetition) == len(found.borders) - 1
+    assert len(found.clustering.labels) == len(found.primitives) - 1
     assert ((found.repetition >= 0) & (found.repetition <= 1)).all()
     assert ((found.clustering.scores >= 0) & (found.clustering.scores <= 1)).all()
 
@@ -93,13 +93,14 @@ def test_recordings_have_something_to_find(preset: RegionGrowingPreset) -> None:
     for seed in range(4):
         found = found_in(seed, preset)
         assert found.repeats.sum() >= 3
-        assert len(found.segments) > 2 * len(found.blocks)
-        assert len(set(found.clustering.labels.tolist())) < len(found.segments) - 5
+        assert len(found.primitives) > 2 * len(found.borders)
+        assert len(set(found.clustering.labels.tolist())) < len(found.primitives) - 5
 
 
 PRINT_DIGEST = """
 import hashlib, numpy as np
 from kineme.datasets import random_recording
+from kineme.methods.region_growing.analysis import analyze
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.presets import PUBLISHED
 from kineme.segmentation.segmenter import motion_features
@@ -107,8 +108,8 @@ digest = hashlib.sha256()
 for preset in PUBLISHED.values():
     for _ in range(2):
         found = analyze_regions(motion_features(random_recording(2).motion, preset), preset)
-        for part in (found.graph.indices, found.graph.distances, found.blocks, found.repetition,
-                     found.segments, found.clustering.labels, found.clustering.scores):
+        for part in (found.graph.indices, found.graph.distances, found.borders, found.repetition,
+                     found.primitives, found.clustering.labels, found.clustering.scores):
             digest.update(np.ascontiguousarray(part).tobytes())
         print(digest.hexdigest())
         digest = hashlib.sha256()

@@ -34,7 +34,7 @@ def found_in(preset: RegionGrowingPreset, *actions: str, side: str = "right") ->
 
 
 def longest(found: RegionsFound) -> str:
-    return str(found.symmetry[np.argmax(np.diff(found.blocks) * found.repeats)])
+    return str(found.symmetry[np.argmax(np.diff(found.borders) * found.repeats)])
 
 
 @given(frames, frames, st.sampled_from([0.5, 7.5, 30.0]))
@@ -49,9 +49,9 @@ def test_steps_are_told_apart_in_walking(preset: RegionGrowingPreset) -> None:
     found = found_in(preset, "walk")
     assert plain.symmetry is None
     assert longest(found) == "alternating"
-    assert len(found.segments) >= 1.6 * len(plain.segments)
-    assert set(plain.segments.tolist()) <= set(found.segments.tolist())
-    np.testing.assert_array_equal(found.blocks, plain.blocks)
+    assert len(found.primitives) >= 1.6 * len(plain.segments)
+    assert set(plain.segments.tolist()) <= set(found.primitives.tolist())
+    np.testing.assert_array_equal(found.borders, plain.blocks)
 
 
 @presets
@@ -70,7 +70,7 @@ def test_the_symmetry_of_an_activity_is_told(preset, action: str, expected: str)
 def test_a_kick_with_the_other_leg_has_the_same_cuts(preset: RegionGrowingPreset) -> None:
     motion = synthesize([Action("kick", 5), Action("walk", 4)], fps=30, seed=3).motion
     found, other = (segment_and_found(m, preset)[1] for m in (motion, mirror(motion)))
-    np.testing.assert_array_equal(found.segments, other.segments)
+    np.testing.assert_array_equal(found.primitives, other.segments)
     np.testing.assert_array_equal(found.symmetry, other.symmetry)
 
 
