@@ -23,10 +23,10 @@ from kineme._checks import check_type
 from kineme.errors import ParameterError, ReadError
 from kineme.features import end_effectors
 from kineme.features.effectors import Names
-from kineme.methods.presets import KINEME
+from kineme.methods.recurrence.preset import KINEME
 from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
-from kineme.segmentation.segmenter import motion_features
+from kineme.segmentation.bodies import motion_features
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
 from kineme.transfer import knowledge_file
