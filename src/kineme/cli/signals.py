@@ -28,7 +28,11 @@ Columns = Annotated[
 ]
 Emg = Annotated[
     bool,
-    typer.Option("--emg", help="Muscle signals: take their envelopes.", rich_help_panel=PANEL),
+    typer.Option(
+        "--emg",
+        help="Muscle signals: take their envelopes; of a C3D, muscles only.",
+        rich_help_panel=PANEL,
+    ),
 ]
 
 
@@ -60,7 +64,7 @@ class SignalOptions:
         """The signals in a file."""
         from kineme.formats.channels.reading import read_signals
 
-        return read_signals(path, columns=self.columns, fps=self.fps)
+        return read_signals(path, columns=self.columns, fps=self.fps, emg=self.emg)
 
     def drawn(self, signals: Signals) -> Signals:
         """The signals as a page compares their moments: muscles by their envelopes."""
