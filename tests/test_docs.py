@@ -7,22 +7,18 @@ run; what sets up an environment is marked ``sh`` and left to ``.ci/run``.
 
 from __future__ import annotations
 
+import ast
 import datetime as dt
 import json
-import os
 import re
 import runpy
-import shutil
-import subprocess
-import sys
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import jsonschema
 import pytest
-from sybil import Example, Sybil
-from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
+from matplotlib import pyplot as plt
 
 import _figures
 from kineme.datasets import bundled_recording
@@ -30,34 +26,45 @@ from kineme.labels import read_segments, write_segments
 from kineme.methods.presets import KINEME, KRUEGER2017, VOEGELE2014, Preset
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+NOTEBOOKS = sorted((ROOT / "docs").rglob("*.ipynb"))
+RUN = runpy.run_path(str(ROOT / "docs" / "run_pages.py"))
 FIGURES = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))
 FILL = runpy.run_path(str(ROOT / "docs" / "fill_figures.py"))
 
 
-def run_in_shell(example: Example) -> None:
-    """Each command with the tests' own interpreter and its scripts first on the path."""
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    done = subprocess.run(
-        ["bash", "-euo", "pipefail", "-c", example.parsed],
-        env={**os.environ, "PATH": path, "COLUMNS": "100"},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert done.returncode == 0, f"{example.parsed}\n{done.stdout}\n{done.stderr}"
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_code_blocks_run(page: Path, tmp_path: Path) -> None:
+    RUN["run_page"](page, tmp_path)
+    for name in RUN["pictures_of"](page):
+        assert (tmp_path / name).is_file(), "the page shows a picture that it does not draw"
+        assert (ROOT / "docs" / "images" / "made" / name).is_file(), "run python docs/run_pages.py"
 
 
-BLOCKS = Sybil(parsers=[PythonCodeBlockParser(), CodeBlockParser("bash", run_in_shell)])
-
-
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_code_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    shutil.copy(bundled_recording(), tmp_path / "take.bvh")
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda notebook: notebook.stem)
+def test_notebook_runs(
+    notebook: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each cell, and what the notebook would show of its last line."""
     monkeypatch.chdir(tmp_path)
-    for example in BLOCKS.parse(page).examples():
-        example.evaluate()
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    namespace: dict[str, Any] = {}
+    shown = 0
+    for cell in json.loads(notebook.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] != "code":
+            continue
+        assert not cell["outputs"]
+        assert cell["execution_count"] is None
+        tree = ast.parse("".join(cell["source"]))
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, notebook.name, "exec"), namespace)
+        if last is not None:
+            value = eval(compile(ast.Expression(last.value), notebook.name, "eval"), namespace)
+            html = getattr(value, "_repr_html_", None)
+            assert html() if html else repr(value)
+            shown += 1
+    assert shown
+    plt.close("all")
 
 
 def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
