@@ -34,7 +34,7 @@ import kineme
 from _figures import add_option, record
 from kineme.features import mirror_features
 from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
-from kineme.methods.region_growing.analysis import Analysis, analyze
+from kineme.methods.region_growing.analysis import Analysis, analyze_regions
 from kineme.segmentation.segmenter import motion_features
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
@@ -102,7 +102,7 @@ def compare(data: Path, configuration: str, trial: str) -> dict[str, Agreement]:
             features = stored["features"].T / 100.0
     else:
         features = motion_features(kineme.read(data / "cmu86" / f"{trial}.amc"), preset)
-    found = analyze(features, preset, mirror=mirror_features)
+    found = analyze_regions(features, preset, mirror=mirror_features)
     activities = set((found.activity_cuts.all + 1).tolist())
     inner = set((found.segments[1:-1] + 1).tolist()) - activities
     return {

@@ -35,7 +35,7 @@ from kineme.segmentation.segmenter import segment
 NUDGES = (0.85, 1.15)
 STEPS = (0.72, 0.85, 1.0, 1.15, 1.32)
 JUDGED = ("one_to_one", "border_f1", "covering")
-KEPT = ("name", "working_fps", "offsets", "max_lag", "any_pace")
+KEPT = ("name", "unit", "working_fps", "offsets", "max_lag", "any_pace")
 CONSTANTS = [field.name for field in fields(ActionPreset) if field.name not in KEPT]
 
 

@@ -117,6 +117,10 @@ def test_a_folder_of_anything_else(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("x")
     with pytest.raises(ReadError, match="cannot be opened: a folder without the file for each"):
         kineme.read(tmp_path)
+    (tmp_path / "notes_1.json").write_text("{}")
+    with pytest.raises(ReadError, match="cannot be opened: a folder without the file for each"):
+        kineme.read(tmp_path, fps=30)
+    (tmp_path / "frame_2.json").write_text(json.dumps(openpose(frames=1)[0]))
     (tmp_path / "frame_1.json").write_text("{}")
     with pytest.raises(ReadError, match="frame_1.json: no 'people' in it"):
         kineme.read(tmp_path, fps=30)

@@ -24,6 +24,7 @@ from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 
+from kineme._checks import as_texts, check_path, is_number
 from kineme.errors import FileError, ParameterError
 from kineme.formats.channels.gaps import without_gaps
 from kineme.formats.channels.tables import KINDS, kind_of, read_muscles
@@ -67,8 +68,11 @@ def read_signals(
     MissingDependencyError : Parquet without pyarrow
     ParameterError : a frame rate that is not positive
     """
-    if fps is not None and not 0 < fps < float("inf"):
-        raise ParameterError(f"fps is {fps}: give frames per second, above 0")
+    check_path(path, "read_signals")
+    if columns is not None:
+        columns = as_texts(columns, "columns")
+    if fps is not None and not (is_number(fps) and fps > 0):
+        raise ParameterError(f"fps is {fps!r:.60}: give frames per second, above 0")
     source = load(path)
     if not source.data.strip():
         raise source.error("the file is empty")

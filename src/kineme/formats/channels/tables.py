@@ -101,13 +101,13 @@ def _read_text(source: Source, columns: Sequence[str] | None) -> Table:
 
 
 def _parquet_names(source: Source) -> list[str]:
-    return named(_parquet(source).schema_arrow.names)
+    return named(parquet_file(source).schema_arrow.names)
 
 
 def _read_parquet(source: Source, columns: Sequence[str] | None) -> Table:
     import pyarrow as pa
 
-    file = _parquet(source)
+    file = parquet_file(source)
     names = named(file.schema_arrow.names)
     types = dict(zip(names, file.schema_arrow.types, strict=True))
     kinds = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
@@ -184,7 +184,8 @@ def _read_mat(source: Source, columns: Sequence[str] | None) -> Table:
     return replace(table, rate=rate) if known else table
 
 
-def _parquet(source: Source) -> Any:
+def parquet_file(source: Source) -> Any:
+    """A Parquet file, opened but not read; ReadError where it is none or damaged."""
     try:
         import pyarrow as pa
         from pyarrow import parquet
