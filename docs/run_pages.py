@@ -53,7 +53,7 @@ def run_page(page: Path, folder: Path) -> None:
 
 def pictures_of(page: Path) -> list[str]:
     """Names of the pictures that a page draws itself, in the order in which it shows them."""
-    return re.findall(r"images/made/(\w+\.png)", page.read_text(encoding="utf-8"))
+    return re.findall(r"\]\((?:\.\./)?images/made/(\w+\.png)\)", page.read_text(encoding="utf-8"))
 
 
 def main() -> None:

@@ -12,6 +12,7 @@ import datetime as dt
 import json
 import re
 import runpy
+import sys
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -42,9 +43,7 @@ def test_code_blocks_run(page: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda notebook: notebook.stem)
-def test_notebook_runs(
-    notebook: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_notebook_runs(notebook: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each cell, and what the notebook would show of its last line."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
@@ -60,8 +59,7 @@ def test_notebook_runs(
         exec(compile(tree, notebook.name, "exec"), namespace)
         if last is not None:
             value = eval(compile(ast.Expression(last.value), notebook.name, "eval"), namespace)
-            html = getattr(value, "_repr_html_", None)
-            assert html() if html else repr(value)
+            assert getattr(value, "_repr_html_", lambda: None)() or repr(value)
             shown += 1
     assert shown
     plt.close("all")
