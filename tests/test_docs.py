@@ -13,7 +13,6 @@ import json
 import re
 import runpy
 import sys
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +21,9 @@ import pytest
 from matplotlib import pyplot as plt
 
 import _figures
+import kineme
 from kineme.datasets import bundled_recording
 from kineme.labels import read_segments, write_segments
-from kineme.methods.presets import KINEME, KRUEGER2017, VOEGELE2014, Preset
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -76,30 +75,21 @@ def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
         jsonschema.validate(written, schema)
 
 
-@pytest.mark.parametrize(
-    ("title", "presets"), [("Values", [KINEME]), ("Constants", [VOEGELE2014, KRUEGER2017])]
-)
-def test_constants_in_the_docs_are_those_of_the_presets(title: str, presets: list[Preset]) -> None:
+def test_tables_of_constants_are_those_of_the_presets() -> None:
+    text = (ROOT / "docs" / "parameters.md").read_text(encoding="utf-8")
+    constants = runpy.run_path(str(ROOT / "docs" / "fill_constants.py"))
+    assert constants["filled"](text) == text, "run python docs/fill_constants.py"
+    assert set(re.findall(r"<!-- constants: (\w+) -->", text)) == {
+        preset.method for preset in kineme.PRESETS.values()
+    }
+
+
+def test_every_constant_of_the_published_methods_has_its_source() -> None:
     method = (ROOT / "docs" / "method.md").read_text(encoding="utf-8")
-    chapter = method.partition(f"### {title}\n")[2].partition("\n## ")[0]
-    rows = re.findall(r"^\| `(\w+)` \| (.+) \|$", chapter, flags=re.MULTILINE)
-    written = {name: cells.split(" | ")[: len(presets)] for name, cells in rows}
-    names = {field.name for field in fields(presets[0])} - {"name"}
-    assert written == {name: [shown(getattr(p, name)) for p in presets] for name in names}
-
-
-def shown(value: Any) -> str:
-    """A constant as the table in the docs has it."""
-    match value:
-        case None | bool():
-            return {None: "–", True: "yes", False: "no"}[value]
-        case float():
-            return f"{value:.4g}"
-        case ((_, _), *_):
-            return " ".join(map(str, value))
-        case tuple():
-            return ", ".join(map(shown, value))
-    return str(value)
+    chapter = method.partition("### Constants\n")[2].partition("\n## ")[0]
+    for name in ("voegele2014", "krueger2017"):
+        told = {known.name for known in kineme.PRESETS[name].constants()}
+        assert set(re.findall(r"^\| `(\w+)` \|", chapter, flags=re.MULTILINE)) == told
 
 
 def test_set_up_commands_are_the_first_of_the_readme() -> None:
