@@ -14,6 +14,7 @@ import re
 import runpy
 import sys
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Any
 
 import jsonschema
@@ -73,6 +74,14 @@ def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
     del written["segments"][0]["stop_frame"]
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate(written, schema)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_names_in_the_docs_exist(page: Path) -> None:
+    groups = {f"kineme.{name}" for name in ("formats", "presets", "label_formats", "scores")}
+    for name in re.findall(r"`(kineme(?:\.\w+)+)`", page.read_text(encoding="utf-8")):
+        if name not in groups and not name.startswith("kineme.interop."):  # some need more packages
+            assert resolve_name(name) is not None
 
 
 def test_tables_of_constants_are_those_of_the_presets() -> None:
