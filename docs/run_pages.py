@@ -2,9 +2,9 @@
 
     python docs/run_pages.py [PAGE.md ...]
 
-runs the pages that draw pictures, by default all of them, and keeps what they
-draw: a page that shows ``images/made/NAME.png`` leaves ``NAME.png`` in the
-folder it runs in. Needs the packages of the ``test`` extra. The tests run every
+runs these pages, by default all that draw pictures, and keeps what they draw: a
+page that shows ``images/made/NAME.png`` leaves ``NAME.png`` in the folder it
+runs in. Needs the packages of the ``test`` extra. The tests run every
 page (``tests/test_docs.py``).
 """
 
@@ -58,8 +58,8 @@ def pictures_of(page: Path) -> list[str]:
 
 def main() -> None:
     MADE.mkdir(exist_ok=True)
-    pages = [Path(name).resolve() for name in sys.argv[1:]] or sorted(HERE.rglob("*.md"))
-    for page in filter(pictures_of, pages):
+    named = [Path(name).resolve() for name in sys.argv[1:]]
+    for page in named or filter(pictures_of, sorted(HERE.rglob("*.md"))):
         with tempfile.TemporaryDirectory() as folder:
             run_page(page, Path(folder))
             for name in pictures_of(page):
