@@ -49,7 +49,7 @@ PRESET_HELP = {
     "krueger2017": "As published in 2017; to compare with.",
 }
 CLIPS, REPORT = "motions", "report"
-"""What can be taken away besides the formats of :mod:`kineme.labels`: motion files, a page."""
+"""What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""
 FORMAT_HELP = {
     "csv": "The table, for spreadsheets",
     "json": "Everything in one file",
@@ -71,59 +71,88 @@ SUFFIXES = {
     "clips": ".csv",
     "bids": ".zip",
 }
-"""Of what is taken away, where the format has none of its own or it is several files."""
+"""Of what is downloaded, where the format has none of its own or it is several files."""
 
 
 def presets() -> list[PresetChoice]:
-    """The presets, the default first."""
+    """The presets, the default first.
+
+    Returns
+    -------
+    list of PresetChoice
+    """
     return [
-        {"name": name, "help": PRESET_HELP[name], "parameters": _parameters(preset)}
+        PresetChoice(name=name, help=PRESET_HELP.get(name, ""), parameters=_parameters(preset))
         for name, preset in PRESETS.items()
     ]
 
 
 def preset_of(name: str, parameters: dict[str, float]) -> Preset:
-    """The preset with the given constants, each within its limits.
+    """A preset with some of the constants that are offered changed.
+
+    Parameters
+    ----------
+    name : str
+        Of the preset.
+    parameters : dict of float
+        The constants.
+
+    Returns
+    -------
+    Preset
 
     Raises
     ------
-    ParameterError : no such preset, a constant that is not offered, or one outside its limits
+    ParameterError
+        No such preset, a constant that is not offered, or one outside its limits.
     """
     preset = resolve_preset(name)
-    ranges = {known.name: known for known in RANGES[name]}
+    offered = {known.name: known for known in _parameters(preset)}
     for constant, value in parameters.items():
-        if constant not in ranges:
-            raise ParameterError(f"{name} offers {', '.join(ranges)}, not {constant!r:.40}")
-        low, high = ranges[constant].minimum, ranges[constant].maximum
+        if constant not in offered:
+            raise ParameterError(f"{name} offers {', '.join(offered)}, not {constant!r:.40}")
+        low, high = offered[constant].minimum, offered[constant].maximum
         if not low - 1e-9 <= value <= high + 1e-9:
             raise ParameterError(f"{constant} can be {low:.4g} to {high:.4g}, not {value:.4g}")
     return preset.replace(**parameters)
 
 
 def export_formats() -> list[ExportFormat]:
-    """Every format that segments can be taken away in."""
-    formats: list[ExportFormat] = [
-        {"name": name, "suffix": SUFFIXES.get(name) or FORMATS[name].suffixes[0], "help": text}
-        for name, text in FORMAT_HELP.items()
-    ]
+    """Every format that segments can be downloaded in.
+
+    Returns
+    -------
+    list of ExportFormat
+    """
     return [
-        *formats,
-        {"name": CLIPS, "suffix": ".zip", "help": "A motion file per segment"},
-        {"name": REPORT, "suffix": ".html", "help": "A page that shows it all, without a server"},
+        *(
+            ExportFormat(name=name, suffix=download_suffix(name), help=FORMAT_HELP.get(name, name))
+            for name, known in FORMATS.items()
+            if known.writes
+        ),
+        ExportFormat(name=CLIPS, suffix=".zip", help="A motion file per segment"),
+        ExportFormat(
+            name=REPORT, suffix=".html", help="A page that shows it all, without a server"
+        ),
     ]
+
+
+def download_suffix(name: str) -> str:
+    """The suffix of what is downloaded in a format."""
+    return SUFFIXES.get(name) or FORMATS[name].suffixes[0]
 
 
 def _parameters(preset: Preset) -> list[Parameter]:
     says = constant_help()
     return [
-        {
-            "name": known.name,
-            "help": says.get(known.name, ""),
-            "value": getattr(preset, known.name),
-            "minimum": known.minimum,
-            "maximum": known.maximum,
-            "step": known.step,
-            "unit": known.unit,
-        }
-        for known in RANGES[preset.name]
+        Parameter(
+            name=known.name,
+            help=says.get(known.name, ""),
+            value=getattr(preset, known.name),
+            minimum=known.minimum,
+            maximum=known.maximum,
+            step=known.step,
+            unit=known.unit,
+        )
+        for known in RANGES.get(preset.name, ())
     ]

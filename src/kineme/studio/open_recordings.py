@@ -1,4 +1,4 @@
-"""Documents: one open recording each, with its table, what was done to it, and where it is kept.
+"""Open recordings: each with its table, what was done to it, and where it is saved.
 
 A table has a revision, which grows with every change. An edit names the
 revision it was made on; on any other it is refused, so that two pages cannot
@@ -12,20 +12,22 @@ import threading
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
+
+from msgspec import structs
 
 from kineme.errors import KinemeError
-from kineme.labels import json_table
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import edited
 from kineme.studio.folder import Folder
+from kineme.studio.loading import LoadedRecording, ReadingOptions, RecordingCache
 from kineme.studio.storage import ChangedOnDiskError, saved_table
-from kineme.studio.takes import Reading, Sources, Take
-from kineme.web.messages import Edit, Edited, Recording, Segments
+from kineme.web.messages import Edited, Recording
+from kineme.web.requests import Edit, Redo, Undo
 
 Listener = Callable[[str, int], None]
-AS_IT_IS = Reading()
+NO_OPTIONS = ReadingOptions()
 
 
 class UnknownError(Exception):
@@ -40,37 +42,47 @@ class ConflictError(Exception):
         super().__init__(reason)
 
 
-class Document:
-    """An open recording.
+class OpenRecording:
+    """A recording with its table, which edits change.
 
     Parameters
     ----------
-    name : the id of the recording
-    taken : files that hold the tables of other recordings
-    revision : to begin with
+    name : str
+        The id of the recording.
+    path : Path
+        Its file.
+    cache : RecordingCache
+        Where it is read from.
+    others : set of Path
+        Files that hold the tables of other recordings.
+    revision : int
+        Of the table, to begin with.
 
     Raises
     ------
-    ReadError : the recording cannot be read
+    ReadError
+        The recording cannot be read.
     """
 
-    def __init__(self, name: str, path: Path, sources: Sources, taken: set[Path], revision: int):
+    def __init__(
+        self, name: str, path: Path, cache: RecordingCache, others: set[Path], revision: int
+    ):
         self.id, self.path, self.revision = name, path, revision
-        self.take = Take(path, sources)
-        self._taken = taken
+        self.loaded = LoadedRecording(path, cache)
+        self._others = others
         self._lock = threading.RLock()
-        self._kept, table, self._notes = saved_table(path, self.take.fits, taken)
+        self._file, table, self._notes = saved_table(path, self.loaded.fits, others)
         if table is None:
-            table, notes = self.take.first_table()
+            table, notes = self.loaded.first_table()
             self._notes = [*self._notes, *notes]
-        elif _digest(table) not in ("", self.take.provenance.sha256):
+        elif _digest(table) not in ("", self.loaded.provenance.sha256):
             self._notes = [*self._notes, f"{path.name} has changed since its table was made"]
         self._history = History(table)
 
     @property
-    def kept_at(self) -> Path:
+    def table_path(self) -> Path:
         """The file of its table."""
-        return self._kept.path
+        return self._file.path
 
     @property
     def table(self) -> Segmentation:
@@ -78,33 +90,54 @@ class Document:
         with self._lock:
             return self._history.present
 
-    def recording(self) -> tuple[Recording, bool]:
-        """All that a page shows, and whether the table was read anew from the disk for it."""
-        from kineme.web.recording import recording
+    def message(self) -> tuple[Recording, bool]:
+        """All that a page shows.
+
+        Returns
+        -------
+        message : Recording
+        anew : bool
+            Whether the table was read again for it, because another program had changed the file.
+        """
+        from kineme.web.page_data import recording_message
 
         with self._lock:
-            anew = self._kept.changed() and self._read_anew()
-            state = self._edited([])
-            shown = recording(self.take.footage(), self._history.present, name=self.path.name)
-            message: Recording = {
-                **shown,
-                "id": self.id,
-                "revision": state["revision"],
-                "can_undo": state["can_undo"],
-                "can_redo": state["can_redo"],
-                "saved": state["saved"],
-                "warnings": [*self.take.warnings, *self._notes, *shown["warnings"]],
-            }
+            anew = self._file.changed() and self._read_anew()
+            table = self._history.present
+            shown = recording_message(self.loaded.page_data(), table, name=self.path.name)
+            message = structs.replace(
+                shown,
+                id=self.id,
+                revision=self.revision,
+                can_undo=bool(self._history.past),
+                can_redo=bool(self._history.future),
+                saved=self._saved,
+                warnings=[*self.loaded.warnings, *self._notes, *shown.warnings],
+            )
             return message, anew
 
     def edit(self, revision: int, edit: Edit, knowledge_base: Callable[[str], Path]) -> Edited:
         """The table after an edit, which is on the disk.
 
+        Parameters
+        ----------
+        revision : int
+            Of the table that the edit was made on.
+        edit : Edit
+        knowledge_base : callable
+            The file of a knowledge base by its id.
+
+        Returns
+        -------
+        Edited
+
         Raises
         ------
-        ConflictError : the revision is not the present one, or the file is not the one that was
-            last read or written here
-        KinemeError : the edit cannot be made, or its result cannot be saved
+        ConflictError
+            The revision is not the present one, or the file is not the one that was last read or
+            written here.
+        KinemeError
+            The edit cannot be made, or its result cannot be saved.
         """
         with self._lock:
             if revision != self.revision:
@@ -112,9 +145,9 @@ class Document:
                 raise ConflictError(f"{reason}, now it is {self.revision}", self._edited([]))
             history, notes = self._after(edit, knowledge_base)
             try:
-                self._kept.write(history.present)
+                self._file.write(history.present)
             except ChangedOnDiskError:
-                reason = f"another program changed {self._kept.path.name}: open it again"
+                reason = f"another program changed {self._file.path.name}: open it again"
                 raise ConflictError(reason, self._edited([])) from None
             self._history, self.revision = history, self.revision + 1
             return self._edited(notes)
@@ -122,90 +155,110 @@ class Document:
     def _after(
         self, edit: Edit, knowledge_base: Callable[[str], Path]
     ) -> tuple[History[Segmentation], list[str]]:
-        if edit["kind"] == "undo":
+        if isinstance(edit, Undo):
             return self._history.undone(), []
-        if edit["kind"] == "redo":
+        if isinstance(edit, Redo):
             return self._history.redone(), []
-        table, notes = edited(self._history.present, edit, self.take, knowledge_base)
+        table, notes = edited(self._history.present, edit, self.loaded, knowledge_base)
         return self._history.then(table), notes
 
     def _read_anew(self) -> bool:
         """The table that another program left; undo brings back the one from before."""
-        self._kept, table, self._notes = saved_table(self.path, self.take.fits, self._taken)
+        self._file, table, self._notes = saved_table(self.path, self.loaded.fits, self._others)
         if table is not None:
             self._history = self._history.then(table)
         self.revision += 1
         return True
 
     def _edited(self, notes: list[str]) -> Edited:
-        return {
-            "revision": self.revision,
-            "segmentation": segments_message(self._history.present),
-            "can_undo": bool(self._history.past),
-            "can_redo": bool(self._history.future),
-            "saved": self._kept.path.name if self._kept.exists else "",
-            "notes": notes,
-        }
+        from kineme.web.page_data import segments_message
+
+        return Edited(
+            revision=self.revision,
+            segmentation=segments_message(self._history.present),
+            can_undo=bool(self._history.past),
+            can_redo=bool(self._history.future),
+            saved=self._saved,
+            notes=notes,
+        )
+
+    @property
+    def _saved(self) -> str:
+        """The name of the table's file, empty as long as there is none."""
+        return self._file.path.name if self._file.exists else ""
 
 
-class Documents:
+class OpenRecordings:
     """The recordings of a folder, each opened once.
 
     Parameters
     ----------
-    changed : called with id and revision when a table has changed
-    reading : what the files do not say themselves
+    folder : Folder
+    changed : callable
+        Called with id and revision when a table has changed.
+    options : ReadingOptions
+        What the files do not say themselves.
     """
 
-    def __init__(self, folder: Folder, changed: Listener, reading: Reading = AS_IT_IS):
+    def __init__(self, folder: Folder, changed: Listener, options: ReadingOptions = NO_OPTIONS):
         self.folder = folder
         self._changed = changed
-        self._sources = Sources(reading)
-        self._open: dict[str, Document] = {}
+        self._cache = RecordingCache(options)
+        self._open: dict[str, OpenRecording] = {}
         self._lock = threading.Lock()
         self._opening: dict[str, threading.Lock] = {}
 
-    def get(self, name: str) -> Document:
+    def get(self, name: str) -> OpenRecording:
         """The recording of that id, opened if it is not, and again if its file has changed.
+
+        Parameters
+        ----------
+        name : str
+            The id.
+
+        Returns
+        -------
+        OpenRecording
 
         Raises
         ------
-        UnknownError : no such recording is listed
-        ReadError : it cannot be read
+        UnknownError
+            No such recording is listed.
+        ReadError
+            It cannot be read.
         """
         known = self._open.get(name)
-        if known is not None and not known.take.changed():
+        if known is not None and not known.loaded.changed():
             return known
         path = _found(self.folder.recordings(), name, "recording")
         with self._lock:
             opening = self._opening.setdefault(name, threading.Lock())
         with opening:
             known = self._open.get(name)
-            if known is None or known.take.changed():
+            if known is None or known.loaded.changed():
                 others = [other for other in list(self._open.values()) if other.path != path]
-                taken = {other.kept_at for other in others}
+                tables = {other.table_path for other in others}
                 revision = 1 if known is None else known.revision + 1
-                self._open[name] = Document(name, path, self._sources, taken, revision)
+                self._open[name] = OpenRecording(name, path, self._cache, tables, revision)
             return self._open[name]
 
-    def recording(self, name: str) -> Recording:
+    def message(self, name: str) -> Recording:
         """All that a page shows of the recording of that id."""
-        document = self.get(name)
-        message, anew = document.recording()
+        message, anew = self.get(name).message()
         if anew:
-            self._changed(name, message["revision"])
+            self._changed(name, message.revision)
         return message
 
     def prepare(self, names: Iterable[str]) -> None:
         """Open recordings before they are asked for; what is wrong with one is said then."""
         for name in names:
             with suppress(KinemeError, UnknownError):
-                self.recording(name)
+                self.message(name)
 
     def edit(self, name: str, revision: int, edit: Edit) -> Edited:
-        """The recording's table after an edit; see :meth:`Document.edit`."""
+        """The recording's table after an edit; see :meth:`OpenRecording.edit`."""
         result = self.get(name).edit(revision, edit, self.knowledge_base)
-        self._changed(name, result["revision"])
+        self._changed(name, result.revision)
         return result
 
     def knowledge_base(self, name: str) -> Path:
@@ -217,11 +270,6 @@ class Documents:
         return _found(self.folder.annotations(), name, "label file")
 
 
-def segments_message(table: Segmentation) -> Segments:
-    """A table as the pages have it."""
-    return cast(Segments, json_table.as_object(table))
-
-
 def _found(files: dict[str, Path], name: str, what: str) -> Path:
     if name not in files:
         raise UnknownError(f"there is no such {what}; it may have been taken away")
@@ -230,5 +278,5 @@ def _found(files: dict[str, Path], name: str, what: str) -> Path:
 
 def _digest(table: Segmentation) -> str:
     """The digest of the recording that a table was made from, empty if it does not say."""
-    source: Any = table.provenance.get("input")
-    return str(source.get("sha256") or "") if isinstance(source, dict) else ""
+    read: Any = table.provenance.get("input")
+    return str(read.get("sha256") or "") if isinstance(read, dict) else ""

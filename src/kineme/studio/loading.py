@@ -1,0 +1,278 @@
+"""A recording as the studio holds it: read once, with what was computed from it.
+
+What a page draws stays in memory; motions themselves, which of an hour take
+most of a gigabyte, are held for the recordings used last and read again when
+needed.
+"""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from collections import OrderedDict
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError
+from kineme.formats import read
+from kineme.methods.presets import DEFAULT, PRESETS, Preset
+from kineme.recordings.motion import Motion
+from kineme.segments.segmentation import Segmentation
+
+if TYPE_CHECKING:
+    from kineme.features import Names
+    from kineme.recordings.signals import Signals
+    from kineme.transfer import KnowledgeBase
+    from kineme.web.page_data import PageData
+
+MOST_IN_MEMORY = 3
+"""Recordings."""
+Stamp = tuple[int, int]
+
+_WARNINGS = threading.Lock()
+"""Catching warnings is for the whole process, so that one recording is read at a time."""
+
+
+@dataclass(frozen=True)
+class ReadingOptions:
+    """What the files do not say themselves.
+
+    Parameters
+    ----------
+    keywords : mapping
+        For :func:`kineme.read`.
+    effectors : mapping, optional
+        The names of head, hands and feet, as :func:`kineme.features.end_effectors` takes them.
+    """
+
+    keywords: Mapping[str, Any] = field(default_factory=dict)
+    effectors: Names | None = None
+
+
+class RecordingCache:
+    """The recordings used last, with the warnings that reading them gave.
+
+    Parameters
+    ----------
+    options : ReadingOptions
+    """
+
+    def __init__(self, options: ReadingOptions) -> None:
+        self.options = options
+        self._lock = threading.Lock()
+        self._reading: dict[tuple[Path, Stamp], threading.Lock] = {}
+        self._known: OrderedDict[tuple[Path, Stamp], tuple[Motion | Signals, list[str]]]
+        self._known = OrderedDict()
+
+    def read(self, path: Path) -> tuple[Motion | Signals, list[str]]:
+        """The recording in a file, read if it is not in memory.
+
+        Parameters
+        ----------
+        path : Path
+
+        Returns
+        -------
+        recording : Motion or Signals
+        warnings : list of str
+            One sentence each.
+
+        Raises
+        ------
+        ReadError
+            The file is gone or cannot be read.
+        """
+        key = path, stamp_of(path)
+        with self._lock:
+            reading = self._reading.setdefault(key, threading.Lock())
+        with reading:
+            with self._lock:
+                known = self._known.get(key)
+            found = known or _read_quietly(path, self.options.keywords)
+            with self._lock:
+                self._known[key] = found
+                self._known.move_to_end(key)
+                while len(self._known) > MOST_IN_MEMORY:
+                    self._known.popitem(last=False)
+                self._reading.pop(key, None)
+        return found
+
+
+class LoadedRecording:
+    """A recording as its file was when it was opened.
+
+    Parameters
+    ----------
+    path : Path
+    cache : RecordingCache
+        Where it is read from.
+
+    Raises
+    ------
+    ReadError
+        The file cannot be read, or is another now.
+    """
+
+    def __init__(self, path: Path, cache: RecordingCache):
+        self.path = path
+        self._cache = cache
+        self.effectors = cache.options.effectors
+        self._stamp = stamp_of(path)
+        found, self.warnings = cache.read(path)
+        self.n_frames, self.fps = found.n_frames, found.fps
+        self.provenance = found.provenance
+        self._lock = threading.Lock()
+        self._page_data: PageData | None = None
+
+    @property
+    def recording(self) -> Motion | Signals:
+        """The recording itself, read again if need be."""
+        if self.changed():
+            raise ReadError(self.path, "has changed since it was opened: open it again")
+        return self._cache.read(self.path)[0]
+
+    @property
+    def motion(self) -> Motion:
+        """The same where it is the motion of a body; ParameterError otherwise."""
+        found = self.recording
+        if not isinstance(found, Motion):
+            raise ParameterError(f"{self.path.name} holds signals: this needs the motion of a body")
+        return found
+
+    def changed(self) -> bool:
+        """Whether the file is another now, or gone."""
+        try:
+            return stamp_of(self.path) != self._stamp
+        except ReadError:
+            return True
+
+    def page_data(self) -> PageData:
+        """All that a page draws but the segments."""
+        from kineme.web.page_data import page_data
+
+        with self._lock:
+            if self._page_data is None:
+                self._page_data = page_data(self.recording, effectors=self.effectors)
+            return self._page_data
+
+    def segment(self, preset: Preset) -> Segmentation:
+        """The segments by a preset."""
+        found = self.recording
+        if isinstance(found, Motion):
+            from kineme.segmentation.segmenter import segment_and_analysis
+
+            return segment_and_analysis(found, preset, effectors=self.effectors)[0]
+        from kineme.segmentation.channels import signal_preset
+        from kineme.segmentation.signals import segment_signals_and_analysis
+
+        return segment_signals_and_analysis(found, signal_preset(preset))[0]
+
+    def first_table(self) -> tuple[Segmentation, list[str]]:
+        """The table before anybody made another.
+
+        Returns
+        -------
+        table : Segmentation
+            The segments by the default preset; one for all where there is a single point only.
+        notes : list of str
+            What people should know about it.
+        """
+        try:
+            return self.segment(PRESETS[DEFAULT]), []
+        except MotionError as error:  # a single point
+            return self._one_segment(), [f"not segmented: {error}"]
+
+    def labelled(
+        self,
+        segmentation: Segmentation,
+        base: KnowledgeBase,
+        *,
+        threshold: float,
+        spread: bool,
+    ) -> Segmentation:
+        """The segments with labels from a knowledge base.
+
+        Parameters
+        ----------
+        segmentation : Segmentation
+        base : KnowledgeBase
+        threshold, spread
+            As :func:`kineme.transfer.transfer_labels` takes them.
+
+        Returns
+        -------
+        Segmentation
+        """
+        from kineme.transfer import transfer_features, transfer_labels
+
+        features = transfer_features(self.motion, effectors=self.effectors)
+        return transfer_labels(segmentation, features, base, threshold=threshold, spread=spread)
+
+    def fits(self, segmentation: Segmentation) -> bool:
+        """Whether a table is of this recording: as long, and made from it if it says from what."""
+        if segmentation.n_frames != self.n_frames:
+            return False
+        said = segmentation.provenance.get("input")
+        if not isinstance(said, dict) or not said.get("sha256"):
+            return True
+        name = Path(str(said.get("path") or "")).name
+        return said["sha256"] == self.provenance.sha256 or name == self.path.name
+
+    def _one_segment(self) -> Segmentation:
+        columns: dict[str, list[str] | list[int]] = {
+            "level": ["activity"],
+            "kind": ["activity"],
+            "start_frame": [0],
+            "stop_frame": [self.n_frames],
+        }
+        read = self.provenance
+        provenance = {
+            "input": {"path": read.path, "format": read.format, "sha256": read.sha256},
+            "notes": [*read.notes],
+        }
+        return Segmentation.from_columns(
+            columns, n_frames=self.n_frames, fps=self.fps, provenance=provenance
+        )
+
+
+def stamp_of(path: Path) -> Stamp:
+    """What changes when a file is written.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    tuple of int
+        Time of the last change in nanoseconds, and length in bytes.
+
+    Raises
+    ------
+    ReadError
+        It is gone.
+    """
+    try:
+        found = path.stat()
+    except OSError as error:
+        raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
+    return found.st_mtime_ns, found.st_size
+
+
+def _read_quietly(path: Path, keywords: Mapping[str, Any]) -> tuple[Motion | Signals, list[str]]:
+    """What a file holds, and the warnings."""
+    with _WARNINGS, warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        found = _read(path, keywords)
+    return found, [str(w.message) for w in caught if issubclass(w.category, KinemeWarning)]
+
+
+def _read(path: Path, keywords: Mapping[str, Any]) -> Motion | Signals:
+    """What a file holds; a table of channels without a body is signals."""
+    from kineme.formats.channels.reading import is_signal_file, read_signals
+
+    if is_signal_file(path):
+        return read_signals(path, fps=keywords.get("fps"))
+    return read(path, **keywords)
