@@ -1,6 +1,6 @@
 /** Edits at the playhead or of the selected segment; null where there is nothing to do. */
-import type { Edit, Level, Segment } from "../messages";
-import { indexAt } from "../segments";
+import type { Edit, Level, Segment } from "../../messages";
+import { indexAt } from "../../segments";
 
 /** What a command looks at: the lane in which one works, and where the playhead is. */
 export interface Where {

@@ -1,6 +1,6 @@
 /** How well the shown result agrees with the one it is compared with. */
 import type { JSX } from "preact";
-import type { Session } from "./session";
+import type { Session } from "../session";
 
 interface Props {
   session: Session;
@@ -14,7 +14,7 @@ export function ComparePanel({ session, choose }: Props): JSX.Element {
       <div class="compare-panel">
         <p class="quiet">Lay another preset’s result, or an annotation, below this one.</p>
         <p>
-          <button type="button" disabled={!session.document.value} onClick={choose}>
+          <button type="button" disabled={!session.edited.value} onClick={choose}>
             Compare…
           </button>
         </p>

@@ -1,8 +1,8 @@
 /** The keys, and what the mouse does. */
 import type { JSX } from "preact";
-import { PAGE_KEYS } from "../keys";
+import { PAGE_KEYS } from "../../keys";
 import { Dialog } from "./Dialog";
-import { STUDIO_KEYS } from "./keys";
+import { STUDIO_KEYS } from "../keys";
 
 export function HelpDialog({ close }: { close: () => void }): JSX.Element {
   return (

@@ -1,17 +1,21 @@
-/** Tells the director when something changed, and turns what the user does into changes. */
+/** Draws anew when something changed, and turns what the user does into changes. */
 import { effect } from "@preact/signals";
 import { CLICK } from "../canvas/pointers";
 import type { Store } from "../store";
 import { theme } from "../theme";
 import { ticker } from "../ticker";
-import type { Director } from "./director";
+import type { FigureScene } from "./scene";
 
 const TURN = Math.PI / 24; // of one key press
 const REST = 400; // milliseconds
 
 /** Keeps the picture up to date; call the result to stop. */
-export function direct(store: Store, director: Director, canvas: HTMLCanvasElement): () => void {
-  const stale = { cast: true, paint: true, picture: true, edges: false };
+export function keepUpToDate(
+  store: Store,
+  scene: FigureScene,
+  canvas: HTMLCanvasElement,
+): () => void {
+  const stale = { figures: true, paint: true, picture: true, edges: false };
   let resting: ReturnType<typeof setTimeout> | undefined;
   const expire = (...what: (keyof typeof stale)[]): void => {
     for (const each of what) stale[each] = true;
@@ -25,15 +29,15 @@ export function direct(store: Store, director: Director, canvas: HTMLCanvasEleme
   const onTurn = (): void => expire("picture");
   const resize = new ResizeObserver(() => {
     const { clientWidth, clientHeight } = canvas.parentElement!;
-    director.stage.resize(clientWidth, clientHeight);
+    scene.stage.resize(clientWidth, clientHeight);
     expire("picture");
   });
   resize.observe(canvas.parentElement!);
-  director.stage.controls.addEventListener("change", onTurn);
+  scene.stage.controls.addEventListener("change", onTurn);
   const stops = [
     effect(() => {
-      watchCast(store);
-      expire("cast", "picture");
+      watchFigures(store);
+      expire("figures", "picture");
     }),
     effect(() => {
       void theme.value;
@@ -44,16 +48,16 @@ export function direct(store: Store, director: Director, canvas: HTMLCanvasEleme
       expire("picture");
     }),
     ticker.add((seconds) => {
-      if (stale.cast) director.cast();
-      if (stale.paint) director.paint();
+      if (stale.figures) scene.populate();
+      if (stale.paint) scene.paint();
       if (!store.active.value || (!stale.picture && !stale.edges)) return;
       const moving = stale.picture;
-      if (moving) director.pose(seconds);
-      stale.cast = stale.paint = stale.picture = stale.edges = false; // pose() turned the camera
-      director.stage.draw(moving, seconds);
+      if (moving) scene.pose(seconds);
+      stale.figures = stale.paint = stale.picture = stale.edges = false; // pose() turned the camera
+      scene.stage.draw(moving, seconds);
       if (moving) sharpenSoon();
     }),
-    pickOnClick(store, director, canvas),
+    pickOnClick(store, scene, canvas),
   ];
   return () => {
     for (const stop of stops) stop();
@@ -63,16 +67,16 @@ export function direct(store: Store, director: Director, canvas: HTMLCanvasEleme
 }
 
 /** Alt and an arrow key turn the camera as a drag would. */
-export function turnByKey(event: KeyboardEvent, director: Director | null): void {
+export function turnByKey(event: KeyboardEvent, scene: FigureScene | null): void {
   const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
   const turn = by[event.key as keyof typeof by];
-  if (!event.altKey || !turn || !director) return;
+  if (!event.altKey || !turn || !scene) return;
   event.preventDefault();
   event.stopPropagation();
-  director.stage.turn(TURN * turn[0]!, TURN * turn[1]!);
+  scene.stage.turn(TURN * turn[0]!, TURN * turn[1]!);
 }
 
-function watchCast(store: Store): void {
+function watchFigures(store: Store): void {
   for (const opened of store.opened.value) void opened.motion.value;
   void store.current.value;
   if (store.inStep.value) void store.shownCluster.value;
@@ -84,7 +88,7 @@ function watchPose(store: Store): void {
 }
 
 /** A click on a member of a cluster selects it; on one of several recordings, shows it. */
-function pickOnClick(store: Store, director: Director, canvas: HTMLCanvasElement): () => void {
+function pickOnClick(store: Store, scene: FigureScene, canvas: HTMLCanvasElement): () => void {
   let from = { x: 0, y: 0 };
   const onDown = (event: PointerEvent): void => void (from = { x: event.x, y: event.y });
   const onClick = (event: MouseEvent): void => {
@@ -92,10 +96,10 @@ function pickOnClick(store: Store, director: Director, canvas: HTMLCanvasElement
     const box = canvas.getBoundingClientRect();
     const x = (2 * (event.x - box.left)) / box.width - 1;
     const y = 1 - (2 * (event.y - box.top)) / box.height;
-    const actor = director.pick(x, y);
-    if (actor?.segment) store.select(actor.segment);
-    else if (actor && store.opened.value.length > 1) {
-      const index = store.opened.value.findIndex((each) => each.motion.value === actor.motion);
+    const placed = scene.pick(x, y);
+    if (placed?.segment) store.select(placed.segment);
+    else if (placed && store.opened.value.length > 1) {
+      const index = store.opened.value.findIndex((each) => each.motion.value === placed.motion);
       if (index >= 0 && index !== store.current.value) store.show(index);
     }
   };

@@ -1,13 +1,13 @@
-/** Who is on the stage, where, and at which moment of which recording. Pure functions. */
+/** Which figures are shown, where, and at which time of which recording. Pure functions. */
 import type { Segment } from "../messages";
 import { headingAt, poseAt, rootOf, type Motion } from "../motion";
 
-/** A figure of the viewer. */
-export interface Actor {
+/** A figure and where it stands. */
+export interface PlacedFigure {
   motion: Motion;
   name: string;
   place: Place;
-  /** The member of a cluster it plays; null: it follows the playhead. */
+  /** The member of a cluster it shows; null: it follows the playhead. */
   segment: Segment | null;
 }
 
@@ -31,7 +31,7 @@ const FREE: Place = { slot: [0, 0], from: [0, 0], turn: 0, still: false };
 export function sideBySide(
   figures: readonly { motion: Motion; name: string }[],
   size: number,
-): Actor[] {
+): PlacedFigure[] {
   return figures.map(({ motion, name }, i) => {
     const x = (i - (figures.length - 1) / 2) * 0.95 * size;
     const place: Place = figures.length === 1 ? FREE : { ...FREE, slot: [x, 0], still: true };
@@ -40,7 +40,7 @@ export function sideBySide(
 }
 
 /** The members of a cluster in rows, all facing the same way where they begin. */
-export function inStep(motion: Motion, members: readonly Segment[], size: number): Actor[] {
+export function inStep(motion: Motion, members: readonly Segment[], size: number): PlacedFigure[] {
   const shown = members.slice(0, MOST_MEMBERS);
   const columns = Math.ceil(Math.sqrt(shown.length * 1.7));
   const rows = Math.ceil(shown.length / columns);
@@ -63,11 +63,15 @@ export function inStep(motion: Motion, members: readonly Segment[], size: number
 }
 
 /**
- * Which moment (seconds) an actor shows. Members of a cluster keep step: all have done the same
+ * Which time (seconds) a figure shows. Members of a cluster keep step: all have done the same
  * share of their repetition as the one under the playhead, or else as the selected one.
  */
-export function momentOf(actor: Actor, playhead: number, leader: Segment | undefined): number {
-  const { segment } = actor;
+export function timeOf(
+  figure: PlacedFigure,
+  playhead: number,
+  leader: Segment | undefined,
+): number {
+  const { segment } = figure;
   if (!segment) return playhead;
   const share = leader ? (playhead - leader.start_s) / (leader.stop_s - leader.start_s) : 0;
   const inside = Math.min(Math.max(share, 0), 1);

@@ -5,7 +5,7 @@
  * server's answer, where the other level follows, then takes its place.
  */
 
-import type { Edit, Level, Segment, Segments } from "../messages";
+import type { Edit, Level, Segment, Segments } from "../../messages";
 
 /** The table after the edits, in order; those that need the server change nothing. */
 export function preview(table: Segments, edits: Edit[]): Segments {
@@ -70,14 +70,14 @@ export function inWords(edit: Edit, fps: number): string {
     case "name_segment":
       return edit.label
         ? `${edit.level} at ${at(edit.frame)} named “${edit.label}”`
-        : `name of the ${edit.level} at ${at(edit.frame)} taken away`;
+        : `name of the ${edit.level} at ${at(edit.frame)} removed`;
     case "name_cluster":
       return edit.label
         ? `cluster ${edit.cluster} named “${edit.label}”`
-        : `name of cluster ${edit.cluster} taken away`;
+        : `name of cluster ${edit.cluster} removed`;
     case "set_cluster":
       return edit.cluster < 0
-        ? `${edit.level} at ${at(edit.frame)} taken out of its cluster`
+        ? `${edit.level} at ${at(edit.frame)} removed from its cluster`
         : `${edit.level} at ${at(edit.frame)} put into cluster ${edit.cluster}`;
     case "set_kind":
       return `${edit.level} at ${at(edit.frame)} made ${edit.to === "activity" ? "an" : "a"} ${edit.to}`;

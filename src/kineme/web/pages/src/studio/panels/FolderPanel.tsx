@@ -1,9 +1,9 @@
 /** The recordings of the folder: search, open, show beside, add. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import type { Listing } from "../messages";
-import type { Session } from "./session";
-import type { Uploads } from "./uploads";
+import type { Listing } from "../../messages";
+import type { Session } from "../session";
+import type { Uploads } from "../server/uploads";
 
 interface Props {
   session: Session;

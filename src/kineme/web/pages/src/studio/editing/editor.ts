@@ -1,10 +1,10 @@
 /** Edits as people make them: at the playhead and of the selected segment, with the selection following. */
 import { computed, signal } from "@preact/signals";
-import type { Edit, Kind, Level, Segment } from "../messages";
-import { segmentAt } from "../segments";
-import type { Store } from "../store";
+import type { Edit, Kind, Level, Segment } from "../../messages";
+import { segmentAt } from "../../segments";
+import type { Store } from "../../store";
 import * as commands from "./commands";
-import type { Session } from "./session";
+import type { Session } from "../session";
 
 export class Editor {
   /** Asks for the field of a name to take the keyboard: of a segment or its cluster. */
@@ -74,7 +74,7 @@ export class Editor {
   }
 
   undo(): void {
-    if (this.isOpenTo("can_undo")) this.session.document.value?.undo();
+    if (this.isOpenTo("can_undo")) this.session.edited.value?.undo();
   }
 
   redo(): void {
@@ -83,19 +83,19 @@ export class Editor {
 
   /** Edits on their way may be what there is to undo or redo. */
   private isOpenTo(what: "can_undo" | "can_redo"): boolean {
-    const document = this.session.document.value;
-    return document !== undefined && (document.shown.value[what] || document.unsent().length > 0);
+    const edited = this.session.edited.value;
+    return edited !== undefined && (edited.shown.value[what] || edited.unsent().length > 0);
   }
 
   private make(edit: Edit | null, otherwise = ""): void {
-    const document = this.session.document.value;
-    if (!document) return;
+    const edited = this.session.edited.value;
+    if (!edited) return;
     if (!edit) {
       this.session.bulletin.tell(otherwise);
       return;
     }
     const at = this.store.selection.value;
-    document.edit(edit);
+    edited.edit(edit);
     const start = at && commands.followed(edit, at.level, at.start_frame);
     if (at && start !== null) this.store.selection.value = { ...at, start_frame: start! };
   }

@@ -1,10 +1,10 @@
 /** The segments as a file, in every format the package writes. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import type { Level } from "../messages";
-import { explain } from "./api";
+import type { Level } from "../../messages";
+import { explain } from "../server/api";
 import { Dialog } from "./Dialog";
-import type { Session } from "./session";
+import type { Session } from "../session";
 
 interface Props {
   session: Session;
@@ -21,11 +21,11 @@ export function ExportDialog({ session, close }: Props): JSX.Element {
   const level = useSignal<Level | "">("");
   const busy = useSignal("");
   const write = async (format: string): Promise<void> => {
-    const document = session.document.value;
-    if (!document) return;
+    const edited = session.edited.value;
+    if (!edited) return;
     busy.value = format;
     try {
-      const { name, data } = await session.api.exported(document.id, format, level.value);
+      const { name, data } = await session.api.exported(edited.id, format, level.value);
       download(name, data);
     } catch (error) {
       session.bulletin.problem(explain(error));

@@ -1,4 +1,4 @@
-/** Brings the state of the page onto the stage: who stands where, in which pose and colour. */
+/** Brings the state of the page into the picture: which figure where, in which pose and colour. */
 import * as THREE from "three";
 import { clusterColor, onPage } from "../colors";
 import type { Segment } from "../messages";
@@ -7,7 +7,7 @@ import { segmentAt } from "../segments";
 import type { Store } from "../store";
 import { cssColor, theme } from "../theme";
 import { anatomyOf, type Anatomy } from "./anatomy";
-import { inStep, momentOf, putInPlace, sideBySide, type Actor } from "./cast";
+import { inStep, timeOf, putInPlace, sideBySide, type PlacedFigure } from "./placement";
 import { Figure } from "./figure";
 import { Stage } from "./stage";
 import { Trails } from "./trails";
@@ -15,9 +15,9 @@ import { Trails } from "./trails";
 const TRAIL_LENGTH = 1.2; // seconds
 const CATCH_UP = 3; // per second: how fast the camera follows while playing
 
-export class Director {
+export class FigureScene {
   readonly stage: Stage;
-  private actors: Actor[] = [];
+  private placed: PlacedFigure[] = [];
   private figures: Figure[] = [];
   private trails: Trails | null = null;
   private poses: Float32Array[] = [];
@@ -32,22 +32,22 @@ export class Director {
   }
 
   /** New figures when the recordings, the cluster or its members changed. */
-  cast(): void {
-    this.strike();
-    this.actors = this.chooseActors();
-    this.figures = this.actors.map(
+  populate(): void {
+    this.clear();
+    this.placed = this.choosePlaced();
+    this.figures = this.placed.map(
       ({ motion }) => new Figure(this.stage.haze, motion.head, anatomyOfCached(motion)),
     );
-    this.poses = this.actors.map(({ motion }) => new Float32Array(motion.head.joints.length * 3));
+    this.poses = this.placed.map(({ motion }) => new Float32Array(motion.head.joints.length * 3));
     for (const figure of this.figures) this.stage.scene.add(figure.group);
-    const lead = this.actors[0];
+    const lead = this.placed[0];
     if (!lead) return;
-    const paths = handsAndFeet(lead.motion).length * this.actors.length;
+    const paths = handsAndFeet(lead.motion).length * this.placed.length;
     if (!lead.segment && paths > 0) {
       this.trails = new Trails(this.stage.haze, paths, 0.022 * this.size);
       this.stage.scene.add(this.trails.mesh);
     }
-    const scene = `${this.actors.length} ${lead.segment !== null} ${this.store.current.value}`;
+    const scene = `${this.placed.length} ${lead.segment !== null} ${this.store.current.value}`;
     if (scene !== this.scene) this.frame();
     this.scene = scene;
   }
@@ -63,26 +63,26 @@ export class Director {
     const color = onPage(clusterColor(store.present.value?.cluster ?? -1), theme.value);
     const shadow = cssColor("shadow");
     const [body, joint] = [cssColor("body"), cssColor("joint")];
-    this.actors.forEach((actor, i) => {
+    this.placed.forEach((each, i) => {
       const pose = this.poses[i]!;
-      this.placedPose(actor, momentOf(actor, store.playhead.value, leader), pose);
+      this.placedPose(each, timeOf(each, store.playhead.value, leader), pose);
       this.figures[i]!.pose(pose);
-      const leads = actor.segment !== null && actor.segment === leader;
-      const joints = actor.segment ? joint : color;
+      const leads = each.segment !== null && each.segment === leader;
+      const joints = each.segment ? joint : color;
       this.figures[i]!.paint({ body: leads ? color : body, joint: leads ? color : joints, shadow });
     });
     this.drawTrails();
     if (store.follow.value) this.followLead(seconds);
   }
 
-  /** Puts the camera where the whole cast is seen. */
+  /** Puts the camera where all figures are seen. */
   frame(): void {
-    const lead = this.actors[0];
+    const lead = this.placed[0];
     if (!lead) return;
-    this.placedPose(lead, momentOf(lead, this.store.playhead.value, this.leader()), this.poses[0]!);
+    this.placedPose(lead, timeOf(lead, this.store.playhead.value, this.leader()), this.poses[0]!);
     const { ground } = anatomyOfCached(lead.motion);
-    const alone = this.actors.length === 1;
-    const slots = this.actors.map((actor) => actor.place.slot);
+    const alone = this.placed.length === 1;
+    const slots = this.placed.map((each) => each.place.slot);
     const width = Math.max(...slots.map(([x]) => x)) - Math.min(...slots.map(([x]) => x));
     const depth = Math.max(...slots.map(([, z]) => z)) - Math.min(...slots.map(([, z]) => z));
     const [x, z] = alone ? this.rootOfLead() : [0, 0];
@@ -92,22 +92,22 @@ export class Director {
     this.stage.look(target, side, width + 1.25 * this.size, height, depth > 0 ? 0.5 : 0.22);
   }
 
-  /** The actor nearest to a point of the canvas (from -1 to 1, y up). */
-  pick(x: number, y: number): Actor | undefined {
-    const near = this.actors.map((actor, i) => {
-      const root = 3 * rootOf(actor.motion.head);
+  /** The figure nearest to a point of the canvas (from -1 to 1, y up). */
+  pick(x: number, y: number): PlacedFigure | undefined {
+    const near = this.placed.map((each, i) => {
+      const root = 3 * rootOf(each.motion.head);
       const at = new THREE.Vector3().fromArray(this.poses[i]!, root).project(this.stage.camera);
-      return { actor, far: Math.hypot((at.x - x) * this.stage.camera.aspect, at.y - y) };
+      return { each, far: Math.hypot((at.x - x) * this.stage.camera.aspect, at.y - y) };
     });
-    return near.sort((a, b) => a.far - b.far).find(({ far }) => far < 0.3)?.actor;
+    return near.sort((a, b) => a.far - b.far).find(({ far }) => far < 0.3)?.each;
   }
 
   dispose(): void {
-    this.strike();
+    this.clear();
     this.stage.dispose();
   }
 
-  private chooseActors(): Actor[] {
+  private choosePlaced(): PlacedFigure[] {
     const { store } = this;
     const motion = store.active.value?.motion.value;
     const members = store.shownCluster.value?.members ?? [];
@@ -126,7 +126,7 @@ export class Director {
   /** The member under the playhead, else the selected one: it sets the pace. */
   private leader(): Segment | undefined {
     const frame = this.store.frame.value;
-    const members = this.actors.flatMap(({ segment }) => (segment ? [segment] : []));
+    const members = this.placed.flatMap(({ segment }) => (segment ? [segment] : []));
     const selected = this.store.selected.value;
     return (
       members.find((each) => each.start_frame <= frame && frame < each.stop_frame) ??
@@ -134,19 +134,19 @@ export class Director {
     );
   }
 
-  private placedPose(actor: Actor, moment: number, pose: Float32Array): void {
-    poseAt(actor.motion, moment, pose);
-    putInPlace(pose, actor.place, rootOf(actor.motion.head));
+  private placedPose(placed: PlacedFigure, time: number, pose: Float32Array): void {
+    poseAt(placed.motion, time, pose);
+    putInPlace(pose, placed.place, rootOf(placed.motion.head));
   }
 
   private rootOfLead(): [number, number] {
-    const root = 3 * rootOf(this.actors[0]!.motion.head);
+    const root = 3 * rootOf(this.placed[0]!.motion.head);
     const pose = this.poses[0]!;
     return [pose[root] || 0, pose[root + 2] || 0];
   }
 
   private followLead(seconds: number): void {
-    if (this.actors.length !== 1) return;
+    if (this.placed.length !== 1) return;
     const [x, z] = this.rootOfLead();
     const { target } = this.stage.controls;
     const share = this.store.playing.value ? 1 - Math.exp(-CATCH_UP * seconds) : 1;
@@ -158,27 +158,27 @@ export class Director {
     const { playhead, primitives, fps } = this.store;
     this.trails.mesh.visible = this.store.trails.value && playhead.value > 0;
     if (!this.trails.mesh.visible) return;
-    const moments = Trails.moments(playhead.value, TRAIL_LENGTH);
-    const colors = moments.map((moment) => {
-      const segment = segmentAt(primitives.value, Math.floor(moment * fps.value));
+    const times = Trails.times(playhead.value, TRAIL_LENGTH);
+    const colors = times.map((time) => {
+      const segment = segmentAt(primitives.value, Math.floor(time * fps.value));
       return new THREE.Color(onPage(clusterColor(segment?.cluster ?? -1), theme.value));
     });
-    const paths = this.actors.flatMap((actor) => this.pathsOf(actor, moments));
+    const paths = this.placed.flatMap((each) => this.pathsOf(each, times));
     this.trails.draw(paths, colors, this.stage.camera.position);
   }
 
-  private pathsOf(actor: Actor, moments: readonly number[]): Float32Array[] {
-    const joints = handsAndFeet(actor.motion);
-    const paths = joints.map(() => new Float32Array(3 * moments.length));
-    const pose = new Float32Array(actor.motion.head.joints.length * 3);
-    moments.forEach((moment, i) => {
-      this.placedPose(actor, moment, pose);
+  private pathsOf(placed: PlacedFigure, times: readonly number[]): Float32Array[] {
+    const joints = handsAndFeet(placed.motion);
+    const paths = joints.map(() => new Float32Array(3 * times.length));
+    const pose = new Float32Array(placed.motion.head.joints.length * 3);
+    times.forEach((time, i) => {
+      this.placedPose(placed, time, pose);
       joints.forEach((joint, k) => paths[k]!.set(pose.subarray(3 * joint, 3 * joint + 3), 3 * i));
     });
     return paths;
   }
 
-  private strike(): void {
+  private clear(): void {
     for (const figure of this.figures) {
       figure.group.removeFromParent();
       figure.dispose();

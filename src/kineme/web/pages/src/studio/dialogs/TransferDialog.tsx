@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { Dialog } from "./Dialog";
-import type { Session } from "./session";
+import type { Session } from "../session";
 
 interface Props {
   session: Session;
@@ -17,7 +17,7 @@ export function TransferDialog({ session, close }: Props): JSX.Element {
   const transfer = (event: Event): void => {
     event.preventDefault();
     const limit = Number.parseFloat(threshold.value);
-    session.document.value?.edit({
+    session.edited.value?.edit({
       kind: "transfer",
       knowledge_base: base.value,
       spread: spread.value,
@@ -31,7 +31,7 @@ export function TransferDialog({ session, close }: Props): JSX.Element {
         <p>
           There is no knowledge base in {session.state.value?.folder}. Make one there from a
           recording with names:{" "}
-          <code>kineme label take.bvh --labels take.segments.json --knowledge moves.npz</code>
+          <code>kineme label walk.bvh --labels walk.segments.json --knowledge moves.npz</code>
         </p>
       ) : (
         <form onSubmit={transfer}>

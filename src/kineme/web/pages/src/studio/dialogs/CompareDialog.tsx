@@ -1,9 +1,9 @@
 /** Another result beside the shown one: a preset's, or a label file's of the folder. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import type { CompareRequest } from "../messages";
+import type { CompareRequest } from "../../messages";
 import { Dialog } from "./Dialog";
-import type { Session } from "./session";
+import type { Session } from "../session";
 
 interface Props {
   session: Session;

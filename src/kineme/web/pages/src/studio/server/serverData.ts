@@ -1,9 +1,9 @@
 /** The data of one recording, from the studio's server. */
-import type { Recording } from "../messages";
-import type { Source } from "../source";
+import type { Recording } from "../../messages";
+import type { RecordingData } from "../../recordingData";
 import type { Api } from "./api";
 
-export class ServerSource implements Source {
+export class ServerData implements RecordingData {
   private coming: Promise<ArrayBuffer> | undefined;
 
   constructor(
@@ -14,7 +14,7 @@ export class ServerSource implements Source {
   /** Asks for the motion, which then is on its way while the page shows the rest. */
   askAhead(): this {
     this.coming = this.api.motion(this.id);
-    this.coming.catch(() => undefined); // whoever takes it is told
+    this.coming.catch(() => undefined); // whoever waits for it is told
     return this;
   }
 

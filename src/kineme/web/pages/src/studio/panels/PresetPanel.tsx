@@ -2,9 +2,9 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
-import type { Parameter, PresetChoice, Segments } from "../messages";
-import type { Document } from "./document";
-import type { Session } from "./session";
+import type { Parameter, PresetChoice, Segments } from "../../messages";
+import type { EditedRecording } from "../editing/editedRecording";
+import type { Session } from "../session";
 
 const PAUSE = 120; // milliseconds without a change before the server is asked
 
@@ -17,12 +17,12 @@ interface Choice {
 
 export function PresetPanel({ session }: { session: Session }): JSX.Element | null {
   const state = session.state.value;
-  const document = session.document.value;
-  if (!state || !document) return null;
+  const edited = session.edited.value;
+  if (!state || !edited) return null;
   return (
     <Presets
-      key={document.id}
-      document={document}
+      key={edited.id}
+      edited={edited}
       presets={state.presets}
       fallback={state.default_preset}
     />
@@ -30,24 +30,24 @@ export function PresetPanel({ session }: { session: Session }): JSX.Element | nu
 }
 
 interface Props {
-  document: Document;
+  edited: EditedRecording;
   presets: PresetChoice[];
   fallback: string;
 }
 
-function Presets({ document, presets, fallback }: Props): JSX.Element {
+function Presets({ edited, presets, fallback }: Props): JSX.Element {
   const draft = useSignal<Choice | null>(null);
   const timer = useRef(0);
-  const table = document.confirmed.value.segmentation;
-  const busy = document.busy.value;
-  const { preset, values } = draft.value ?? onItsWay(document) ?? usedBy(table, presets, fallback);
+  const table = edited.confirmed.value.segmentation;
+  const busy = edited.busy.value;
+  const { preset, values } = draft.value ?? onItsWay(edited) ?? usedBy(table, presets, fallback);
   const choice = presets.find((each) => each.name === preset)!;
 
   const again = (next: Choice, pause: number): void => {
     draft.value = next;
     window.clearTimeout(timer.current);
     timer.current = window.setTimeout(() => {
-      document.edit({ kind: "segment", preset: next.preset, parameters: next.values });
+      edited.edit({ kind: "segment", preset: next.preset, parameters: next.values });
       draft.value = null;
     }, pause);
   };
@@ -135,8 +135,8 @@ function Slider(props: {
 }
 
 /** The preset and values that were asked for and have not been answered. */
-function onItsWay(document: Document): Choice | null {
-  const edit = document.waiting.value.findLast((each) => each.edit.kind === "segment")?.edit;
+function onItsWay(edited: EditedRecording): Choice | null {
+  const edit = edited.waiting.value.findLast((each) => each.edit.kind === "segment")?.edit;
   return edit?.kind === "segment" ? { preset: edit.preset, values: edit.parameters } : null;
 }
 

@@ -1,7 +1,7 @@
 /** Files on their way into the folder. */
 import { signal } from "@preact/signals";
 import { explain } from "./api";
-import type { Session } from "./session";
+import type { Session } from "../session";
 
 export interface Upload {
   name: string;

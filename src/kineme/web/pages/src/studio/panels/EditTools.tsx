@@ -1,6 +1,6 @@
 /** The buttons that cut and join, for those without a keyboard at hand. */
 import type { JSX } from "preact";
-import type { Editor } from "./editor";
+import type { Editor } from "../editing/editor";
 
 export function EditTools({ editor }: { editor: Editor }): JSX.Element {
   const disabled = !editor.segment.value;

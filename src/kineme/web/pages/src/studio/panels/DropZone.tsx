@@ -2,8 +2,8 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
-import type { Session } from "./session";
-import type { Uploads } from "./uploads";
+import type { Session } from "../session";
+import type { Uploads } from "../server/uploads";
 
 interface Props {
   session: Session;

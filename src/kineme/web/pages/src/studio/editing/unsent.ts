@@ -1,11 +1,11 @@
 /**
- * Edits that the server has not confirmed, kept where they outlive the tab.
+ * Edits that the server has not confirmed, stored where they outlive the tab.
  *
  * A tab holds a lock of its own name while it lives, so that another tab can
  * tell the edits of a dead one, which it takes over, from those of a living one.
  */
 
-import type { Edit } from "../messages";
+import type { Edit } from "../../messages";
 
 /** What a tab has not got through: the table it was working on, and its edits in order. */
 export interface Unsent {
@@ -34,7 +34,7 @@ function claimed(name: string): Promise<boolean> {
   });
 }
 
-export function keep(folder: string, recording: string, unsent: Unsent): void {
+export function store(folder: string, recording: string, unsent: Unsent): void {
   const key = `${PREFIX}|${folder}|${recording}|${tab}`;
   if (unsent.edits.length) localStorage.setItem(key, JSON.stringify(unsent));
   else localStorage.removeItem(key);

@@ -8,10 +8,10 @@
  */
 
 import { batch, computed, effect, signal } from "@preact/signals";
-import type { Edit, Edited, Level, Recording, Segments } from "../messages";
-import { type Api, Refused, Unreachable } from "./api";
+import type { Edit, Edited, Level, Recording, Segments } from "../../messages";
+import { type Api, Refused, Unreachable } from "../server/api";
 import { fingerprint, inWords, isDone, preview } from "./preview";
-import { keep, takeOver } from "./unsent";
+import { store, takeOver } from "./unsent";
 
 /** An edit in the queue; `tried`: it was sent, and may have arrived. */
 interface Waiting {
@@ -28,7 +28,7 @@ export interface Surroundings {
   tell(text: string, undo?: () => void): void;
 }
 
-export class Document {
+export class EditedRecording {
   readonly confirmed;
   readonly waiting = signal<Waiting[]>([]);
   /** Why the queue does not move, in a sentence; null while it does. */
@@ -40,7 +40,7 @@ export class Document {
       this.waiting.value.map((waiting) => waiting.edit),
     ),
   }));
-  /** Whether the server is at something that takes a while. */
+  /** Whether the server is at something slow. */
   readonly busy = computed(() => this.waiting.value.some(({ edit }) => isSlow(edit)));
 
   private sending = false;
@@ -53,7 +53,7 @@ export class Document {
   ) {
     this.confirmed = signal(recording);
     this.stopKeeping = effect(() =>
-      keep(around.folder, recording.id, {
+      store(around.folder, recording.id, {
         base: fingerprint(this.confirmed.value.segmentation),
         edits: this.waiting.value.map((waiting) => waiting.edit),
       }),
@@ -61,16 +61,16 @@ export class Document {
   }
 
   /** The recording as the server has it, with what an earlier tab could not send. */
-  static async open(id: string, around: Surroundings): Promise<Document> {
+  static async open(id: string, around: Surroundings): Promise<EditedRecording> {
     const recording = await around.api.recording(id);
     const left = await takeOver(around.folder, id);
-    const document = new Document(recording, around);
+    const edited = new EditedRecording(recording, around);
     if (left) {
-      document.waiting.value = left.edits.map((edit) => ({ edit, tried: true }));
-      document.settle(left.base);
-      void document.send();
+      edited.waiting.value = left.edits.map((edit) => ({ edit, tried: true }));
+      edited.settle(left.base);
+      void edited.send();
     }
-    return document;
+    return edited;
   }
 
   get id(): string {

@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { Edit, Edited, EditRequest, Recording } from "../../src/messages";
-import type { Api } from "../../src/studio/api";
+import type { Api } from "../../src/studio/server/api";
 import { recording, starts } from "./tables";
 
 const stored = new Map<string, string>();
@@ -19,9 +19,9 @@ vi.stubGlobal("sessionStorage", { getItem: () => "this-tab", setItem: () => unde
 vi.stubGlobal("localStorage", storage);
 vi.stubGlobal("navigator", { locks: { query: () => Promise.resolve({ held: [] }) } });
 
-const { Refused, Unreachable } = await import("../../src/studio/api");
-const { Document } = await import("../../src/studio/document");
-const { preview } = await import("../../src/studio/preview");
+const { Refused, Unreachable } = await import("../../src/studio/server/api");
+const { EditedRecording } = await import("../../src/studio/editing/editedRecording");
+const { preview } = await import("../../src/studio/editing/preview");
 
 const SPLIT: Edit = { kind: "split", level: "primitive", frame: 45 };
 const MOVE: Edit = { kind: "move_border", level: "primitive", frame: 30, to: 40 };
@@ -56,8 +56,8 @@ let server: Server;
 let told: string[];
 let lost: number;
 
-function open(): Promise<InstanceType<typeof Document>> {
-  return Document.open("take", {
+function open(): Promise<InstanceType<typeof EditedRecording>> {
+  return EditedRecording.open("take", {
     api: server as unknown as Api,
     folder: "/folder",
     lost: () => void (lost += 1),
@@ -76,29 +76,29 @@ beforeEach(() => {
 
 describe("while the server answers", () => {
   it("an edit is shown at once and confirmed soon after", async () => {
-    const document = await open();
-    document.edit(SPLIT);
-    expect(starts(document.shown.value.segmentation)).toContain(45);
-    expect(starts(document.confirmed.value.segmentation)).not.toContain(45);
+    const edited = await open();
+    edited.edit(SPLIT);
+    expect(starts(edited.shown.value.segmentation)).toContain(45);
+    expect(starts(edited.confirmed.value.segmentation)).not.toContain(45);
     await settled();
-    expect(starts(document.confirmed.value.segmentation)).toContain(45);
-    expect(document.waiting.value).toEqual([]);
-    expect(document.confirmed.value.saved).toBe("take.segments.json");
+    expect(starts(edited.confirmed.value.segmentation)).toContain(45);
+    expect(edited.waiting.value).toEqual([]);
+    expect(edited.confirmed.value.saved).toBe("take.segments.json");
   });
 
   it("edits made faster than it answers are sent in order, each on the table before", async () => {
-    const document = await open();
-    document.edit(MOVE);
-    document.edit(SPLIT);
+    const edited = await open();
+    edited.edit(MOVE);
+    edited.edit(SPLIT);
     await settled();
     expect(server.got).toEqual([MOVE, SPLIT]);
-    expect(document.confirmed.value.revision).toBe(2);
+    expect(edited.confirmed.value.revision).toBe(2);
   });
 
   it("only the last of several waiting segmentations is asked for", async () => {
-    const document = await open();
+    const edited = await open();
     for (const radius of [1, 2, 3])
-      document.edit({ kind: "segment", preset: "kineme", parameters: { radius } });
+      edited.edit({ kind: "segment", preset: "kineme", parameters: { radius } });
     await settled();
     expect(server.got.map((edit) => edit.kind === "segment" && edit.parameters["radius"])).toEqual([
       1, 3,
@@ -106,9 +106,9 @@ describe("while the server answers", () => {
   });
 
   it("an edit that is refused for what it is goes, with the reason", async () => {
-    const document = await open();
-    document.edit({ kind: "undo" });
-    document.edit(SPLIT);
+    const edited = await open();
+    edited.edit({ kind: "undo" });
+    edited.edit(SPLIT);
     await settled();
     expect(told).toEqual(["There is nothing to undo."]);
     expect(server.got).toEqual([SPLIT]);
@@ -116,49 +116,49 @@ describe("while the server answers", () => {
 });
 
 it("as many edits are undone as undo was asked for, however fast", async () => {
-  const document = await open();
-  for (let i = 0; i < 4; i++) document.undo();
-  expect(document.waiting.value.map(({ edit }) => edit.kind)).toEqual(Array(4).fill("undo"));
+  const edited = await open();
+  for (let i = 0; i < 4; i++) edited.undo();
+  expect(edited.waiting.value.map(({ edit }) => edit.kind)).toEqual(Array(4).fill("undo"));
 });
 
 describe("when the server is gone", () => {
   it("edits wait, are shown, and are sent when it is back", async () => {
-    const document = await open();
+    const edited = await open();
     server.up = false;
-    document.edit(MOVE);
-    document.edit(SPLIT);
+    edited.edit(MOVE);
+    edited.edit(SPLIT);
     await settled();
     expect(lost).toBeGreaterThan(0);
-    expect(document.unsent()).toHaveLength(2);
-    expect(starts(document.shown.value.segmentation)).toEqual([0, 40, 45, 60]);
+    expect(edited.unsent()).toHaveLength(2);
+    expect(starts(edited.shown.value.segmentation)).toEqual([0, 40, 45, 60]);
     server.up = true;
     server.now = { ...server.now, revision: 0 };
-    await document.resume();
+    await edited.resume();
     expect(server.got).toEqual([MOVE, SPLIT]);
-    expect(document.unsent()).toEqual([]);
+    expect(edited.unsent()).toEqual([]);
   });
 
   it("an edit that was saved before the answer was lost is not made twice", async () => {
-    const document = await open();
+    const edited = await open();
     server.dieAfterSaving = true;
-    document.edit(MOVE);
+    edited.edit(MOVE);
     await settled();
-    expect(document.unsent()).toHaveLength(1);
+    expect(edited.unsent()).toHaveLength(1);
     server.dieAfterSaving = false;
     server.up = true;
     server.now = { ...server.now, revision: 0 }; // a new server counts anew
-    await document.resume();
-    expect(document.unsent()).toEqual([]);
-    expect(document.held.value).toBeNull();
+    await edited.resume();
+    expect(edited.unsent()).toEqual([]);
+    expect(edited.held.value).toBeNull();
     expect(server.got).toEqual([MOVE]);
   });
 
   it("a tab that dies, too, leaves its edits to the next one", async () => {
-    const document = await open();
+    const edited = await open();
     server.up = false;
-    document.edit(MOVE);
+    edited.edit(MOVE);
     await settled();
-    document.close();
+    edited.close();
     server.up = true;
     const next = await open();
     await settled();
@@ -167,56 +167,56 @@ describe("when the server is gone", () => {
   });
 
   it("an undo takes back an edit that never left", async () => {
-    const document = await open();
+    const edited = await open();
     server.up = false;
-    document.edit(MOVE);
-    document.edit(SPLIT);
+    edited.edit(MOVE);
+    edited.edit(SPLIT);
     await settled();
-    document.undo();
-    expect(document.unsent()).toHaveLength(1);
+    edited.undo();
+    expect(edited.unsent()).toHaveLength(1);
   });
 });
 
 describe("when somebody else changes the table", () => {
   it("an edit of the old table is kept and made only when asked for", async () => {
-    const document = await open();
+    const edited = await open();
     await server.edit("take", { revision: 0, edit: MOVE });
-    document.edit(SPLIT);
+    edited.edit(SPLIT);
     await settled();
-    expect(document.held.value).toBe("The table has changed.");
-    expect(document.unsent()).toHaveLength(1);
-    expect(starts(document.confirmed.value.segmentation)).toEqual([0, 40, 60]);
-    document.retry();
+    expect(edited.held.value).toBe("The table has changed.");
+    expect(edited.unsent()).toHaveLength(1);
+    expect(starts(edited.confirmed.value.segmentation)).toEqual([0, 40, 60]);
+    edited.retry();
     await settled();
     expect(starts(server.now.segmentation)).toEqual([0, 40, 45, 60]);
-    expect(document.held.value).toBeNull();
+    expect(edited.held.value).toBeNull();
   });
 
   it("it can be dropped, too", async () => {
-    const document = await open();
+    const edited = await open();
     await server.edit("take", { revision: 0, edit: MOVE });
-    document.edit(SPLIT);
+    edited.edit(SPLIT);
     await settled();
-    document.drop();
+    edited.drop();
     await settled();
-    expect(starts(document.shown.value.segmentation)).toEqual([0, 40, 60]);
+    expect(starts(edited.shown.value.segmentation)).toEqual([0, 40, 60]);
     expect(server.got).toEqual([MOVE]);
   });
 
   it("the table is loaded anew when the server tells", async () => {
-    const document = await open();
+    const edited = await open();
     await server.edit("take", { revision: 0, edit: MOVE });
-    await document.changed(1);
-    expect(starts(document.shown.value.segmentation)).toEqual([0, 40, 60]);
+    await edited.changed(1);
+    expect(starts(edited.shown.value.segmentation)).toEqual([0, 40, 60]);
     expect(told).toHaveLength(1);
   });
 
   it("a server that counts anew but has the same table just gets the edit", async () => {
-    const document = await open();
+    const edited = await open();
     server.now = { ...server.now, revision: 7 };
-    document.edit(SPLIT);
+    edited.edit(SPLIT);
     await settled();
-    expect(document.held.value).toBeNull();
+    expect(edited.held.value).toBeNull();
     expect(server.got).toEqual([SPLIT]);
   });
 });

@@ -1,12 +1,12 @@
 /** The segment one works on: its times, name and cluster, and the name of the cluster. */
 import type { JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
-import { clusterColor } from "../colors";
-import type { Kind, Segment } from "../messages";
-import { NameInput } from "../layout/NameInput";
-import { durationOf } from "../segments";
-import type { Editor } from "./editor";
-import type { Session } from "./session";
+import { clusterColor } from "../../colors";
+import type { Kind, Segment } from "../../messages";
+import { NameInput } from "../../layout/NameInput";
+import { durationOf } from "../../segments";
+import type { Editor } from "../editing/editor";
+import type { Session } from "../session";
 
 interface Props {
   session: Session;

@@ -1,7 +1,7 @@
 /** Where a page gets its data: out of its own file (report) or from the server (studio). */
 import type { Recording } from "./messages";
 
-export interface Source {
+export interface RecordingData {
   recording(): Promise<Recording>;
   /** The binary motion as it was sent: deflated, see motion.ts; empty where there is no skeleton. */
   motion(): Promise<ArrayBuffer>;
@@ -10,7 +10,7 @@ export interface Source {
 }
 
 /** The data inside a report: three script elements that no browser runs. */
-export class EmbeddedSource implements Source {
+export class EmbeddedData implements RecordingData {
   private readonly tiles: Record<string, string>;
 
   constructor(private readonly page: Document = document) {

@@ -17,7 +17,7 @@ import type {
   Listing,
   Recording,
   State,
-} from "../messages";
+} from "../../messages";
 
 /** Milliseconds between two tries to reach the server. */
 export const RETRY = 1000;
@@ -106,7 +106,7 @@ export class Api {
     });
   }
 
-  /** Calls back for every change, and when the line drops or returns; it is taken up again by itself. */
+  /** Calls back for every change, and when the line drops or returns; it is set up again by itself. */
   listen(changed: (change: Changed) => void, line: (up: boolean) => void, up = true): void {
     const source = new EventSource(`/api/events?token=${encodeURIComponent(this.token)}`);
     source.onmessage = (event) => changed(JSON.parse(event.data as string) as Changed);
