@@ -6,6 +6,7 @@ import asyncio
 import copy
 import json
 import math
+import os
 import shutil
 import zipfile
 from importlib import import_module
@@ -60,6 +61,16 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
     assert not any(file["corrected"] for file in state["recordings"])
     assert state["default_preset"] == state["presets"][0]["name"]
     assert conforms(messages.State, state)
+
+
+def test_names_that_are_not_unicode_are_listed(studio, folder: Path) -> None:
+    try:
+        shutil.copy(folder / "take.bvh", folder / os.fsdecode(b"G\xe4nge.bvh"))
+    except OSError:
+        pytest.skip("this file system takes Unicode names only")
+    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    assert set(files) == {"G?nge.bvh", "take.bvh"}
+    assert studio.get(f"/api/recordings/{files['G?nge.bvh']}").json()["name"] == "G?nge.bvh"
 
 
 def test_what_the_pages_address_names_is_opened_ahead(studio, monkeypatch) -> None:
