@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from importlib import import_module
-from math import isclose, isfinite
+from math import isclose
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
+from kineme._checks import check_path, check_type, is_number, is_one_of
 from kineme.errors import FileError, ParameterError, ReadError, WriteError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
@@ -71,6 +72,8 @@ def write_segments(
         cannot be written
     MissingDependencyError : Parquet without pyarrow
     """
+    check_type(segmentation, Segmentation, "write_segments", "kineme.segment(motion) gives one")
+    check_path(path, "write_segments")
     name = _format_of(path, format, WriteError)
     known, module = FORMATS[name], _module(name)
     if not known.writes:
@@ -111,11 +114,12 @@ def read_segments(
         odds with ``fps`` or ``n_frames``
     MissingDependencyError : Parquet without pyarrow
     """
+    check_path(path, "read_segments")
     name = _format_of(path, format, ReadError)
-    if fps is not None and not (isfinite(fps) and fps > 0):
-        raise ParameterError(f"fps is {fps}: give frames per second, above 0")
-    if n_frames is not None and n_frames < 1:
-        raise ParameterError(f"n_frames is {n_frames}: a recording has at least 1 frame")
+    if fps is not None and not (is_number(fps) and fps > 0):
+        raise ParameterError(f"fps is {fps!r:.60}: give frames per second, above 0")
+    if n_frames is not None and not (is_number(n_frames) and n_frames >= 1):
+        raise ParameterError(f"n_frames is {n_frames!r:.60}: a recording has at least 1 frame")
     module = _module(name)
     try:
         content = module.read(Path(path))
@@ -156,7 +160,7 @@ def _module(name: str) -> Any:
 
 def _format_of(path: str | PathLike[str], name: str | None, error: type[FileError]) -> str:
     if name is not None:
-        if name not in FORMATS:
+        if not is_one_of(name, FORMATS):
             raise ParameterError(f"format must be one of {', '.join(FORMATS)}, not {name!r}")
         return name
     suffix = Path(path).suffix.lower()

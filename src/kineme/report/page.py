@@ -14,6 +14,7 @@ from importlib.resources import files
 from os import PathLike
 from pathlib import Path
 
+from kineme._checks import check_path, check_type
 from kineme._files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
@@ -62,6 +63,10 @@ def write_report(
     >>> motion = kineme.read(bundled_recording())
     >>> kineme.write_report(motion, kineme.segment(motion), "report.html")
     """
+    check_type(segmentation, Segmentation, "write_report", "kineme.segment(motion) gives one")
+    check_path(path, "write_report")
+    if name is not None:
+        check_type(name, str, "name", "give a text, or leave it out")
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"reports are written as {', '.join(SUFFIXES)}")
     data = page_data(recording, fps=segmentation.fps, effectors=effectors)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import sqrt
 from typing import NamedTuple
 
@@ -87,14 +88,14 @@ def presets() -> list[PresetChoice]:
     ]
 
 
-def preset_of(name: str, parameters: dict[str, float]) -> Preset:
+def preset_of(name: str, parameters: Mapping[str, float]) -> Preset:
     """A preset with some of the constants that are offered changed.
 
     Parameters
     ----------
     name : str
         Of the preset.
-    parameters : dict of float
+    parameters : mapping of float
         The constants.
 
     Returns

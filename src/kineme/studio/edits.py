@@ -11,7 +11,6 @@ from msgspec import UNSET, Struct
 from kineme.errors import ParameterError
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.choices import preset_of
 from kineme.studio.loading import LoadedRecording
 from kineme.web import requests
 from kineme.web.requests import Edit
@@ -61,7 +60,7 @@ def edited(
         fields = (getattr(edit, name) for name in edit.__struct_fields__)
         return _counted(BY_HAND[type(edit)](table, *fields)), []
     if isinstance(edit, requests.SegmentAgain):
-        found = loaded.segment(preset_of(edit.preset, edit.parameters))
+        found = loaded.segment(edit.preset, edit.parameters)
         return found, list(found.provenance["notes"])
     if isinstance(edit, requests.Transfer):
         return _labelled(table, edit, loaded, knowledge_base(edit.knowledge_base))

@@ -17,9 +17,10 @@ from typing import TYPE_CHECKING, Any
 
 from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError
 from kineme.formats import read
-from kineme.methods.presets import DEFAULT, PRESETS, Preset
+from kineme.methods.presets import DEFAULT
 from kineme.recordings.motion import Motion
 from kineme.segments.segmentation import Segmentation
+from kineme.studio.choices import preset_of
 
 if TYPE_CHECKING:
     from kineme.features import Names
@@ -157,17 +158,33 @@ class LoadedRecording:
                 self._page_data = page_data(self.recording, effectors=self.effectors)
             return self._page_data
 
-    def segment(self, preset: Preset) -> Segmentation:
-        """The segments by a preset."""
+    def segment(
+        self, preset: str = DEFAULT, parameters: Mapping[str, float] | None = None
+    ) -> Segmentation:
+        """The segments by a preset.
+
+        Parameters
+        ----------
+        preset : str
+            Its name.
+        parameters : mapping of float, optional
+            Those of the constants it offers that are to be changed.
+
+        Returns
+        -------
+        Segmentation
+        """
         found = self.recording
+        chosen = preset_of(preset, parameters or {})
         if isinstance(found, Motion):
             from kineme.segmentation.segmenter import segment_and_analysis
 
-            return segment_and_analysis(found, preset, effectors=self.effectors)[0]
-        from kineme.segmentation.channels import signal_preset
+            return segment_and_analysis(found, chosen, effectors=self.effectors)[0]
+        from kineme.segmentation.channels import DEFAULTS, signal_preset
         from kineme.segmentation.signals import segment_signals_and_analysis
 
-        return segment_signals_and_analysis(found, signal_preset(preset))[0]
+        chosen = signal_preset(chosen, **DEFAULTS.get(preset, {}))
+        return segment_signals_and_analysis(found, chosen)[0]
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
         """The table before anybody made another.
@@ -180,7 +197,7 @@ class LoadedRecording:
             What people should know about it.
         """
         try:
-            return self.segment(PRESETS[DEFAULT]), []
+            return self.segment(), []
         except MotionError as error:  # a single point
             return self._one_segment(), [f"not segmented: {error}"]
 

@@ -168,7 +168,7 @@ class Api:
         shown = opened.table
         if sent.preset is not UNSET and sent.annotation is UNSET:
             title = sent.preset
-            other = opened.loaded.segment(choices.preset_of(title, {}))
+            other = opened.loaded.segment(title)
             scores = comparison.agreement(shown, other)
         elif sent.annotation is not UNSET and sent.preset is UNSET:
             path = self._recordings.annotation(sent.annotation)
