@@ -22,8 +22,7 @@ from studio_clients import TOKEN
 
 import kineme
 from kineme.labels import FORMATS
-from kineme.methods.presets import PRESETS
-from kineme.studio.choices import RANGES
+from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.events import Hub
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
@@ -36,6 +35,14 @@ def conforms(kind: type, answer: dict[str, Any]) -> bool:
     for row in typed.get("segmentation", {}).get("segments", []):
         row["score"] = math.nan if row["score"] is None else row["score"]  # JSON has no nan
     return json.loads(to_json(msgspec.convert(typed, kind))) == answer
+
+
+def write_imu(path: Path) -> None:
+    """Twenty seconds of three channels that repeat."""
+    seconds = np.arange(0, 20, 0.02)
+    waves = np.column_stack([np.sin(6 * seconds), np.cos(6 * seconds), np.sin(12 * seconds)])
+    rows = np.column_stack([seconds, waves])
+    np.savetxt(path, rows, delimiter=",", header="time,acc_1,acc_2,gyro_1", comments="")
 
 
 def test_what_there_is_to_open(studio, folder: Path) -> None:
@@ -93,13 +100,35 @@ def _unread(_: Path) -> None:
 def test_each_preset_offers_its_own_constants_with_their_help(studio) -> None:
     for choice in studio.get("/api/state").json()["presets"]:
         preset = PRESETS[choice["name"]]
-        assert [p["name"] for p in choice["parameters"]] == [r.name for r in RANGES[preset.name]]
-        for offered in choice["parameters"]:
-            assert offered["help"]
-            assert offered["value"] == getattr(preset, offered["name"])
-            assert offered["minimum"] <= offered["value"] <= offered["maximum"]
-            steps = (offered["value"] - offered["minimum"]) / offered["step"]
-            assert steps == pytest.approx(round(steps), abs=1e-6)  # where a slider can stand
+        assert choice["help"] == preset.help
+        sliders = [known.name for known in preset.constants() if known.slider]
+        for signals, which in ((False, "parameters"), (True, "signal_parameters")):
+            values = resolve_preset(choice["name"], signals=signals)
+            assert [offered["name"] for offered in choice[which]] == sliders
+            for offered in choice[which]:
+                assert offered["help"]
+                assert offered["value"] == getattr(values, offered["name"])
+                assert offered["minimum"] <= offered["value"] <= offered["maximum"]
+                steps = (offered["value"] - offered["minimum"]) / offered["step"]
+                assert steps == pytest.approx(round(steps), abs=1e-6)  # where a slider can stand
+
+
+def test_lengths_of_signals_are_in_their_own_unit_however_often_they_are_sent(
+    studio, folder: Path
+) -> None:
+    write_imu(folder / "imu.csv")
+    state = studio.get("/api/state").json()
+    studio.id = next(f["id"] for f in state["recordings"] if f["name"] == "imu.csv")
+    choice = next(each for each in state["presets"] if each["name"] == "voegele2014")
+    values = {each["name"]: each["value"] for each in choice["signal_parameters"]}
+    revision = studio.recording()["revision"]
+    plain = kineme.segment(kineme.read_signals(folder / "imu.csv"), preset="voegele2014")
+    for _ in range(2):
+        again = studio.done(revision, "segment", preset="voegele2014", parameters=values)
+        revision = again["revision"]
+        used = again["segmentation"]["provenance"]["parameters"]
+        assert kineme.read_segments(folder / "imu.segments.json").table == plain.table
+        values = {name: used[name] for name in values}  # as the page does
 
 
 def test_a_recording_is_what_segment_finds(studio) -> None:
@@ -285,11 +314,7 @@ def test_a_single_point_is_shown_whole(studio, folder: Path) -> None:
 
 
 def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> None:
-    seconds = np.arange(0, 20, 0.02)
-    waves = np.column_stack([np.sin(6 * seconds), np.cos(6 * seconds), np.sin(12 * seconds)])
-    rows = np.column_stack([seconds, waves])
-    header = "time,acc_1,acc_2,gyro_1"
-    np.savetxt(folder / "imu.csv", rows, delimiter=",", header=header, comments="")
+    write_imu(folder / "imu.csv")
     files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
     studio.id = files["imu.csv"]
     message = studio.recording()
@@ -299,7 +324,7 @@ def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> N
     again = studio.done(message["revision"], "segment", preset="kineme", parameters={"phase": 0.5})
     signals = kineme.read_signals(folder / "imu.csv")
     stored = kineme.read_segments(folder / "imu.segments.json")
-    assert stored.table == kineme.segment_signals(signals, preset="kineme", phase=0.5).table
+    assert stored.table == kineme.segment(signals, preset="kineme", phase=0.5).table
     assert stored.provenance["parameters"]["any_pace"] is False
     studio.done(again["revision"], "split", level="activity", frame=500)
     assert 500 in kineme.read_segments(folder / "imu.segments.json").cuts()

@@ -1,54 +1,22 @@
-"""What the page offers: presets with the constants that matter most, and formats."""
+"""What the page offers: presets with the constants that matter most, and formats.
+
+All of it comes from the registered objects: a preset says which of its
+constants a page offers to change and within which limits, a format what it is
+for and how it is downloaded.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from math import sqrt
-from typing import NamedTuple
+from dataclasses import replace
 
 from kineme.errors import ParameterError
 from kineme.labels import FORMATS
-from kineme.methods.presets import PRESETS, Preset, constant_help, resolve_preset
+from kineme.methods import PRESETS, Constant, resolve_preset
+from kineme.methods.constants import Slider
 from kineme.web.messages import ExportFormat, Parameter, PresetChoice
 
-
-class Range(NamedTuple):
-    """How a constant may be changed."""
-
-    name: str
-    minimum: float
-    maximum: float
-    step: float
-    unit: str
-
-
-# Those of "What to change when" in docs/parameters.md; limits within which results make sense.
-RANGES = {
-    "kineme": (
-        Range("max_scale", 0.08, 0.4, 0.01, "body sizes"),
-        Range("border_cost", 0.25, 6.0, 0.25, "s"),
-        Range("likeness", 0.1, 1.0, 0.05, ""),
-        Range("min_action", 0.2, 10.0, 0.1, "s"),
-        Range("phase", 0.25, 5.0, 0.25, "s"),
-    ),
-    "voegele2014": (
-        Range("radius", 0.2, 1.6, 0.02, "m"),
-        Range("min_primitive", 0.05, 3.0, 0.05, "s"),
-        Range("growth_gap", 1 / 30, 2.0, 1 / 30, "s"),
-        Range("coverage", 0.1, 1.0, 0.05, ""),
-    ),
-    "krueger2017": (
-        Range("radius", 0.05 * sqrt(5), 0.27 * sqrt(5), 0.005 * sqrt(5), "m"),
-        Range("min_primitive", 0.05, 3.0, 0.05, "s"),
-        Range("growth_gap", 1 / 30, 2.0, 1 / 30, "s"),
-        Range("coverage", 0.1, 1.0, 0.02, ""),
-    ),
-}
-PRESET_HELP = {
-    "kineme": "Finds activities and counts their repetitions; for use.",
-    "voegele2014": "As published in 2014; to compare with.",
-    "krueger2017": "As published in 2017; to compare with.",
-}
 CLIPS, REPORT = "motions", "report"
 """What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""
 FORMAT_HELP = {
@@ -83,39 +51,41 @@ def presets() -> list[PresetChoice]:
     list of PresetChoice
     """
     return [
-        PresetChoice(name=name, help=PRESET_HELP.get(name, ""), parameters=_parameters(preset))
+        PresetChoice(
+            name=name,
+            help=preset.help,
+            parameters=_parameters(name, signals=False),
+            signal_parameters=_parameters(name, signals=True),
+        )
         for name, preset in PRESETS.items()
     ]
 
 
-def preset_of(name: str, parameters: Mapping[str, float]) -> Preset:
-    """A preset with some of the constants that are offered changed.
+def check_offered(preset: str, parameters: Mapping[str, float], *, signals: bool) -> None:
+    """Check constants that a page asks for against what it is offered.
 
     Parameters
     ----------
-    name : str
-        Of the preset.
+    preset : str
+        Its name.
     parameters : mapping of float
-        The constants.
-
-    Returns
-    -------
-    Preset
+        The constants, lengths in the unit that they have for such a recording.
+    signals : bool
+        Whether they are for signals.
 
     Raises
     ------
     ParameterError
         No such preset, a constant that is not offered, or one outside its limits.
     """
-    preset = resolve_preset(name)
-    offered = {known.name: known for known in _parameters(preset)}
-    for constant, value in parameters.items():
-        if constant not in offered:
-            raise ParameterError(f"{name} offers {', '.join(offered)}, not {constant!r:.40}")
-        low, high = offered[constant].minimum, offered[constant].maximum
+    resolve_preset(preset)
+    offered = {known.name: known for known in _parameters(preset, signals=signals)}
+    for name, value in parameters.items():
+        if name not in offered:
+            raise ParameterError(f"{preset} offers {', '.join(offered)}, not {name!r:.40}")
+        low, high = offered[name].minimum, offered[name].maximum
         if not low - 1e-9 <= value <= high + 1e-9:
-            raise ParameterError(f"{constant} can be {low:.4g} to {high:.4g}, not {value:.4g}")
-    return preset.replace(**parameters)
+            raise ParameterError(f"{name} can be {low:.4g} to {high:.4g}, not {value:.4g}")
 
 
 def export_formats() -> list[ExportFormat]:
@@ -143,17 +113,34 @@ def download_suffix(name: str) -> str:
     return SUFFIXES.get(name) or FORMATS[name].suffixes[0]
 
 
-def _parameters(preset: Preset) -> list[Parameter]:
-    says = constant_help()
-    return [
-        Parameter(
-            name=known.name,
-            help=says.get(known.name, ""),
-            value=getattr(preset, known.name),
-            minimum=known.minimum,
-            maximum=known.maximum,
-            step=known.step,
-            unit=known.unit,
-        )
-        for known in RANGES.get(preset.name, ())
-    ]
+def _parameters(preset: str, *, signals: bool) -> list[Parameter]:
+    constants = resolve_preset(preset).constants()
+    if signals:
+        others = resolve_preset(preset, signals=True).constants()
+        constants = tuple(map(_of_signals, constants, others))
+    return [_parameter(known, known.slider) for known in constants if known.slider is not None]
+
+
+def _parameter(known: Constant, slider: Slider) -> Parameter:
+    """A constant with a slider that can stand at the preset's own value."""
+    below = math.floor((known.value - slider.minimum) / slider.step + 1e-6)
+    return Parameter(
+        name=known.name,
+        help=known.help,
+        value=known.value,
+        minimum=known.value - below * slider.step,
+        maximum=slider.maximum,
+        step=slider.step,
+        unit=known.unit,
+    )
+
+
+def _of_signals(of_body: Constant, of_signals: Constant) -> Constant:
+    """A constant as signals have it: the slider of a length reaches as far to either side."""
+    slider = of_body.slider
+    if slider is None or of_body.unit not in ("metres", "body sizes"):
+        return of_signals
+    scale = of_signals.value / of_body.value
+    unit = "standard deviations" if of_body.unit == "metres" else ""  # found in the recording
+    slider = Slider(*(scale * bound for bound in slider))
+    return replace(of_signals, slider=slider, unit=unit)

@@ -20,7 +20,7 @@ from kineme.formats import read
 from kineme.methods.presets import DEFAULT
 from kineme.recordings.motion import Motion
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.choices import preset_of
+from kineme.studio.choices import check_offered
 
 if TYPE_CHECKING:
     from kineme.features import Names
@@ -174,17 +174,11 @@ class LoadedRecording:
         -------
         Segmentation
         """
-        found = self.recording
-        chosen = preset_of(preset, parameters or {})
-        if isinstance(found, Motion):
-            from kineme.segmentation.segmenter import segment_and_analysis
+        from kineme.segmentation.segmenter import segment
 
-            return segment_and_analysis(found, chosen, effectors=self.effectors)[0]
-        from kineme.segmentation.channels import DEFAULTS, signal_preset
-        from kineme.segmentation.signals import segment_signals_and_analysis
-
-        chosen = signal_preset(chosen, **DEFAULTS.get(preset, {}))
-        return segment_signals_and_analysis(found, chosen)[0]
+        found, changed = self.recording, dict[str, Any](parameters or {})
+        check_offered(preset, changed, signals=not isinstance(found, Motion))
+        return segment(found, preset=preset, effectors=self.effectors, **changed)
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
         """The table before anybody made another.

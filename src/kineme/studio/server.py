@@ -30,7 +30,7 @@ TRIES = 20
 PATIENCE = 2
 """Seconds that requests have to end in after Ctrl+C."""
 HEAD_START = 10.0
-"""Seconds before the code of the presets that are rarely used is made ready."""
+"""Seconds before the code of the published methods, which are rarely used, is made ready."""
 
 
 class Server(uvicorn.Server):
@@ -168,7 +168,7 @@ def load_code(ended: threading.Event) -> None:
     """Show and segment the bundled recording; by the default preset first."""
     from kineme.datasets import bundled_recording
     from kineme.formats import read
-    from kineme.methods.presets import DEFAULT, PRESETS
+    from kineme.methods.presets import DEFAULT, PUBLISHED
     from kineme.segmentation.segmenter import segment
     from kineme.web.page_data import page_data
 
@@ -176,5 +176,5 @@ def load_code(ended: threading.Event) -> None:
     page_data(motion)
     segment(motion, preset=DEFAULT)
     if not ended.wait(HEAD_START):
-        for name in (name for name in PRESETS if name != DEFAULT):
+        for name in PUBLISHED:
             segment(motion, preset=name)

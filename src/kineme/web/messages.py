@@ -94,11 +94,16 @@ class Parameter(Struct, frozen=True, kw_only=True):
 
 
 class PresetChoice(Struct, frozen=True, kw_only=True):
-    """A preset, and those of its constants that the page offers to change."""
+    """A preset, and those of its constants that the page offers to change.
+
+    ``signal_parameters`` are the same for signals, where lengths are in
+    standard deviations of the channels.
+    """
 
     name: str
     help: str
     parameters: list[Parameter]
+    signal_parameters: list[Parameter]
 
 
 class Listing(Struct, frozen=True, kw_only=True):

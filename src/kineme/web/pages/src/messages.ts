@@ -93,11 +93,17 @@ export interface Parameter {
   unit: string;
 }
 
-/** A preset, and those of its constants that the page offers to change. */
+/**
+ * A preset, and those of its constants that the page offers to change.
+ *
+ * `signal_parameters` are the same for signals, where lengths are in
+ * standard deviations of the channels.
+ */
 export interface PresetChoice {
   name: string;
   help: string;
   parameters: Parameter[];
+  signal_parameters: Parameter[];
 }
 
 /** A recording of the folder, opened or not. */

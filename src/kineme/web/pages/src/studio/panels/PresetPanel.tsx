@@ -19,11 +19,12 @@ export function PresetPanel({ session }: { session: Session }): JSX.Element | nu
   const state = session.state.value;
   const edited = session.edited.value;
   if (!state || !edited) return null;
+  const signals = edited.confirmed.value.motion === null;
   return (
     <Presets
       key={edited.id}
       edited={edited}
-      presets={state.presets}
+      presets={signals ? state.presets.map(ofSignals) : state.presets}
       fallback={state.default_preset}
     />
   );
@@ -132,6 +133,11 @@ function Slider(props: {
       />
     </div>
   );
+}
+
+/** What signals are offered: lengths in their own unit, which their tables are in, too. */
+function ofSignals(choice: PresetChoice): PresetChoice {
+  return { ...choice, parameters: choice.signal_parameters };
 }
 
 /** The preset and values that were asked for and have not been answered. */
