@@ -67,6 +67,7 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
     }
     assert not any(file["corrected"] for file in state["recordings"])
     assert state["default_preset"] == state["presets"][0]["name"]
+    assert {".bvh", ".c3d", ".npz"} <= set(state["suffixes"])
     assert conforms(messages.State, state)
 
 

@@ -26,7 +26,7 @@ from kineme.studio.events import Hub
 from kineme.studio.folder import file_id
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.storage import has_table
-from kineme.studio.uploads import LIMIT, TooLargeError, Upload
+from kineme.studio.uploads import LIMIT, TooLargeError, Upload, recording_suffixes
 from kineme.web.encoding import from_json, to_json
 from kineme.web.messages import Comparison, FileChoice, Listing, State
 from kineme.web.requests import CompareRequest, EditRequest
@@ -152,6 +152,7 @@ class Api:
         return State(
             version=__version__,
             folder=str(folder.root.absolute()),
+            suffixes=recording_suffixes(),
             recordings=[_listing(name, path) for name, path in folder.recordings().items()],
             presets=choices.presets(),
             default_preset=DEFAULT,

@@ -134,9 +134,14 @@ def forget_drafts(root: Path) -> None:
             path.unlink(missing_ok=True)
 
 
+def recording_suffixes() -> list[str]:
+    """The suffixes of files that can be recordings, in alphabetical order."""
+    return sorted({s for known in supported_formats() if known.read for s in known.suffixes})
+
+
 def _suffixes() -> set[str]:
-    motions = {s for known in supported_formats() if known.read for s in known.suffixes}
-    return motions | {".asf", ".npz", *LABELS}
+    """Of all that may be sent: recordings and their skeletons, labels, knowledge bases."""
+    return {*recording_suffixes(), ".asf", ".npz", *LABELS}
 
 
 def _free_names(path: Path) -> list[Path]:

@@ -131,10 +131,14 @@ class ExportFormat(Struct, frozen=True, kw_only=True):
 
 
 class State(Struct, frozen=True, kw_only=True):
-    """What the studio offers: the first message a page asks for."""
+    """What the studio offers: the first message a page asks for.
+
+    ``suffixes`` are those of files that can be recordings.
+    """
 
     version: str
     folder: str
+    suffixes: list[str]
     recordings: list[Listing]
     presets: list[PresetChoice]
     default_preset: str

@@ -127,10 +127,15 @@ export interface ExportFormat {
   help: string;
 }
 
-/** What the studio offers: the first message a page asks for. */
+/**
+ * What the studio offers: the first message a page asks for.
+ *
+ * `suffixes` are those of files that can be recordings.
+ */
 export interface State {
   version: string;
   folder: string;
+  suffixes: string[];
   recordings: Listing[];
   presets: PresetChoice[];
   default_preset: string;

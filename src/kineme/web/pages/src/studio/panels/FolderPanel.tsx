@@ -57,7 +57,7 @@ export function FolderPanel({ session, uploads }: Props): JSX.Element {
           <progress value={share} aria-label={`Sending ${name}`} />
         </p>
       ))}
-      <Hint all={all.length} found={found.length} />
+      <Hint all={all.length} found={found.length} suffixes={session.state.value?.suffixes ?? []} />
     </section>
   );
 }
@@ -112,12 +112,13 @@ function Row({ session, listing }: { session: Session; listing: Listing }): JSX.
   );
 }
 
-function Hint({ all, found }: { all: number; found: number }): JSX.Element | null {
+function Hint(props: { all: number; found: number; suffixes: string[] }): JSX.Element | null {
+  const { all, found, suffixes } = props;
   if (all === 0)
     return (
       <p class="hint quiet">
-        No recordings here yet. Drop files on this page (BVH, C3D, TRC, AMC with its ASF, npz,
-        tables of positions), or choose them with “Add…”.
+        No recordings here yet. Drop files on this page ({suffixes.join(", ")}), or choose them with
+        “Add…”.
       </p>
     );
   if (found === 0) return <p class="hint quiet">No name holds that text.</p>;
