@@ -30,7 +30,7 @@ from kineme.recordings.operations import turn
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import display_motion
-from kineme.web.matrix import matrix_of_motion
+from kineme.web.similarity import matrix_of_motion
 
 MOST_MB = 30.0
 MINUTES = (1, 10, 60, 180)

@@ -22,8 +22,8 @@ from kineme.report.page import filled, write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
 from kineme.web.display import display_motion
-from kineme.web.matrix import matrix_of_motion
 from kineme.web.page_data import page_data, recording_message
+from kineme.web.similarity import matrix_of_motion
 
 RECORDING = kineme.read(bundled_recording())
 SEGMENTS = kineme.segment(RECORDING)

@@ -83,14 +83,14 @@ def test_names_that_are_not_unicode_are_listed(studio, folder: Path) -> None:
 
 def test_what_the_pages_address_names_is_opened_ahead(studio, monkeypatch) -> None:
     studio.get(f"/?token={TOKEN}&open=none&open={studio.id}")
-    monkeypatch.setattr("kineme.studio.loading._read", _unread)
+    monkeypatch.setattr("kineme.studio.reading._read", _unread)
     assert studio.recording()["segmentation"]["segments"]
 
 
 @pytest.mark.parametrize("token", ["", "wrong"])
 def test_nothing_is_opened_ahead_without_the_token(studio, token, monkeypatch) -> None:
     studio.client.headers.pop("x-kineme-token")
-    monkeypatch.setattr("kineme.studio.loading._read", _unread)
+    monkeypatch.setattr("kineme.studio.reading._read", _unread)
     assert studio.get(f"/?token={token}&open={studio.id}").status_code == 200
 
 

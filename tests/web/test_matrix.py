@@ -17,9 +17,8 @@ from kineme.web.matrix import (
     MOST_CELLS,
     TILE,
     Matrix,
-    matrix_of_motion,
-    matrix_of_signal,
 )
+from kineme.web.similarity import matrix_of_motion, matrix_of_signal
 
 RECORDING = kineme.read(bundled_recording())
 MATRIX = matrix_of_motion(RECORDING)

@@ -38,7 +38,7 @@ def studio(
     failures = Failures()
     with failures.caught("studio"):
         root, recordings = _opened(files or [Path()])
-        from kineme.studio.loading import ReadingOptions
+        from kineme.studio.reading import ReadingOptions
         from kineme.studio.server import serve
 
         options = ReadingOptions(reading or {}, effector_names(effectors))

@@ -4,8 +4,8 @@
 
     server   a socket of this machine, Ctrl+C, the browser
       app      routes ─▶ open recordings, behind security: host, origin, token, headers
-        open_recordings   one object each: its table, revision, undo, saving
-          loading           the recording itself and all that is computed from it
+        open_recordings   by id; open_recording: table, revision, undo, saving of each
+          loading           the recording itself and all that is computed from it; reading
           storage           the table beside the recording, and whether someone else changed it
           edits             what each edit does to a table
         folder            what there is to open, names and ids; uploads

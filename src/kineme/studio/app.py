@@ -16,7 +16,8 @@ from starlette.staticfiles import StaticFiles
 
 from kineme.errors import KinemeError, WriteError
 from kineme.studio.events import Hub
-from kineme.studio.open_recordings import ConflictError, OpenRecordings, UnknownError
+from kineme.studio.open_recording import ConflictError
+from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.routes import Api, MessageResponse
 from kineme.studio.security import Guard, is_trusted
 from kineme.studio.uploads import LIMIT, TooLargeError

@@ -20,8 +20,8 @@ from kineme.studio.events import Hub
 from kineme.studio.security import new_token
 
 if TYPE_CHECKING:
-    from kineme.studio.loading import ReadingOptions
     from kineme.studio.open_recordings import OpenRecordings
+    from kineme.studio.reading import ReadingOptions
 
 HOST = "127.0.0.1"
 PORT = 8750

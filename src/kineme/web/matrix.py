@@ -1,11 +1,8 @@
-"""The self-similarity matrix of a recording, as tiles at every zoom.
+"""A self-similarity matrix as tiles at every zoom.
 
 A cell of level 0 is the similarity of two samples: ``exp(-d²)`` of the distance
-of their features, from 0 (nothing in common, or not seen) to 1. The features
-are those of the ``kineme`` method, the ends of the body in its own frame with
-what they do 0.2 s before and after; ``d`` is 1 at a fifth of a body. Motions
-without a known body are compared by the distances between their points, signals
-by their channels, each divided by its deviation.
+of their features, from 0 (nothing in common, or not seen) to 1. The features of
+:mod:`kineme.web.similarity` are taken 0.2 s before to 0.2 s after.
 
 A cell of level L merges 2^L samples on either side. It compares how their poses
 are distributed, mean and deviation of each feature (the Fréchet distance of
@@ -25,13 +22,8 @@ from itertools import product
 from math import ceil
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from kineme.errors import MotionError, ParameterError
-from kineme.features import Names, body_size, distance_features, end_effectors, pose_features
-from kineme.features.distances import SIZE
-from kineme.recordings.motion import Motion
-from kineme.recordings.operations import resample
 from kineme.web.messages import MatrixHead
 
 Floats = NDArray[np.float64]
@@ -40,9 +32,6 @@ TILE = 256
 RATE = 10.0  # cells per second: what can still be told apart on a screen
 MOST_CELLS = 36_000  # an hour; longer recordings get fewer cells per second
 OFFSETS = (-0.2, -0.1, 0.0, 0.1, 0.2)  # seconds, as in the preset kineme
-BODY_SCALE = 0.2  # body sizes; where the activities of subject 86 stand out
-SIGNAL_SCALE = 0.5  # of the distance of two samples drawn at random
-MOST_CHANNELS = 16
 MOST_BYTES = 9_000_000  # of the tiles in a report, see display.MOST_BYTES
 WHOLE = 24  # tiles a side up to which a report holds all of a level
 
@@ -142,114 +131,23 @@ class Matrix:
         return tiles, 0 if len(tiles) >= first else None
 
 
-def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matrix:
-    """The matrix of a motion; of the distances between its points where it has no known body.
+def pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
+    """The matrix of features at every zoom.
 
     Parameters
     ----------
-    motion : Motion
-    effectors : mapping, optional
-        Joints that stand for head, hands and feet where names do not tell.
-
-    Returns
-    -------
-    Matrix
-
-    Examples
-    --------
-    >>> import kineme
-    >>> from kineme.datasets import bundled_recording
-    >>> matrix = matrix_of_motion(kineme.read(bundled_recording()))
-    >>> matrix.tile(0, 0, 0)[1:4]
-    b'PNG'
-    """
-    try:
-        found = end_effectors(motion, names=effectors)
-        values = pose_features(motion, effectors=found)
-        values /= BODY_SCALE * body_size(motion, found)
-    except MotionError:
-        motion = resample(motion, min(motion.fps, 3 * RATE))  # distances are many
-        values = _distances(motion)
-    for start, stop in motion.gaps:
-        values[start:stop] = np.nan
-    return _pyramid(values, motion.fps, motion.duration)
-
-
-def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
-    """The matrix of any signal.
-
-    Parameters
-    ----------
-    values : array_like
-        (frames, channels), or (frames,); nan for what was not seen.
+    values : ndarray
+        (samples, dims), so scaled that two of them are ``exp(-1)`` similar at a distance of 1;
+        nan where nothing was seen.
     fps : float
-        Frames per second.
+        Samples per second.
+    seconds : float
+        Length of the recording.
 
     Returns
     -------
     Matrix
-
-    Raises
-    ------
-    ParameterError
-        No frames, no channels, no numbers, or a frame rate that is not positive.
-
-    Examples
-    --------
-    >>> matrix_of_signal([[0.0], [1.0], [0.0], [1.0]], fps=2.0).head().sizes
-    [4]
     """
-    try:
-        signal = np.asarray(values, np.float64)
-    except (ValueError, TypeError):
-        raise ParameterError(
-            "a signal is frames x channels of numbers: columns of texts?"
-        ) from None
-    signal = signal[:, None] if signal.ndim == 1 else signal
-    if signal.ndim != 2 or 0 in signal.shape:
-        raise ParameterError(f"a signal is frames x channels, not of shape {signal.shape}")
-    if not (np.isfinite(fps) and fps > 0):
-        raise ParameterError(f"the frame rate must be a positive number, not {fps}")
-    averaged = max(1, int(fps / (2 * RATE)))  # frames whose mean is compared: 0.05 s
-    starts = np.arange(0, len(signal), averaged)
-    lengths = np.diff(starts, append=len(signal))
-    means = np.add.reduceat(signal, starts, axis=0) / lengths[:, None]
-    return _pyramid(_standardised(means), fps / averaged, len(signal) / fps)
-
-
-def _distances(motion: Motion) -> Floats:
-    """The features of a motion without a body, in units of the scale; any values in its gaps."""
-    seen = np.ones(motion.n_frames, np.bool_)
-    for start, stop in motion.gaps:
-        seen[start:stop] = False
-    if motion.skeleton.n_joints < 2 or not seen.any():
-        return np.zeros((motion.n_frames, 1))
-    features, _ = distance_features(motion.positions[seen])
-    values = np.zeros((motion.n_frames, features.shape[1]))
-    values[seen] = features / (BODY_SCALE * SIZE)
-    return values
-
-
-def _standardised(values: Floats) -> Floats:
-    """The channels over their deviation, the main ones of many, 1 apart where ``d`` is to be 1."""
-    seen = np.asarray(np.isfinite(values).all(axis=1))
-    if not seen.any():
-        return np.full((len(values), 1), np.nan)
-    out = np.where(seen[:, None], values, np.nan) - values[seen].mean(axis=0)
-    deviation = out[seen].std(axis=0)
-    out = out[:, deviation > 0] / deviation[deviation > 0]
-    if out.shape[1] == 0:
-        return np.where(seen[:, None], 0.0, np.nan)
-    if out.shape[1] > MOST_CHANNELS:
-        from scipy.linalg import eigh
-
-        n = out.shape[1]
-        axes = eigh(np.cov(out[seen].T), subset_by_index=(n - MOST_CHANNELS, n - 1))[1]
-        out = out @ axes
-    return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[seen].var(axis=0).sum())))
-
-
-def _pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
     rate = min(RATE, fps, MOST_CELLS / seconds)
     middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
     stacked = np.concatenate([_at(values, middles + offset, fps) for offset in OFFSETS], axis=1)

@@ -14,8 +14,9 @@ from kineme.recordings.motion import Motion
 from kineme.recordings.signals import Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
-from kineme.web.matrix import Matrix, matrix_of_motion, matrix_of_signal
+from kineme.web.matrix import Matrix
 from kineme.web.messages import MotionHead, Recording, Segments
+from kineme.web.similarity import matrix_of_motion, matrix_of_signal
 
 Shown = Motion | Signals | ArrayLike
 
