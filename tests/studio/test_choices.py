@@ -38,7 +38,9 @@ class ToyPreset(Preset):
     """Cuts once."""
 
     method: ClassVar[str] = "toy"
+    units: ClassVar[tuple[str, ...]] = ("any",)
     where: float = constant("where it cuts", limits=Limits(0.1, 0.9), slider=(0.1, 0.9, 0.1))
+    often: float | None = constant("not set", default=None, slider=(0.0, 1.0, 0.1))
 
     def analyze(self, features: Any, **_: object) -> Halves:
         return Halves(len(features), round(self.where * len(features)))

@@ -118,7 +118,11 @@ def _parameters(preset: str, *, signals: bool) -> list[Parameter]:
     if signals:
         others = resolve_preset(preset, signals=True).constants()
         constants = tuple(map(_of_signals, constants, others))
-    return [_parameter(known, known.slider) for known in constants if known.slider is not None]
+    return [
+        _parameter(known, known.slider)
+        for known in constants
+        if known.slider is not None and known.value is not None
+    ]
 
 
 def _parameter(known: Constant, slider: Slider) -> Parameter:
@@ -138,7 +142,7 @@ def _parameter(known: Constant, slider: Slider) -> Parameter:
 def _of_signals(of_body: Constant, of_signals: Constant) -> Constant:
     """A constant as signals have it: the slider of a length reaches as far to either side."""
     slider = of_body.slider
-    if slider is None or of_body.unit not in ("metres", "body sizes"):
+    if slider is None or not of_body.value or of_body.unit not in ("metres", "body sizes"):
         return of_signals
     scale = of_signals.value / of_body.value
     unit = "standard deviations" if of_body.unit == "metres" else ""  # found in the recording
