@@ -83,18 +83,18 @@ def test_names_that_are_not_unicode_are_listed(studio, folder: Path) -> None:
 
 def test_what_the_pages_address_names_is_opened_ahead(studio, monkeypatch) -> None:
     studio.get(f"/?token={TOKEN}&open=none&open={studio.id}")
-    monkeypatch.setattr("kineme.studio.reading._read", _unread)
+    monkeypatch.setattr("kineme.studio.reading.read_quietly", _unread)
     assert studio.recording()["segmentation"]["segments"]
 
 
 @pytest.mark.parametrize("token", ["", "wrong"])
 def test_nothing_is_opened_ahead_without_the_token(studio, token, monkeypatch) -> None:
     studio.client.headers.pop("x-kineme-token")
-    monkeypatch.setattr("kineme.studio.reading._read", _unread)
+    monkeypatch.setattr("kineme.studio.reading.read_quietly", _unread)
     assert studio.get(f"/?token={token}&open={studio.id}").status_code == 200
 
 
-def _unread(_: Path) -> None:
+def _unread(*_: object) -> None:
     pytest.fail("the file is read")
 
 
@@ -123,7 +123,7 @@ def test_lengths_of_signals_are_in_their_own_unit_however_often_they_are_sent(
     choice = next(each for each in state["presets"] if each["name"] == "voegele2014")
     values = {each["name"]: each["value"] for each in choice["signal_parameters"]}
     revision = studio.recording()["revision"]
-    plain = kineme.segment(kineme.read_signals(folder / "imu.csv"), preset="voegele2014")
+    plain = kineme.segment(kineme.read(folder / "imu.csv"), preset="voegele2014")
     for _ in range(2):
         again = studio.done(revision, "segment", preset="voegele2014", parameters=values)
         revision = again["revision"]
@@ -323,7 +323,7 @@ def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> N
     assert studio.get(f"/api/recordings/{studio.id}/motion").content == b""
     assert studio.get(f"/api/recordings/{studio.id}/matrix/0/0/0").status_code == 200
     again = studio.done(message["revision"], "segment", preset="kineme", parameters={"phase": 0.5})
-    signals = kineme.read_signals(folder / "imu.csv")
+    signals = kineme.read(folder / "imu.csv")
     stored = kineme.read_segments(folder / "imu.segments.json")
     assert stored.table == kineme.segment(signals, preset="kineme", phase=0.5).table
     assert stored.provenance["parameters"]["any_pace"] is False

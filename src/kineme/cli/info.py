@@ -15,7 +15,7 @@ from kineme.errors import EndEffectorError
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.recordings.motion import Motion
+    from kineme.recordings import Motion
 
 
 def info(
@@ -33,7 +33,7 @@ def info(
     for path in batch.paths:
         with batch.caught(path):
             recording = request.read(path)
-            from kineme.recordings.motion import Motion
+            from kineme.recordings import Motion
 
             if isinstance(recording, Motion):
                 facts = _facts(recording, request.effectors)
@@ -52,7 +52,7 @@ def _facts(motion: Motion, names: Names | None) -> dict[str, Any]:
     from kineme.features import PARTS, end_effectors
 
     source, skeleton = motion.provenance, motion.skeleton
-    notes = list(source.notes)
+    notes = [str(note) for note in source.notes]
     try:
         found = end_effectors(motion, names=names)
         parts = {

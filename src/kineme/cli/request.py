@@ -11,15 +11,14 @@ import typer
 
 from kineme.cli.reading import effector_names
 from kineme.cli.signals import SignalOptions
-from kineme.errors import ParameterError, ReadError
+from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
 
 if TYPE_CHECKING:
     from kineme.features import Names
     from kineme.methods.base import Found
-    from kineme.recordings.motion import Motion
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
 Stage = Callable[[str], None]
@@ -57,20 +56,16 @@ class Request:
 
     def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, of the kind that it is or was said to be."""
-        if self.signals.mean(path):
-            return self.signals.read(path)
         from kineme.formats import read
 
-        return read(path, **self.reading)
+        signals = self.signals
+        return read(path, columns=signals.columns, emg=signals.emg, **self.reading)
 
     def read_motion(self, path: Path) -> Motion:
         """The motion in a file; ReadError for signals, which have no body to compare."""
-        from kineme.formats import read
-        from kineme.formats.channels.reading import is_signal_file
+        from kineme.formats import read_motion
 
-        if is_signal_file(path):
-            raise ReadError(path, "holds signals without a skeleton, where a motion is needed")
-        return read(path, **self.reading)
+        return read_motion(path, **self.reading)
 
     def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
         """The segments, and what was found on the way to them."""
@@ -97,6 +92,6 @@ class Request:
 
     def drawn(self, recording: Motion | Signals) -> Motion | Signals:
         """The recording as a page compares its frames: muscles by their envelopes."""
-        from kineme.recordings.motion import Motion
+        from kineme.recordings import Motion
 
         return recording if isinstance(recording, Motion) else self.signals.drawn(recording)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Signals
 
 PANEL = "Signals without a skeleton"
 
@@ -48,18 +47,6 @@ class SignalOptions:
             if not names:
                 raise typer.BadParameter("names no column", param_hint="--columns")
         return cls(names, emg, fps)
-
-    def mean(self, path: Path) -> bool:
-        """Whether a file is to be read as signals."""
-        from kineme.formats.channels.reading import is_signal_file
-
-        return self.columns is not None or self.emg or is_signal_file(path)
-
-    def read(self, path: Path) -> Signals:
-        """The signals in a file."""
-        from kineme.formats.channels.reading import read_signals
-
-        return read_signals(path, columns=self.columns, fps=self.fps, emg=self.emg)
 
     def drawn(self, signals: Signals) -> Signals:
         """The signals as a page compares their moments: muscles by their envelopes."""

@@ -38,10 +38,11 @@ def studio(
     failures = Failures()
     with failures.caught("studio"):
         root, recordings = _opened(files or [Path()])
+        from kineme.formats import ReadOptions
         from kineme.studio.reading import ReadingOptions
         from kineme.studio.server import serve
 
-        options = ReadingOptions(reading or {}, effector_names(effectors))
+        options = ReadingOptions(ReadOptions(**(reading or {})), effector_names(effectors))
 
         def announce(address: str) -> None:
             typer.echo(f"kineme studio: {address} (Ctrl+C ends it)")

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 from kineme.errors import MotionError, ParameterError, ReadError
 from kineme.methods.presets import DEFAULT
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.choices import check_offered
 from kineme.studio.reading import RecordingCache, stamp_of
 
 if TYPE_CHECKING:
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Signals
     from kineme.transfer import KnowledgeBase
     from kineme.web.page_data import PageData
 
@@ -44,7 +44,8 @@ class LoadedRecording:
         self._cache = cache
         self.effectors = cache.options.effectors
         self._stamp = stamp_of(path)
-        found, self.warnings = cache.read(path)
+        found = cache.read(path)
+        self.warnings = [str(note) for note in found.provenance.warnings]  # plain texts
         self.n_frames, self.fps = found.n_frames, found.fps
         self.provenance = found.provenance
         self._lock = threading.Lock()
@@ -55,7 +56,7 @@ class LoadedRecording:
         """The recording itself, read again if need be."""
         if self.changed():
             raise ReadError(self.path, "has changed since it was opened: open it again")
-        return self._cache.read(self.path)[0]
+        return self._cache.read(self.path)
 
     @property
     def motion(self) -> Motion:

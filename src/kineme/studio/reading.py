@@ -1,29 +1,23 @@
-"""Recordings from files: those used last stay in memory, with the warnings reading them gave."""
+"""Recordings from files: those used last stay in memory."""
 
 from __future__ import annotations
 
 import threading
-import warnings
 from collections import OrderedDict
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from kineme.errors import KinemeWarning, ReadError
-from kineme.formats import read
-from kineme.recordings.motion import Motion
+from kineme.errors import ReadError
+from kineme.formats import ReadOptions, read_quietly
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Motion, Signals
 
 MOST_IN_MEMORY = 3
 """Recordings; that of an hour can have most of a gigabyte."""
 Stamp = tuple[int, int]
-
-_WARNINGS = threading.Lock()
-"""Catching warnings is for the whole process, so that one recording is read at a time."""
 
 
 @dataclass(frozen=True)
@@ -32,18 +26,18 @@ class ReadingOptions:
 
     Parameters
     ----------
-    keywords : mapping
-        For :func:`kineme.read`.
+    file : ReadOptions
+        As :func:`kineme.formats.read_quietly` takes them.
     effectors : mapping, optional
         The names of head, hands and feet, as :func:`kineme.features.end_effectors` takes them.
     """
 
-    keywords: Mapping[str, Any] = field(default_factory=dict)
+    file: ReadOptions = field(default_factory=ReadOptions)
     effectors: Names | None = None
 
 
 class RecordingCache:
-    """The recordings used last, with the warnings that reading them gave.
+    """The recordings used last; several can be read at once.
 
     Parameters
     ----------
@@ -54,10 +48,9 @@ class RecordingCache:
         self.options = options
         self._lock = threading.Lock()
         self._reading: dict[tuple[Path, Stamp], threading.Lock] = {}
-        self._known: OrderedDict[tuple[Path, Stamp], tuple[Motion | Signals, list[str]]]
-        self._known = OrderedDict()
+        self._known: OrderedDict[tuple[Path, Stamp], Motion | Signals] = OrderedDict()
 
-    def read(self, path: Path) -> tuple[Motion | Signals, list[str]]:
+    def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, read if it is not in memory.
 
         Parameters
@@ -66,9 +59,8 @@ class RecordingCache:
 
         Returns
         -------
-        recording : Motion or Signals
-        warnings : list of str
-            One sentence each.
+        Motion or Signals
+            Its provenance has what there is to warn of.
 
         Raises
         ------
@@ -81,7 +73,7 @@ class RecordingCache:
         with reading:
             with self._lock:
                 known = self._known.get(key)
-            found = known or _read_quietly(path, self.options.keywords)
+            found = read_quietly(path, self.options.file) if known is None else known
             with self._lock:
                 self._known[key] = found
                 self._known.move_to_end(key)
@@ -113,20 +105,3 @@ def stamp_of(path: Path) -> Stamp:
     except OSError as error:
         raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
     return found.st_mtime_ns, found.st_size
-
-
-def _read_quietly(path: Path, keywords: Mapping[str, Any]) -> tuple[Motion | Signals, list[str]]:
-    """What a file holds, and the warnings."""
-    with _WARNINGS, warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        found = _read(path, keywords)
-    return found, [str(w.message) for w in caught if issubclass(w.category, KinemeWarning)]
-
-
-def _read(path: Path, keywords: Mapping[str, Any]) -> Motion | Signals:
-    """What a file holds; a table of channels without a body is signals."""
-    from kineme.formats.channels.reading import is_signal_file, read_signals
-
-    if is_signal_file(path):
-        return read_signals(path, fps=keywords.get("fps"))
-    return read(path, **keywords)
