@@ -8,7 +8,9 @@ import json
 import math
 import os
 import shutil
+import threading
 import zipfile
+from concurrent.futures import ThreadPoolExecutor
 from importlib import import_module
 from io import BytesIO
 from itertools import pairwise
@@ -24,6 +26,7 @@ import kineme
 from kineme.labels import FORMATS
 from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.events import Hub
+from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
 from kineme.web.encoding import to_json
@@ -342,6 +345,21 @@ def test_a_file_that_cannot_be_read_is_a_sentence(studio, folder: Path) -> None:
         answer = studio.get(f"/api/recordings/{files[name]}")
         assert answer.status_code == 400
         assert name in answer.json()["error"]
+
+
+def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None:
+    shutil.copy(folder / "take.bvh", folder / "other.bvh")
+    both = threading.Barrier(2, timeout=20)
+
+    def read_together(path: Path, _: object) -> str:
+        both.wait()
+        return path.name
+
+    monkeypatch.setattr("kineme.studio.reading.read_quietly", read_together)
+    cache = RecordingCache(ReadingOptions())
+    with ThreadPoolExecutor(2) as threads:
+        found = threads.map(cache.read, [folder / "take.bvh", folder / "other.bvh"])
+        assert list(found) == ["take.bvh", "other.bvh"]
 
 
 def test_only_files_that_were_named_are_listed(make_studio, folder: Path) -> None:
