@@ -6,7 +6,6 @@ import asyncio
 import json
 import shutil
 import zipfile
-from importlib import import_module
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
@@ -17,7 +16,7 @@ from message_types import conforms
 from studio_clients import TOKEN
 
 import kineme
-from kineme.labels import FORMATS
+from kineme.labels import label_formats
 from kineme.methods.presets import PRESETS
 from kineme.studio.choices import RANGES
 from kineme.studio.events import Hub
@@ -208,8 +207,7 @@ def test_another_result_beside_the_one_shown(studio, folder: Path) -> None:
 def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
     message = studio.recording()
     formats = studio.get("/api/state").json()["export_formats"]
-    modules = {name: import_module(f"kineme.labels.{f.module}") for name, f in FORMATS.items()}
-    writers = {name for name, module in modules.items() if hasattr(module, "write")}
+    writers = {name for name, known in label_formats().items() if known.write}
     assert {known["name"] for known in formats} == writers | {"motions", "report"}
     before = sorted(studio.folder.iterdir())
     for known in formats:

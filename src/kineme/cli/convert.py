@@ -9,13 +9,13 @@ import typer
 
 from kineme.cli.messages import Failures
 from kineme.errors import WriteError
-from kineme.labels import FORMATS, read_segments, write_segments
+from kineme.labels import label_formats, read_segments, write_segments, written_suffixes
 from kineme.segments.table import Level
 
 
 def _known(name: str | None) -> str | None:
-    if name not in (None, *FORMATS):
-        raise typer.BadParameter(f"{name!r} is not one of {', '.join(FORMATS)}")
+    if name not in (None, *label_formats()):
+        raise typer.BadParameter(f"{name!r} is not one of {', '.join(label_formats())}")
     return name
 
 
@@ -24,8 +24,7 @@ def _is_recording(source: Path) -> bool:
     from kineme.formats import supported_formats
 
     recordings = {suffix for known in supported_formats() for suffix in known.suffixes}
-    labels = {suffix for known in FORMATS.values() if known.writes for suffix in known.suffixes}
-    return source.suffix.lower() in recordings - labels
+    return source.suffix.lower() in recordings - set(written_suffixes())
 
 
 def convert(
@@ -33,7 +32,7 @@ def convert(
     target: Annotated[Path, typer.Argument(metavar="TO", help="File to write; it must be new.")],
     from_format: Annotated[
         str | None,
-        typer.Option("--from", callback=_known, help=f"Format read: {', '.join(FORMATS)}."),
+        typer.Option("--from", callback=_known, help=f"Format read: {', '.join(label_formats())}."),
     ] = None,
     to_format: Annotated[
         str | None,

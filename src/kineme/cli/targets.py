@@ -8,7 +8,7 @@ from pathlib import Path
 import typer
 
 from kineme.errors import WriteError
-from kineme.labels import SUFFIXES as TABLES
+from kineme.labels import written_suffixes
 
 NAME = "{name}"
 PICTURES = (".png", ".pdf", ".svg")
@@ -52,7 +52,7 @@ def check_writable(
 
     Makes the folder they go to if its own parent is there.
     """
-    for path, suffixes in ((table, TABLES), (picture, PICTURES), (page, PAGES)):
+    for path, suffixes in ((table, written_suffixes()), (picture, PICTURES), (page, PAGES)):
         if path is None:
             continue
         if path.suffix.lower() not in suffixes:

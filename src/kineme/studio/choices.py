@@ -6,7 +6,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from kineme.errors import ParameterError
-from kineme.labels import FORMATS
+from kineme.labels import label_formats
 from kineme.methods.presets import PRESETS, Preset, constant_help, resolve_preset
 from kineme.web.messages import ExportFormat, Parameter, PresetChoice
 
@@ -50,28 +50,6 @@ PRESET_HELP = {
 }
 CLIPS, REPORT = "motions", "report"
 """What can be taken away besides the formats of :mod:`kineme.labels`: motion files, a page."""
-FORMAT_HELP = {
-    "csv": "The table, for spreadsheets",
-    "json": "Everything in one file",
-    "parquet": "Everything, for pandas and others",
-    "audacity": "Audacity label track, one level",
-    "elan": "ELAN, both levels",
-    "textgrid": "Praat, both levels",
-    "bids": "BIDS events with their sidecar",
-    "boris": "BORIS events",
-    "babel": "BABEL, one level",
-    "ms-tcn": "One label per frame, with the mapping",
-    "clips": "Clip list for motion matching, one level",
-}
-SUFFIXES = {
-    "textgrid": ".TextGrid",
-    "boris": ".csv",
-    "babel": ".json",
-    "ms-tcn": ".zip",
-    "clips": ".csv",
-    "bids": ".zip",
-}
-"""Of what is taken away, where the format has none of its own or it is several files."""
 
 
 def presets() -> list[PresetChoice]:
@@ -103,8 +81,9 @@ def preset_of(name: str, parameters: dict[str, float]) -> Preset:
 def export_formats() -> list[ExportFormat]:
     """Every format that segments can be taken away in."""
     formats: list[ExportFormat] = [
-        {"name": name, "suffix": SUFFIXES.get(name) or FORMATS[name].suffixes[0], "help": text}
-        for name, text in FORMAT_HELP.items()
+        {"name": known.name, "suffix": known.download_suffix, "help": known.help}
+        for known in label_formats().values()
+        if known.write
     ]
     return [
         *formats,

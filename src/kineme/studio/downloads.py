@@ -10,16 +10,12 @@ from pathlib import Path
 from kineme.clips.split import split
 from kineme.errors import ParameterError
 from kineme.features import Names
-from kineme.labels import FORMATS, write_segments
+from kineme.labels import label_formats, write_segments
 from kineme.recordings.motion import Motion
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
-from kineme.studio.choices import FORMAT_HELP, SUFFIXES
 from kineme.web.recording import Source
-
-PLAIN = {"bids": ".tsv", "ms-tcn": ".txt"}
-"""Suffixes of the main file, where what is taken away is several."""
 
 
 def table_file(
@@ -37,19 +33,17 @@ def table_file(
     ------
     ParameterError : no such format
     """
-    if name not in FORMAT_HELP:
+    known = label_formats().get(name)
+    if known is None or known.write is None:
         raise ParameterError(f"there is no format {name!r:.40}")
-    known = FORMATS[name]
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        # MS-TCN keeps a mapping one folder up, the others keep to their own.
-        place = Path(folder) / "groundTruth" if name == "ms-tcn" else Path(folder)
+        place = Path(folder) / known.folder
         place.mkdir(exist_ok=True)
-        suffix = PLAIN.get(name) or SUFFIXES.get(name) or known.suffixes[0]
-        path = place / f"{stem}{suffix}"
+        path = place / f"{stem}{known.written_suffix}"
         chosen = None if known.holds == "all" else level
         write_segments(segmentation, path, format=name, level=chosen)
-        if name == "csv":  # spreadsheets take one file; JSON and Parquet hold the rest
-            path.with_suffix(".provenance.json").unlink(missing_ok=True)
+        if not known.several:  # what else lies there, as a CSV's provenance, others hold
+            return path.name, path.read_bytes()
         return _one_file(Path(folder), stem)
 
 
