@@ -17,7 +17,7 @@ from pathlib import Path
 
 from agreement import CONFIGURATIONS
 from kineme.evaluation.benchmark import mean_scores, run
-from kineme.evaluation.methods import METHODS, preset_method
+from kineme.evaluation.benchmark_methods import METHODS, preset_method
 from kineme.evaluation.trials import find_folder, load_trials
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")

@@ -19,7 +19,7 @@ from string import Template
 from kineme._version import __version__
 from kineme.evaluation.benchmark import mean_scores, run
 from kineme.evaluation.figures import make_figures
-from kineme.evaluation.methods import METHODS
+from kineme.evaluation.benchmark_methods import METHODS
 from kineme.evaluation.tables import shown
 from kineme.evaluation.trials import find_folder, load_trials
 

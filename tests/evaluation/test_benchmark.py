@@ -16,7 +16,7 @@ from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.evaluation import Annotation, Labelling, evaluate_segmentation
 from kineme.evaluation.benchmark import mean, mean_scores, run, score_published_cuts
-from kineme.evaluation.methods import METHODS, method, preset_method
+from kineme.evaluation.benchmark_methods import METHODS, method, preset_method
 from kineme.evaluation.reoccurrence import reoccurring
 from kineme.evaluation.tables import as_records, markdown_scores, write_records
 from kineme.evaluation.trials import Trial, find_folder, load_trials

@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from kineme.errors import ReadError
+from kineme.evaluation.benchmark_methods import Method
 from kineme.evaluation.frames import one_to_one_accuracy
 from kineme.evaluation.labelling import Annotation, Labelling
-from kineme.evaluation.methods import Method
 from kineme.evaluation.paper import strict_and_tolerant
 from kineme.evaluation.published import published
 from kineme.evaluation.scores import evaluate_segmentation

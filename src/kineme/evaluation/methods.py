@@ -1,134 +1,160 @@
-"""The methods of the benchmark under one form: a trial in, a segmentation out.
-
-Presets see the motion alone. ACA, HACA and GMM are told the true number of
-classes, as in all published comparisons, and ACA and HACA the lengths of
-pieces that their authors chose per trial (Zhou et al., their program).
-"""
+"""Any method on any recording: the presets, and the baselines that they are compared with."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
-from types import MappingProxyType
-from typing import Any
 
-from kineme._version import __version__
-from kineme.errors import ParameterError
-from kineme.evaluation.labelling import TRANSITION
-from kineme.evaluation.trials import Floats, Trial
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import MotionError, ParameterError
 from kineme.methods.baselines import Pieces
-from kineme.methods.presets import PRESETS, Preset
+from kineme.methods.presets import PRESETS
+from kineme.recordings.motion import Motion
+from kineme.recordings.signals import Signals
 from kineme.segments.segmentation import Segmentation
 
-Method = Callable[[Trial], Segmentation]
+Floats = NDArray[np.float64]
 
+SIGNALS_FPS = 30.0
+"""Rate at which the baselines see signals, which may be sampled far more often than they change."""
 UNIFORM_S = 0.5
 
-# Trial 11 is fast: its authors gave it shorter pieces and fewer centres.
-SHORT_PIECES = "86_11"
+
+def method_names() -> tuple[str, ...]:
+    """The methods that can be evaluated, the default first.
+
+    Returns
+    -------
+    tuple of str
+
+    Examples
+    --------
+    >>> method_names()[0]
+    'kineme'
+    """
+    return (*PRESETS, *_BASELINES)
 
 
-def method(name: str) -> Method:
-    """The method of this name.
+def segment_by(name: str, recording: Motion | Signals, *, n_classes: int) -> Segmentation:
+    """The segments that a method finds in a recording.
+
+    Parameters
+    ----------
+    name : str
+        One of `method_names`.
+    recording : Motion or Signals
+        What is segmented.
+    n_classes : int
+        The number of classes, told to the methods that have to be (ACA, HACA, GMM).
+
+    Returns
+    -------
+    Segmentation
+        In frames of the recording.
 
     Raises
     ------
-    ParameterError : there is none; the message lists those there are
+    ParameterError
+        There is no such method, or the recording is too short for it.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> len(segment_by("uniform", motion, n_classes=4).activities)
+    97
     """
-    if name not in METHODS:
-        raise ParameterError(f"no method {name!r}; there are {', '.join(METHODS)}")
-    return METHODS[name]
+    if name in PRESETS:
+        if isinstance(recording, Signals):
+            from kineme.segmentation.signals import segment_signals
+
+            return segment_signals(recording, preset=name)
+        from kineme.segmentation.segmenter import segment
+
+        return segment(recording, preset=name)
+    if name not in _BASELINES:
+        raise ParameterError(f"no method {name!r}; there are {', '.join(method_names())}")
+    return _by_baseline(name, recording, n_classes)
 
 
-def preset_method(preset: Preset) -> Method:
-    """Segmentation by a preset, be it a published or a changed one."""
-    return partial(_by_preset, preset)
-
-
-def as_segmentation(pieces: Pieces, trial: Trial, name: str) -> Segmentation:
-    """The pieces of a baseline, found at the rate of the recording, as activities."""
-    n = len(pieces.clusters)
+def _by_baseline(name: str, recording: Motion | Signals, n_classes: int) -> Segmentation:
+    features, fps = _seen_by(name, recording)
+    pieces = _BASELINES[name](features, fps, n_classes)
+    cuts = np.floor(pieces.cuts * (recording.fps / fps) + 0.5).astype(np.int64)
+    starts = np.concatenate([[0], cuts])
+    stops = np.concatenate([cuts, [recording.n_frames]])
+    kept = stops > starts
     return Segmentation.from_columns(
         {
-            "level": ["activity"] * n,
-            "kind": ["activity"] * n,
-            "start_frame": pieces.starts,
-            "stop_frame": pieces.stops,
-            "cluster": pieces.clusters,
+            "level": np.full(kept.sum(), "activity"),
+            "kind": np.full(kept.sum(), "activity"),
+            "start_frame": starts[kept],
+            "stop_frame": stops[kept],
+            "cluster": pieces.clusters[kept],
         },
-        n_frames=trial.motion.n_frames,
-        fps=trial.motion.fps,
-        provenance={"kineme": __version__, "method": name, "trial": trial.name},
+        n_frames=recording.n_frames,
+        fps=recording.fps,
+        provenance={"method": name},
     )
 
 
-def _by_preset(preset: Preset, trial: Trial) -> Segmentation:
-    from kineme.segmentation.segmenter import segment
+def _seen_by(name: str, recording: Motion | Signals) -> tuple[Floats, float]:
+    """Features and their rate: rotations of joints as published, else what was recorded."""
+    if isinstance(recording, Signals):
+        from kineme.segmentation.channels import at_rate, standardized
 
-    return segment(trial.motion, preset=preset)
-
-
-def _baseline(name: str, trial: Trial) -> Segmentation:
-    return as_segmentation(_PIECES[name](trial), trial, name)
-
-
-def _aca(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.aca import aca
-
-    short: dict[str, Any] = {"shortest": 21, "longest": 36, "centres": 15}
-    options = short if trial.name == SHORT_PIECES else {}
-    return aca(_log_maps(trial), n_classes=_n_classes(trial), **options)
-
-
-def _haca(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.haca import haca
-
-    short: dict[str, Any] = {"fine_lengths": (7, 9), "coarse_lengths": (3, 4), "centres": 15}
-    options = short if trial.name == SHORT_PIECES else {}
-    return haca(_log_maps(trial), n_classes=_n_classes(trial), **options)
-
-
-def _pca(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.pca import pca
-
-    return pca(_quaternions(trial), fps=trial.motion.fps)
-
-
-def _ppca(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.pca import ppca
-
-    return ppca(_quaternions(trial), fps=trial.motion.fps)
-
-
-def _gmm(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.gmm import gmm
-
-    return gmm(_quaternions(trial), n_classes=_n_classes(trial))
-
-
-def _uniform(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.uniform import uniform
-
-    return uniform(trial.motion.n_frames, fps=trial.motion.fps, seconds=UNIFORM_S)
-
-
-def _log_maps(trial: Trial) -> Floats:
+        fps = min(SIGNALS_FPS, recording.fps)
+        return standardized(at_rate(recording.values, recording.fps, fps)), fps
     from kineme.methods.baselines.joints import joint_quaternions, log_maps
 
-    return log_maps(joint_quaternions(trial.motion))
+    n = recording.n_frames
+    try:
+        rotations = joint_quaternions(recording)
+    except MotionError:  # not the joints of CMU's skeleton
+        places = recording.positions - recording.positions.mean(axis=1, keepdims=True)
+        return places.reshape(n, -1), recording.fps
+    as_vectors = name in ("aca", "haca")
+    return log_maps(rotations) if as_vectors else rotations.reshape(n, -1), recording.fps
 
 
-def _quaternions(trial: Trial) -> Floats:
-    from kineme.methods.baselines.joints import joint_quaternions
+def _aca(features: Floats, _: float, n_classes: int) -> Pieces:
+    from kineme.methods.baselines.aca import aca
 
-    return joint_quaternions(trial.motion).reshape(trial.motion.n_frames, -1)
-
-
-def _n_classes(trial: Trial) -> int:
-    return len(set(trial.truth.labels) - {TRANSITION})
+    return aca(features, n_classes=n_classes)
 
 
-_PIECES: Mapping[str, Callable[[Trial], Pieces]] = {
+def _haca(features: Floats, _: float, n_classes: int) -> Pieces:
+    from kineme.methods.baselines.haca import haca
+
+    return haca(features, n_classes=n_classes)
+
+
+def _pca(features: Floats, fps: float, _: int) -> Pieces:
+    from kineme.methods.baselines.pca import pca
+
+    return pca(features, fps=fps)
+
+
+def _ppca(features: Floats, fps: float, _: int) -> Pieces:
+    from kineme.methods.baselines.pca import ppca
+
+    return ppca(features, fps=fps)
+
+
+def _gmm(features: Floats, _: float, n_classes: int) -> Pieces:
+    from kineme.methods.baselines.gmm import gmm
+
+    return gmm(features, n_classes=n_classes)
+
+
+def _uniform(features: Floats, fps: float, _: int) -> Pieces:
+    from kineme.methods.baselines.uniform import uniform
+
+    return uniform(len(features), fps=fps, seconds=UNIFORM_S)
+
+
+_BASELINES: Mapping[str, Callable[[Floats, float, int], Pieces]] = {
     "aca": _aca,
     "haca": _haca,
     "pca": _pca,
@@ -136,8 +162,3 @@ _PIECES: Mapping[str, Callable[[Trial], Pieces]] = {
     "gmm": _gmm,
     "uniform": _uniform,
 }
-
-METHODS: Mapping[str, Method] = MappingProxyType(
-    {name: preset_method(preset) for name, preset in PRESETS.items()}
-    | {name: partial(_baseline, name) for name in _PIECES}
-)

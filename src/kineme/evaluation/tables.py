@@ -133,5 +133,17 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
             table.writerows(plain)
 
 
+def write_text(text: str, path: Path) -> None:
+    """Write text to a file, whole or not at all.
+
+    Raises
+    ------
+    WriteError
+        The file cannot be written.
+    """
+    with atomic_write(path) as draft:
+        draft.write_text(f"{text}\n", encoding="utf-8")
+
+
 def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
