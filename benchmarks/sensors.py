@@ -27,11 +27,11 @@ from kineme import _rotations as rot
 from kineme.datasets import random_recording
 from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
 from kineme.evaluation.tables import markdown, shown
-from kineme.evaluation.trials import find_folder, load_trials
 from kineme.features import end_effectors, pose_features
 from kineme.methods.presets import PRESETS
 from kineme.recordings.motion import Motion, world_rotations
 from kineme.recordings.operations import resample
+from kineme.reproduction.trials import find_folder, load_trials
 from kineme.segmentation import channels
 
 Floats = NDArray[np.float64]

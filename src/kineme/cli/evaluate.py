@@ -11,11 +11,11 @@ import typer
 from kineme._files import atomic_write
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Quiet
-from kineme.errors import ParameterError, WriteError
+from kineme.errors import ParameterError, ReadError, WriteError
 
 if TYPE_CHECKING:
-    from kineme.evaluation.benchmark import Result
-    from kineme.evaluation.benchmark_methods import Method
+    from kineme.reproduction.benchmark import Result
+    from kineme.reproduction.methods import Method
 
 BENCHMARK = "cmu86"
 BENCH = "Benchmark"
@@ -188,11 +188,26 @@ def _score_file(
     quiet: bool,
 ) -> list[dict[str, Any]]:
     from kineme.cli.scores import show_one
-    from kineme.evaluation.inputs import read_result, read_truth, recording_of, score
+    from kineme.evaluation.inputs import (
+        comparison,
+        read_result,
+        read_truth,
+        recording_of,
+        score,
+    )
     from kineme.formats import read
+    from kineme.reproduction.annotations import is_annotations, read_trial
 
     found = read_result(path, fps=fps)
-    truth = read_truth(labels, found, fps=fps, trial=trials[0] if trials else None)
+    n_frames, rate = comparison(found)
+    if is_annotations(labels):
+        recorded = (found.provenance.get("input") or {}).get("path") or ""
+        truth = read_trial(labels, trials[0] if trials else Path(recorded).stem, fps=rate)
+        if truth.frames != n_frames:
+            said, lasts = truth.frames / rate, n_frames / rate
+            raise ReadError(labels, f"speaks of {said:.2f} s, the result of {lasts:.2f} s")
+    else:
+        truth = read_truth(labels, found, fps=fps)
     source = recording or recording_of(found)
     scores = score(truth, found, read(source) if source else None)
     if not quiet:
@@ -212,9 +227,8 @@ def _run_benchmark(
     quiet: bool,
 ) -> list[dict[str, Any]]:
     from kineme.cli.scores import show_results
-    from kineme.evaluation.benchmark import run
-    from kineme.evaluation.tables import as_records
-    from kineme.evaluation.trials import find_folder, load_trials
+    from kineme.reproduction.benchmark import as_records, run
+    from kineme.reproduction.trials import find_folder, load_trials
 
     methods = _methods(names)
     for folder in (plot, figures):
@@ -231,7 +245,7 @@ def _run_benchmark(
 
 
 def _methods(names: list[str]) -> Mapping[str, Method]:
-    from kineme.evaluation.benchmark_methods import METHODS, method
+    from kineme.reproduction.methods import METHODS, method
 
     try:
         return {name: method(name) for name in names} or METHODS
@@ -243,11 +257,11 @@ def _draw(
     results: list[Result], data: Path, plot: Path | None, figures: Path | None, stage: Any
 ) -> None:
     if plot is not None:
-        from kineme.evaluation.figures.bars import plot_trials
+        from kineme.reproduction.figures.bars import plot_trials
 
         plot_trials(results, plot)
     if figures is not None:
-        from kineme.evaluation.figures import make_figures
+        from kineme.reproduction.figures import make_figures
 
         tables = make_figures(results, data, figures, progress=stage)
         text = "\n".join(f"## {title}\n\n{table}" for title, table in tables.items())

@@ -9,8 +9,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from kineme.evaluation.benchmark import Result, mean_scores
 from kineme.evaluation.tables import score_rows
+from kineme.reproduction.benchmark import Result, mean_scores
 
 Scores = Mapping[str, float]
 

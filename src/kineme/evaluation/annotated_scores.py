@@ -102,13 +102,14 @@ def evaluate_segmentation(
 ) -> dict[str, float]:
     """All scores of a segmentation; see :func:`evaluate`.
 
-    Its clusters are those of its activities where they have any, else those
-    of its primitives. A segment in no cluster is a cluster of its own.
+    Its clusters are those of its activities where they have any (or labels), else those
+    of its primitives. A segment in no cluster goes by its label, and without one is a cluster
+    of its own.
     """
     rows = found.activities
     activities = labelling_of(rows, fps=found.fps)
     primitives = labelling_of(found.primitives, fps=found.fps) if len(found.primitives) else None
-    grouped = bool(np.any(rows.cluster >= 0))
+    grouped = bool(np.any((rows.cluster >= 0) | (rows.label != "")))
     return evaluate(
         truth,
         activities if grouped or primitives is None else primitives,
@@ -122,14 +123,15 @@ def evaluate_segmentation(
 def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
     """The clusters of one level of a segmentation, as labels.
 
-    Transitions are :data:`TRANSITION`; what is in no cluster gets a label of its own.
+    Transitions are :data:`TRANSITION`; what is in no cluster goes by its label, and without one
+    gets a name of its own.
     """
     labels = [
         TRANSITION
         if row.kind == "transition"
         else f"{row.cluster}"
         if row.cluster >= 0
-        else f"~{i}"
+        else row.label or f"~{i}"
         for i, row in enumerate(rows)
     ]
     return Labelling(np.append(rows.start_frame, rows.stop_frame[-1]), tuple(labels), fps)

@@ -14,10 +14,10 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from kineme._colors import PALETTE
-from kineme.evaluation.figures.style import INK, heading, new_figure, save, tidy
-from kineme.evaluation.trials import Trial
 from kineme.methods.presets import PUBLISHED, RegionPreset
 from kineme.methods.region_growing.analysis import analyze
+from kineme.reproduction.figures.style import INK, heading, new_figure, save, tidy
+from kineme.reproduction.trials import Trial
 from kineme.segmentation.segmenter import motion_features, segment
 
 STEPS = ("features", "bundling", "neighbors", "activities", "primitives", "clusters")

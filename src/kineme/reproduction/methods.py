@@ -15,9 +15,9 @@ from typing import Any
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.evaluation.labelling import TRANSITION
-from kineme.evaluation.trials import Floats, Trial
 from kineme.methods.baselines import Pieces
 from kineme.methods.presets import PRESETS, Preset
+from kineme.reproduction.trials import Floats, Trial
 from kineme.segments.segmentation import Segmentation
 
 Method = Callable[[Trial], Segmentation]
