@@ -1,6 +1,6 @@
 """Agreement with the authors' own program on five trials, every difference listed.
 
-    python benchmarks/agreement.py [--data ../shared/data]
+    python benchmarks/agreement.py [--data ../shared/data] [--record]
 
 The reference files (``cmu86/reference``) count frames from 1 at 30 Hz, and so
 does this table. A cut agrees if the program has one at the very same frame.
@@ -31,9 +31,10 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 import kineme
+from _figures import add_option, record
 from kineme.features import mirror_features
 from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
-from kineme.methods.region_growing.analysis import Analysis, analyze
+from kineme.methods.region_growing.analysis import Analysis, analyze_regions
 from kineme.segmentation.segmenter import motion_features
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
@@ -101,7 +102,7 @@ def compare(data: Path, configuration: str, trial: str) -> dict[str, Agreement]:
             features = stored["features"].T / 100.0
     else:
         features = motion_features(kineme.read(data / "cmu86" / f"{trial}.amc"), preset)
-    found = analyze(features, preset, mirror=mirror_features)
+    found = analyze_regions(features, preset, mirror=mirror_features)
     activities = set((found.activity_cuts.all + 1).tolist())
     inner = set((found.segments[1:-1] + 1).tolist()) - activities
     return {
@@ -147,6 +148,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     default = os.environ.get("KINEME_DATA") or Path(__file__).parents[2] / "shared" / "data"
     parser.add_argument("--data", type=Path, default=Path(default))
+    add_option(parser)
     data = parser.parse_args().data
     for configuration in CONFIGURATIONS:
         print(f"{configuration:24}" + "".join(f"{level:>14}" for level in LEVELS))
@@ -163,6 +165,11 @@ def main() -> None:
             print(line)
         print(f"  {'all':22}" + "".join(f"{f'{a} of {b}':>14}" for a, b in sums.values()))
         print("\n".join([*notes, ""]))
+        name = f"agreement.{configuration.replace(' ', '_')}"
+        for level, (agreeing, total) in sums.items():
+            record(f"{name}.{level}", f"{agreeing} of {total}")
+        agreeing, total = np.sum([sums["activities"], sums["primitives"]], axis=0)
+        record(f"{name}.cuts", f"{agreeing} of {total}")
 
 
 if __name__ == "__main__":

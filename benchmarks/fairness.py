@@ -1,6 +1,6 @@
 """Fair scores on recordings nobody tuned for, beside what is promised of `kineme`.
 
-    python benchmarks/fairness.py [--quick]
+    python benchmarks/fairness.py [--quick] [--record]
 
 - **subject 86**: five trials, beside uniform cuts and the recorded runs of ACA
   and HACA, which are told the number of classes (mean of their five seeds).
@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 
 import kineme
+from _figures import add_option, record
 from _recordings import CONDITIONS, DATA, Case, hdm05, subject_86, synthetic
 from kineme.evaluation import Annotation, Labelling, evaluate, evaluate_segmentation
 from kineme.methods.baselines.uniform import uniform
@@ -156,19 +157,24 @@ def show(title: str, rows: dict[str, Scores], promised: Scores | None = None) ->
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a tenth of the seeds")
+    add_option(parser)
     few = 10 if parser.parse_args().quick else 1
     cases = subject_86()
     scores = by_presets(cases)
     scores |= {method: recorded_scores(cases, method) for method in ("aca", "haca")}
     scores["uniform 0.5 s"] = uniform_scores(cases)
     show("subject 86", scores, PROMISED["subject 86"])
-    show("HDM05", by_presets(hdm05(50 // few)), PROMISED["HDM05"])
+    for label, row in scores.items():
+        for name, value in row.items():
+            record(f"fairness.subject_86.{label.split()[0]}.{name}", value)
+    scores = by_presets(hdm05(50 // few))
+    show("HDM05", scores, PROMISED["HDM05"])
+    record("fairness.hdm05.kineme.count_exact", scores["kineme"]["count_exact"])
     for condition in CONDITIONS:
-        show(
-            f"synthetic, {condition}",
-            by_presets(synthetic(condition, 100 // few)),
-            PROMISED["synthetic"],
-        )
+        scores = by_presets(synthetic(condition, 100 // few))
+        show(f"synthetic, {condition}", scores, PROMISED["synthetic"])
+        name = f"fairness.synthetic.{condition.replace(' ', '_')}.kineme.count_exact"
+        record(name, scores["kineme"]["count_exact"])
     found = invariance(cases)
     print(f"\n{'same borders':20}" + "".join(f"{preset:>13}" for preset in found))
     for guise in found["kineme"]:

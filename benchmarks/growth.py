@@ -45,7 +45,7 @@ def one(name: str, hours: float, max_lag: float | None) -> None:
     if isinstance(preset, ActionPreset):
         from kineme.methods.recurrence.analysis import analyze_actions as analyze
     else:
-        from kineme.methods.region_growing.analysis import analyze
+        from kineme.methods.region_growing.analysis import analyze_regions as analyze
     analyze(features[: round(60 * preset.working_fps)], preset)
     start = perf_counter()
     found = analyze(features, preset)

@@ -1,6 +1,6 @@
 """How much the scores hang on each constant of `kineme`, and on the trials they are judged by.
 
-    python benchmarks/sensitivity.py [--quick]
+    python benchmarks/sensitivity.py [--quick] [--record]
 
 First every constant alone is made 15 % smaller and larger: mean scores of the
 five trials of subject 86 and of HDM05 sequences. Then each trial is left out
@@ -23,6 +23,7 @@ from dataclasses import fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from _figures import add_option, record
 from _recordings import Case, hdm05, subject_86, synthetic
 from fairness import SHOWN, Scores, mean, show
 from kineme.errors import ParameterError
@@ -34,7 +35,7 @@ from kineme.segmentation.segmenter import segment
 NUDGES = (0.85, 1.15)
 STEPS = (0.72, 0.85, 1.0, 1.15, 1.32)
 JUDGED = ("one_to_one", "border_f1", "covering")
-KEPT = ("name", "working_fps", "offsets", "max_lag", "any_pace")
+KEPT = ("name", "unit", "working_fps", "offsets", "max_lag", "any_pace")
 CONSTANTS = [field.name for field in fields(ActionPreset) if field.name not in KEPT]
 
 
@@ -123,6 +124,7 @@ def left_out(trials: Sequence[Case], *others: Sequence[Case]) -> Scores:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a fifth of the other recordings")
+    add_option(parser)
     few = 5 if parser.parse_args().quick else 1
     trials = at_working_rate(subject_86())
     exercises = at_working_rate(hdm05(15 // few))
@@ -133,9 +135,15 @@ def main() -> None:
         show(title, rows)
         worst = {name: min(row[name] for row in rows.values()) for name in JUDGED}
         print("least: " + ", ".join(f"{SHOWN[name]} {value:.3f}" for name, value in worst.items()))
+        if cases is trials:
+            found = [row["one_to_one"] for row in rows.values()]
+            record("sensitivity.nudged.one_to_one.least", min(found))
+            record("sensitivity.nudged.one_to_one.most", max(found))
     rows = {"as it is": scores(trials, KINEME)}
     rows["chosen without it"] = left_out(trials, exercises, made)
     show("left out", rows)
+    for name in JUDGED:
+        record(f"sensitivity.left_out.{name}", rows["chosen without it"][name])
 
 
 if __name__ == "__main__":

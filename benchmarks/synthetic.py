@@ -1,6 +1,6 @@
 """Counts and borders on synthetic recordings: how many are right, by preset.
 
-    python benchmarks/synthetic.py [--seeds 50] [--noise 0.0]
+    python benchmarks/synthetic.py [--seeds 50] [--noise 0.0] [--record]
 
 Each seed is one `kineme.datasets.random_recording`: six activities, every other
 one walking, three to eight repetitions each.
@@ -19,6 +19,7 @@ from collections import Counter, defaultdict
 
 import numpy as np
 
+from _figures import add_option, record
 from kineme.datasets import random_recording
 from kineme.methods.presets import PRESETS
 from kineme.segmentation.segmenter import segment
@@ -56,6 +57,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seeds", type=int, default=50)
     parser.add_argument("--noise", type=float, default=0.0, help="metres")
+    add_option(parser)
     options = parser.parse_args()
     recordings = [random_recording(seed, noise=options.noise) for seed in range(options.seeds)]
     for preset in PRESETS:
@@ -72,6 +74,8 @@ def main() -> None:
             f"{preset}: counts {np.mean(all_counts):.3f} of {len(all_counts)}, "
             f"borders {hit / true:.3f} of {true}, extra {extra / options.seeds:.2f} per recording"
         )
+        record(f"synthetic.{preset}.counts", 100 * float(np.mean(all_counts)), unit="%")
+        record(f"synthetic.{preset}.activities", len(all_counts))
         for label in sorted(right):
             print(f"  {label:12} {np.mean(right[label]):.3f} of {len(right[label])}")
 

@@ -110,8 +110,10 @@ def test_from_the_graph_on_nothing_knows_what_a_skeleton_is() -> None:
         if room(target) in rooms_of_bodies or target == FROM_MOTION
     }
     assert not wrong
+    assert IMPORTS["kineme._checks"] == {"kineme.errors"}
+    free = {"kineme.errors", "kineme._checks", "kineme._threads", "kineme.features._kernels"}
     for module in NO_BODIES:
-        assert IMPORTS[module] <= {"kineme.errors", "kineme._threads", "kineme.features._kernels"}
+        assert IMPORTS[module] <= free
 
 
 def test_no_modules_import_each_other_in_a_circle() -> None:

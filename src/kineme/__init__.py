@@ -55,10 +55,8 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
     from kineme.recordings.operations import resample as resample
     from kineme.plot.segmentation import plot_segmentation as plot_segmentation
     from kineme.report.page import write_report as write_report
-    from kineme.methods.region_growing.analysis import (
-        Analysis as Analysis,
-        analyze as analyze,
-    )
+    from kineme.methods.region_growing.analysis import Analysis as Analysis
+    from kineme.segmentation.from_features import analyze as analyze
     from kineme.methods.presets import PRESETS as PRESETS, Preset as Preset
     from kineme.segments.segmentation import Segmentation as Segmentation
     from kineme.segmentation.segmenter import (
@@ -102,7 +100,8 @@ _HOMES = {
     "kineme.recordings.operations": ("resample",),
     "kineme.plot.segmentation": ("plot_segmentation",),
     "kineme.report.page": ("write_report",),
-    "kineme.methods.region_growing.analysis": ("Analysis", "analyze"),
+    "kineme.methods.region_growing.analysis": ("Analysis",),
+    "kineme.segmentation.from_features": ("analyze",),
     "kineme.methods.presets": ("PRESETS", "Preset"),
     "kineme.segments.segmentation": ("Segmentation",),
     "kineme.segmentation.segmenter": ("segment", "segment_and_analysis"),

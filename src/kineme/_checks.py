@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Collection, Iterable
+from numbers import Real
+from operator import index
+from os import PathLike
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme.errors import ParameterError
+from kineme.errors import MotionError, ParameterError
 
 MOST_FRAMES_MORE = 1000
 """Frames at a new rate for one of the old, at most; beyond that the old one is wrong."""
@@ -19,6 +26,78 @@ def check_rates(old: float, new: float) -> None:
         )
 
 
+def is_number(value: object) -> bool:
+    """Whether it is one finite number."""
+    return isinstance(value, Real) and math.isfinite(value)
+
+
+def is_one_of(value: object, known: Collection[str]) -> bool:
+    """Whether it is one of the known texts; anything at all may be asked about."""
+    return isinstance(value, str) and value in known
+
+
+def check_type(
+    value: object,
+    kind: type | tuple[type, ...],
+    door: str,
+    advice: str,
+    *,
+    error: type[ParameterError | MotionError] = ParameterError,
+) -> None:
+    """``error`` with advice where a public function was given something else."""
+    if not isinstance(value, kind):
+        kinds = kind if isinstance(kind, tuple) else (kind,)
+        wanted = " or ".join(known.__name__ for known in kinds)
+        if not wanted.endswith("s"):  # Signals are many
+            wanted = f"{'an' if wanted[0] in 'AEIOU' else 'a'} {wanted}"
+        raise error(f"{door} takes {wanted}, not {type(value).__name__}: {advice}")
+
+
+def check_path(path: object, door: str) -> None:
+    """ParameterError where a public function was given no path."""
+    check_type(path, (str, PathLike), door, "give the path of a file")
+
+
+def as_indices(values: Any, name: str) -> list[int]:
+    """The values as whole numbers; ParameterError where they are not."""
+    try:
+        return [index(value) for value in values]
+    except TypeError:
+        raise ParameterError(f"{name} must be whole numbers, not {values!r:.60}") from None
+
+
+def as_texts(
+    values: Any, name: str, *, error: type[ParameterError | MotionError] = ParameterError
+) -> tuple[str, ...]:
+    """The values as texts; ``error`` where they are one text or something else."""
+    if isinstance(values, Iterable) and not isinstance(values, str):
+        found = tuple(values)
+        if all(isinstance(value, str) for value in found):
+            return found
+    raise error(f"{name} must be a list of texts, not {values!r:.60}")
+
+
+def as_spans(
+    gaps: Any, *, error: type[ParameterError | MotionError] = ParameterError
+) -> tuple[tuple[int, int], ...]:
+    """The gaps as pairs of frames (start, stop); ``error`` where they are not."""
+    try:
+        return tuple((index(start), index(stop)) for start, stop in gaps)
+    except (TypeError, ValueError):
+        raise error(f"gaps are pairs of frames (start, stop), not {gaps!r:.60}") from None
+
+
+def as_floats(
+    values: Any, name: str, *, error: type[ParameterError | MotionError] = ParameterError
+) -> NDArray[np.float64]:
+    """The values as a float64 array, of any shape; ``error`` where they are not numbers."""
+    try:
+        return np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        shown = repr(values) if isinstance(values, str) else type(values).__name__
+        raise error(f"{name} must be an array of numbers, not {shown:.60}") from None
+
+
 def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64]:
     """The values as float64 (frames, dims) without gaps in memory.
 
@@ -26,7 +105,7 @@ def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64
     ------
     ParameterError : another shape, no frames or no dims, or values that are not finite
     """
-    array = np.ascontiguousarray(values, np.float64)
+    array = np.ascontiguousarray(as_floats(values, name))
     if array.ndim != 2 or 0 in array.shape:
         raise ParameterError(
             f"{name} must be frames x dims with at least one of each, not of shape {array.shape}"

@@ -109,7 +109,8 @@ def test_a_place_that_cannot_be_written(
         ("segment", "a.bvh", "--fps", "0"),
         ("segment", "a.bvh", "--level", "phrase"),
         ("segment", "a.bvh", "b.bvh", "-o", "cuts.csv"),
-        ("segment", "x/a.bvh", "y/a.bvh", "-o", "cuts"),
+        ("segment", "x/a.bvh", "x/b.bvh", "-o", "{parent}.csv"),
+        ("convert", "a.bvh", "b.bvh", "folder"),
     ],
 )
 def test_a_command_that_makes_no_sense_exits_with_2(kineme, arguments: tuple[str, ...]) -> None:

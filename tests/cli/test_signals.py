@@ -83,3 +83,9 @@ def test_real_forces_and_joint_angles(kineme, data_dir: Path) -> None:
     assert json.loads(done.stdout)["n_frames"] == 1800
     done = kineme("info", data_dir / "formats" / "subject01_walk_IK.mot")
     assert "10: pelvis_tilt, pelvis_tx" in done.stdout
+
+
+def test_force_plates_are_no_muscles(kineme, data_dir) -> None:
+    done = kineme("segment", data_dir / "formats" / "Eb015pr.c3d", "--emg")
+    assert done.returncode == 1
+    assert "which of its analog channels are muscles" in " ".join(done.stderr.split())

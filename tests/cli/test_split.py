@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -119,3 +120,73 @@ def test_convert_turns_a_recording_into_another_format(kineme, tmp_path: Path) -
     done = kineme("convert", bundled_recording(), "take.fbx")
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
+
+
+IMU = """# worn on the wrist
+frame,time,acc_x,acc_y,acc_z,activity
+"""
+
+
+@pytest.fixture
+def imu(tmp_path: Path) -> Path:
+    """Twenty seconds of an accelerometer, with columns that are no channels."""
+    t = np.arange(1000) / 50
+    wave = [np.where(t < 10, np.sin((6 + i) * t), np.cos((11 + i) * t)) for i in range(3)]
+    noise = 0.05 * np.random.default_rng(0).standard_normal((3, 1000))
+    lines = [
+        f"{i},{12 + t[i]:.3f},{x:.7f},{y:.7f},{z:.6e},rest\n"
+        for i, (x, y, z) in enumerate((wave + noise).T.tolist())
+    ]
+    path = tmp_path / "imu.csv"
+    path.write_text(IMU + "".join(lines))
+    return path
+
+
+def test_clips_of_signals_are_rows_of_their_file(kineme, tmp_path: Path, imu: Path) -> None:
+    done = kineme("split", imu, "--columns", "acc_x,acc_z", "-o", "clips")
+    assert (done.returncode, done.stderr) == (0, "")
+    kineme("segment", imu, "--columns", "acc_x,acc_z", "-q", "-o", "cuts.csv")
+    cuts = package.read_segments(tmp_path / "cuts.csv").activities
+    manifest = pd.read_csv(tmp_path / "clips" / "manifest.csv")
+    assert manifest.start_frame.tolist() == cuts.start_frame.tolist()
+    rows = imu.read_text().removeprefix(IMU).splitlines(keepends=True)
+    for clip in manifest.itertuples():
+        text = (tmp_path / "clips" / clip.file).read_text()
+        assert text == IMU + "".join(rows[clip.start_frame : clip.stop_frame])
+    done = kineme("split", imu, "--loop", "-o", "loops")
+    assert done.returncode == 1
+    assert "signals have no pose to blend" in done.stderr
+
+
+def test_signals_are_converted_as_they_are(kineme_here, tmp_path: Path, imu: Path) -> None:
+    done = kineme_here("convert", imu, "out.csv")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert (tmp_path / "out.csv").read_bytes() == imu.read_bytes()
+    done = kineme_here("convert", imu, "out.tsv", "--columns", "acc_z,acc_x")
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = [line.split("\t") for line in (tmp_path / "out.tsv").read_text().splitlines()]
+    before = [line.split(",") for line in imu.read_text().splitlines()[1:]]
+    assert lines == [[row[1], row[4], row[2]] for row in before]
+    done = kineme_here("convert", imu, "out.bvh")
+    assert done.returncode == 1
+    assert "signals are written as .csv, .tsv, not '.bvh'" in done.stderr
+
+
+def test_channels_of_other_files_become_tables(kineme_here, tmp_path: Path, imu: Path) -> None:
+    table = pd.read_csv(imu, comment="#")
+    table.to_parquet(tmp_path / "imu.parquet")
+    header = f"imu\nnRows={len(table)}\nnColumns=3\nendheader\n"
+    motion = table[["time", "acc_x", "acc_y"]].to_csv(sep="\t", index=False)
+    (tmp_path / "imu.mot").write_text(header + motion)
+    (tmp_path / "mine.txt").write_text("0\t2\twave\n")
+    for suffix in (".parquet", ".mot"):
+        name = f"clips{suffix}"
+        done = kineme_here("split", f"imu{suffix}", "--segments", "mine.txt", "-q", "-o", name)
+        assert (done.returncode, done.stderr) == (0, "")
+    clip = pd.read_parquet(tmp_path / "clips.parquet" / "imu_0000_wave.parquet")
+    pd.testing.assert_frame_equal(clip, table.iloc[:100])
+    clip = (tmp_path / "clips.mot" / "imu_0000_wave.mot").read_text()
+    assert clip == header.replace("=1000", "=100") + "".join(motion.splitlines(True)[:101])
+    done = kineme_here("convert", "imu.mot", "mot.csv")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "mot.csv").read_text() == motion.replace("\t", ",")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ import kineme
 from kineme.clips.loops import Carry, loop
 from kineme.clips.split import split
 from kineme.errors import MotionError, ParameterError, WriteError
+from kineme.formats.channels.writing import write_signals
 from kineme.recordings.motion import Motion
 from kineme.recordings.operations import cut, move, turn
 
@@ -189,3 +191,30 @@ def test_what_is_there_is_not_touched_and_nothing_is_left_half_written(
 def test_an_empty_folder_is_filled(tmp_path, motion, truth) -> None:
     (tmp_path / "clips").mkdir()
     assert split(motion, truth, tmp_path / "clips", cluster=1)[0].is_file()
+
+
+def test_clips_of_arrays_hold_their_values_and_gaps(tmp_path) -> None:
+    values = np.random.default_rng(0).normal(size=(60, 2)) * 1e-7
+    signals = kineme.Signals(values, 30, ("a", "b"), gaps=[(40, 45)])
+    columns = {
+        "level": ["activity"] * 2,
+        "kind": ["activity"] * 2,
+        "start_frame": [0, 30],
+        "stop_frame": [30, 60],
+    }
+    halves = kineme.Segmentation.from_columns(columns, n_frames=60, fps=30)
+    paths = split(signals, halves, tmp_path / "clips")
+    back = pd.concat([pd.read_csv(path) for path in paths])
+    assert back.columns.tolist() == ["time", "a", "b"]
+    values[40:45] = np.nan
+    assert np.array_equal(back[["a", "b"]].to_numpy(), values, equal_nan=True)
+    assert kineme.read_signals(paths[1]).fps == 30
+
+
+def test_changed_channels_are_written_as_they_were_changed(tmp_path) -> None:
+    (tmp_path / "imu.csv").write_text(
+        "time,acc_x\n" + "".join(f"{i / 10},{i}\n" for i in range(30))
+    )
+    signals = kineme.read_signals(tmp_path / "imu.csv")
+    write_signals(replace(signals, values=np.multiply(2, signals.values)), tmp_path / "twice.csv")
+    assert pd.read_csv(tmp_path / "twice.csv").acc_x.tolist() == [2 * i for i in range(30)]

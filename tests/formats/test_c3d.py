@@ -259,3 +259,43 @@ def test_real_files_load(data_dir: Path, name: str) -> None:
     assert motion.n_frames > 80
     # Metres: a whole body, or the foot and knee of walkingOptiTrack.
     assert 0.2 < np.median(np.ptp(motion.positions, axis=1).max(axis=1)) < 2.5
+
+
+ANALOG = np.random.default_rng(0).standard_normal((60, 4, 6))
+
+
+def laboratory(folder: Path, labels, **parameters) -> Path:
+    """A C3D with analog channels of these names."""
+    more = {("ANALOG", "LABELS"): labels}
+    more |= {tuple(name.split("__")): value for name, value in parameters.items()}
+    channels = ANALOG[:, :, : len(labels)]
+    data = c3d_bytes(z_up_millimetres(walking()), PLUG_IN_GAIT, analog=channels, more=more)
+    path = folder / "laboratory.c3d"
+    path.write_bytes(data)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("labels", "more", "muscles"),
+    [
+        (["Fx1", "Fz1", "EMG1", "L Tibialis", "CH5"], {}, ["EMG1", "L Tibialis"]),
+        (
+            ["Voltage.1", "Voltage.2"],
+            {"ANALOG__DESCRIPTIONS": ["Force plate", "Analog EMG::Voltage"]},
+            ["Voltage.2"],
+        ),
+        (["a", "b", "c"], {"ANALOG__UNITS": ["N", "mV", "V"]}, ["b"]),
+        (["LTA", "R_GM", "RF1"], {"ANALOG__UNITS": ["V", "V", "V"]}, ["LTA", "R_GM"]),
+        (["emg1", "emg2"], {"FORCE_PLATFORM__CHANNEL": np.int16([1])}, ["emg2"]),
+        (["Soleus: EMG 1", "Soleus: ACC X"], {"ANALOG__UNITS": ["V", "g"]}, ["Soleus: EMG 1"]),
+    ],
+)
+def test_muscles_of_a_laboratory(tmp_path, labels, more, muscles) -> None:
+    path = laboratory(tmp_path, labels, **more)
+    signals = kineme.read_signals(path, emg=True)
+    assert list(signals.names) == muscles
+    left = ", ".join(name for name in labels if name not in muscles)
+    said = f"channels taken for muscles: {', '.join(muscles)}; left out: {left}"
+    assert signals.provenance.notes == (said,)
+    assert list(kineme.read_signals(path).names) == labels
+    assert list(kineme.read_signals(path, columns=labels[:1], emg=True).names) == labels[:1]

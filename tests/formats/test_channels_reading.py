@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import warnings
+from contextlib import suppress
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +15,7 @@ from hypothesis import strategies as st
 from pyarrow import parquet
 from scipy.io import savemat
 
-from kineme import read, read_signals, segment_signals
+from kineme import Signals, read, read_signals, segment_signals
 from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
 from kineme.formats.channels.reading import is_signal_file
 
@@ -125,9 +127,9 @@ def test_chosen_columns_in_the_order_given(tmp_path) -> None:
 
 
 def test_what_tells_the_rate(tmp_path) -> None:
-    epoch = "".join(f"{1700000000000 + 10 * i},{i}\n" for i in range(9))
+    uptime = "".join(f"{86_400_000 + 10 * i},{i}\n" for i in range(9))
     with pytest.raises(ReadError, match=r"times are 10 apart.*100 for milliseconds"):
-        read_signals(write(tmp_path, "a.csv", "timestamp,a\n" + epoch))
+        read_signals(write(tmp_path, "a.csv", "timestamp,a\n" + uptime))
     assert read_signals(tmp_path / "a.csv", fps=100).names == ("a",)
     with pytest.raises(ReadError, match="nothing in it tells the frame rate: give fps"):
         read_signals(write(tmp_path, "b.csv", "a\n1\n2\n"))
@@ -135,6 +137,101 @@ def test_what_tells_the_rate(tmp_path) -> None:
     assert read_signals(rated).fps == 60
     with pytest.raises(ParameterError, match="fps is -1"):
         read_signals(rated, fps=-1)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [("timestamp", 1), ("time", 1000), ("unix_time", 1_000_000), ("Timestamp", 1_000_000_000)]
+    + [("epoc (ms)", 1000), ("time_us", 1_000_000), ("epoch_ns", 1_000_000_000)],
+)
+def test_times_since_1970_in_any_unit(tmp_path, name, unit) -> None:
+    at = [f"{1_700_000_000 * unit + i * unit // 50}" for i in range(30)]
+    at = [f"{1_700_000_000 + i / 50:.2f}" for i in range(30)] if unit == 1 else at
+    rows = "".join(f"{t},{i}\n" for i, t in enumerate(at))
+    signals = read_signals(write(tmp_path, "a.csv", f"{name},a\n{rows}"))
+    assert (signals.fps, signals.names, signals.provenance.notes) == (50, ("a",), ())
+
+
+@pytest.mark.parametrize(
+    "moment",
+    [
+        lambda t: t.isoformat(),
+        lambda t: t.isoformat(" ", "milliseconds"),
+        lambda t: t.isoformat(timespec="milliseconds") + "Z",
+        lambda t: t.isoformat(timespec="microseconds") + "000+02:00",
+        lambda t: t.time().isoformat("milliseconds"),
+    ],
+)
+def test_dates_tell_the_rate(tmp_path, moment) -> None:
+    start = datetime(2026, 5, 1, 9, 30)  # noqa: DTZ001 - loggers write no zone
+    at = [start + timedelta(milliseconds=20 * i) for i in range(120)]
+    rows = "".join(f'"{moment(t)}",{i}\n' for i, t in enumerate(at))
+    signals = read_signals(write(tmp_path, "a.csv", f"timestamp,a\n{rows}"))
+    assert (signals.fps, signals.n_frames, signals.provenance.notes) == (50, 120, ())
+    dates = pa.table({"timestamp": at, "a": range(120)})
+    parquet.write_table(dates, tmp_path / "a.parquet")
+    assert read_signals(tmp_path / "a.parquet").fps == 50
+    texts = pa.table({"time": [moment(t) for t in at], "a": range(120)})
+    parquet.write_table(texts, tmp_path / "b.parquet")
+    assert read_signals(tmp_path / "b.parquet").fps == 50
+
+
+def clocked(folder: Path, times: np.ndarray) -> Signals:
+    """Signals whose one channel counts the rows of the file."""
+    rows = "".join(f"{float(t)!r},{i}\n" for i, t in enumerate(times))
+    signals = read_signals(write(folder, "clock.csv", f"time,a\n{rows}"))
+    assert signals.values[:, 0].tolist() == list(range(len(times)))
+    return signals
+
+
+EVEN = np.arange(400) / 100
+
+
+@pytest.mark.parametrize(
+    ("times", "gaps", "said"),
+    [
+        (EVEN - 0.05 * (EVEN >= 2), (), "1 steps go back in time"),
+        (EVEN - 3600 * (EVEN >= 2), ((199, 200),), "jump -3600 s after frame 199"),
+        (EVEN + 5 * (EVEN >= 2), ((199, 200),), "jump 5.01 s after frame 199"),
+        (EVEN + 1.7e9 * (EVEN >= 1), ((99, 100),), "jump 1.7e+09 s after frame 99"),
+        (EVEN + 0.1 * (EVEN >= 2), (), "1 steps are longer"),
+        (EVEN + 0.004 * (np.arange(400) % 3), (), "jitter"),
+        (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), (), "19 rows have the time"),
+        (np.floor(EVEN * 4) / 4, (), "384 rows have the time"),
+        (np.floor(EVEN + 0.37), (), "395 rows have the time"),
+    ],
+)
+def test_frames_are_rows_whatever_the_clock_does(tmp_path, times, gaps, said) -> None:
+    signals = clocked(tmp_path, times)
+    assert signals.fps == pytest.approx(100, rel=0.005)
+    assert signals.gaps == gaps
+    (note,) = signals.provenance.notes
+    assert note.startswith("times are uneven")
+    assert said in note
+
+
+def test_clocks_that_count_milliseconds(tmp_path) -> None:
+    signals = clocked(tmp_path, np.floor(np.arange(2000) / 0.12) / 1000)
+    assert signals.fps == pytest.approx(120, rel=1e-3)
+
+
+def test_rows_without_a_time_are_frames(tmp_path) -> None:
+    rows = "".join(f"{'' if 10 <= i < 14 else i / 50},{i}\n" for i in range(60))
+    signals = read_signals(write(tmp_path, "a.csv", "time,a\n" + rows))
+    assert (signals.fps, signals.n_frames, signals.gaps) == (50, 60, ())
+    assert signals.provenance.notes == ("4 rows without a time counted as frames",)
+
+
+def test_rows_in_no_order_of_time_are_refused(tmp_path) -> None:
+    with pytest.raises(ReadError, match="in no order of time"):
+        clocked(tmp_path, np.random.default_rng(0).permutation(EVEN))
+
+
+@given(st.lists(st.floats(-1e4, 1e4, width=32), min_size=2, max_size=30), st.booleans())
+def test_no_clock_adds_or_moves_a_frame(tmp_path_factory, times, ascending) -> None:
+    at = np.array(sorted(times) if ascending else times)
+    with suppress(ReadError):
+        clocked(tmp_path_factory.getbasetemp(), at)
 
 
 def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
@@ -239,6 +336,8 @@ def test_real_channels(data_dir) -> None:
     assert files[0].fps == 200
     for other in files[1:]:
         assert np.abs(other.values - files[0].values).max() < 1e-3 * np.abs(files[0].values).max()
+    with pytest.raises(ReadError, match=r"which of its analog .* muscles.* FX1, .*, CH15, CH16"):
+        read_signals(data_dir / "formats" / "Eb015pr.c3d", emg=True)
     with pytest.raises(ReadError, match="holds no analog channels"):
         read_signals(data_dir / "cmu_formats" / "02_01.c3d")
 

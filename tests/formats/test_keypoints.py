@@ -117,6 +117,10 @@ def test_a_folder_of_anything_else(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("x")
     with pytest.raises(ReadError, match="cannot be opened: a folder without the file for each"):
         kineme.read(tmp_path)
+    (tmp_path / "notes_1.json").write_text("{}")
+    with pytest.raises(ReadError, match="cannot be opened: a folder without the file for each"):
+        kineme.read(tmp_path, fps=30)
+    (tmp_path / "frame_2.json").write_text(json.dumps(openpose(frames=1)[0]))
     (tmp_path / "frame_1.json").write_text("{}")
     with pytest.raises(ReadError, match="frame_1.json: no 'people' in it"):
         kineme.read(tmp_path, fps=30)
@@ -264,6 +268,7 @@ def test_mediapipe_frames_without_anybody_keep_their_time(tmp_path: Path) -> Non
 def test_mediapipe_at_uneven_times_says_so(tmp_path: Path) -> None:
     times = [i / 25 + 0.012 * (i % 3) for i in range(30)]
     motion = read(tmp_path, "a.csv", _wide("{f}{i}", time=times))
+    assert (motion.n_frames, motion.fps) == (30, pytest.approx(25, rel=0.02))
     assert motion.provenance.notes[0].startswith("times are uneven")
 
 

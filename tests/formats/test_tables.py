@@ -70,19 +70,35 @@ def test_rates_of_tables(tmp_path: Path) -> None:
         ({}, "no column 'time' or 'fps' found: give fps="),
         ({"time": [0] * 20}, "times do not increase: row 2"),
         ({"fps": [*range(1, 21)]}, "not one positive number"),
-        ({"time": [*range(19), 1e9]}, "the times span"),
+        ({"time": [*range(19), 1e9]}, "its times are 1 apart"),
     ]:
         with pytest.raises(ReadError, match=reason):
             read(tmp_path, "a.csv", table(body(), **columns))
 
 
-def test_uneven_times_are_made_even(tmp_path: Path) -> None:
+def test_frames_are_rows_where_times_are_uneven(tmp_path: Path) -> None:
     at = np.r_[0:8, 10:30] / 25  # two rows are missing
     points = body(30)[np.r_[0:8, 10:30]]
     motion = read(tmp_path, "a.csv", table(points, time=at.tolist()))
-    assert (motion.n_frames, motion.fps) == (30, 25)
-    assert np.allclose(motion.positions, body(30), atol=1e-3)
+    assert (motion.n_frames, motion.fps, motion.gaps) == (28, 25, ())
+    assert np.allclose(motion.positions, points)
     assert any("times are uneven" in note for note in motion.provenance.notes)
+
+
+@pytest.mark.parametrize("jump", [3600.0, -2.0])
+def test_a_jump_of_the_clock_splits_a_motion(tmp_path: Path, jump: float) -> None:
+    at = np.arange(40) / 25 + jump * (np.arange(40) >= 15)
+    motion = read(tmp_path, "a.csv", table(body(40), time=at.tolist()))
+    assert (motion.n_frames, motion.fps, motion.gaps) == (40, 25, ((14, 15),))
+    assert np.allclose(motion.positions, body(40))
+
+
+def test_dates_tell_the_rate_of_a_motion(tmp_path: Path) -> None:
+    at = np.datetime64("2026-03-29T00:59:59.500") + np.arange(20) * np.timedelta64(40, "ms")
+    motion = read(tmp_path, "a.csv", table(body(), timestamp=[f"{t}Z" for t in at]))
+    assert (motion.n_frames, motion.fps) == (20, 25)
+    with pytest.raises(ReadError, match=r"line 3: 'noon-ish' is no ISO date"):
+        read(tmp_path, "a.csv", table(body(), timestamp=[str(at[0]), "noon-ish", *at[2:]]))
 
 
 def test_units_and_axes_of_tables(tmp_path: Path) -> None:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from kineme import Signals, segment_signals
+from kineme import PRESETS, Segmenter, Signals, segment_signals
 from kineme.errors import ParameterError
 from kineme.features.emg import emg_envelope
 from kineme.methods.presets import KINEME, KRUEGER2017, VOEGELE2014
@@ -118,6 +120,42 @@ def test_lengths_of_published_presets_are_those_of_a_body() -> None:
     assert signal_preset("kineme", any_pace=True) == KINEME
 
 
+@pytest.mark.parametrize("name", PRESETS)
+def test_a_preset_made_for_signals_is_used_as_it_is(name: str) -> None:
+    made = signal_preset(name)
+    assert signal_preset(made) == made
+    x = Signals(recording(), 60)
+    by_name, passed_on = segment_signals(x, preset=name), segment_signals(x, preset=made)
+    assert passed_on.table == by_name.table
+    assert passed_on.provenance == by_name.provenance
+    estimator = Segmenter(made, fps=60).fit(recording())
+    assert estimator.segmentation_.provenance["parameters"] == by_name.provenance["parameters"]
+
+
+def test_what_a_preset_object_says_is_kept() -> None:
+    said = segment_signals(Signals(recording(), 60), preset=KINEME.replace(any_pace=True))
+    assert said.provenance["parameters"]["any_pace"] is True
+    assert signal_preset(signal_preset("krueger2017", radius=0.5)).radius == 0.5
+
+
+def test_the_unit_of_lengths_is_in_the_provenance_and_is_not_an_option() -> None:
+    x = Signals(recording(), 60)
+    units = {
+        name: segment_signals(x, preset=name).provenance["parameters"]["unit"] for name in PRESETS
+    }
+    assert units == {
+        "kineme": "sizes",
+        "voegele2014": "standard deviations",
+        "krueger2017": "standard deviations",
+    }
+    with pytest.raises(ParameterError, match="krueger2017 has no parameter 'unit'"):
+        segment_signals(x, preset="krueger2017", unit="metres")
+    with pytest.raises(ParameterError, match="unit must be metres or standard deviations"):
+        replace(KRUEGER2017, unit="inches")
+    with pytest.raises(ParameterError, match="unit must be sizes in kineme"):
+        replace(KINEME, unit="metres")
+
+
 def test_the_unit_of_kineme_is_the_distance_of_recurrence() -> None:
     features, _ = search_vectors(Signals(recording(), 60), KINEME)
     unit = recurrence_unit(features, KINEME)
@@ -182,6 +220,16 @@ def test_signals_that_contradict_themselves() -> None:
         Signals(np.zeros(4), 10, gaps=[(2, 1)])
     with pytest.raises(ParameterError, match="leave nothing"):
         Signals(np.zeros(4), 10, gaps=[(0, 4)])
+    with pytest.raises(ParameterError, match=r"frame rate is \['a', 'b'\]: it must be a positive"):
+        Signals(np.zeros((4, 2)), ["a", "b"], 10)
+    with pytest.raises(ParameterError, match="names of channels must be a list of texts, not 'ab'"):
+        Signals(np.zeros((4, 2)), 10, "ab")
+    with pytest.raises(
+        ParameterError, match=r"names of channels must be a list of texts, not \[1, 2\]"
+    ):
+        Signals(np.zeros((4, 2)), 10, [1, 2])
+    with pytest.raises(ParameterError, match="signals must be an array of numbers, not 'imu.csv'"):
+        Signals("imu.csv", 10)
     signals = Signals(np.zeros((4, 3)), 10)
     assert signals.names == ("1", "2", "3")
     assert signals.select(["3", "1"]).names == ("3", "1")

@@ -18,7 +18,9 @@ from kineme.features import end_effectors
 from kineme.methods.presets import PRESETS
 from kineme.recordings.motion import Motion
 from kineme.recordings.operations import cut, move, resample, turn
-from kineme.segmentation.segmenter import segment, segment_and_analysis
+from kineme.segmentation.channels import signal_preset
+from kineme.segmentation.from_features import analyze
+from kineme.segmentation.segmenter import motion_features, segment, segment_and_analysis
 from kineme.segmentation.signals import segment_signals
 from kineme.segments.segmentation import Segmentation
 
@@ -125,6 +127,31 @@ def test_slow_and_fast_are_one_action_unless_pace_is_to_count() -> None:
 
     assert clusters() == [0, 1, 0, 1]
     assert clusters(any_pace=False) == [0, 1, 2, 1]
+
+
+@presets
+def test_the_stages_are_found_by_name_or_preset(preset: str) -> None:
+    motion = cut(recording(0), 0, 400)
+    (by_name, found), (as_it_is, same) = (
+        segment_and_analysis(motion, one) for one in (preset, PRESETS[preset])
+    )
+    assert by_name.table == as_it_is.table
+    np.testing.assert_array_equal(found.blocks, same.blocks)
+    features = motion_features(motion, PRESETS[preset])
+    for one in (preset, PRESETS[preset]):
+        np.testing.assert_array_equal(analyze(features, one).segments, found.segments)
+
+
+def test_presets_that_are_none_and_presets_for_signals_are_refused() -> None:
+    motion = cut(recording(0), 0, 60)
+    with pytest.raises(ParameterError, match="no preset 'best'; there are kineme"):
+        analyze(np.zeros((30, 2)), "best")
+    with pytest.raises(ParameterError, match="preset takes a Preset, not float: give one, or the"):
+        segment(motion, preset=0.5)
+    with pytest.raises(ParameterError, match="standard deviations of signals"):
+        segment(motion, preset=signal_preset("krueger2017"))
+    with pytest.raises(ParameterError, match="radius must be a positive number, not 'big'"):
+        segment(motion, preset="krueger2017", radius="big")
 
 
 def test_provenance_says_how_it_was_made() -> None:

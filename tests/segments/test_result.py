@@ -58,6 +58,33 @@ def test_cuts_repetitions_and_frames() -> None:
     assert "2 activities, 1 transition, 4 primitives, 2 clusters" in repr(result)
 
 
+def test_rows_are_picked_as_in_numpy() -> None:
+    table = walk_jump().table
+    repeated = table.cluster == 0
+    for rows in (slice(0, 2), slice(None, None, -1), repeated, np.array([3, -1]), [3, 1], []):
+        picked = table[rows]
+        assert isinstance(picked, type(table))
+        for name, column in table.columns().items():
+            expected = column[rows if isinstance(rows, slice) or len(rows) else slice(0)]
+            np.testing.assert_array_equal(getattr(picked, name), expected)
+    assert [row.start_frame for row in table[repeated.tolist()]] == [0, 20, 70]
+    assert table[np.int64(1)].kind == "transition"
+
+
+def test_what_picks_no_rows_is_said() -> None:
+    table = walk_jump().table
+    for row in (8, -9, [0, 8]):
+        with pytest.raises(IndexError, match="of a table of 8"):
+            table[row]
+    with pytest.raises(ParameterError, match="a mask of 3 does not fit a table of 8 rows"):
+        table[np.array([True, False, True])]
+    for rows in ("label", 1.5, None, (0, "a"), [[0, 1]], np.ones((2, 2))):
+        with pytest.raises(ParameterError, match="slice, a mask or row numbers"):
+            table[rows]
+    with pytest.raises(ParameterError, match="give whole numbers"):
+        table["a":"b"]
+
+
 def test_pandas_sees_the_documented_columns() -> None:
     frame = walk_jump().to_pandas()
     assert tuple(frame.columns) == COLUMNS

@@ -47,6 +47,26 @@ def test_a_real_take_turns_corners(data_dir: Path, line: str) -> None:
     assert distances(new, points)[:arrived].max() < 1.05
 
 
+def test_a_corner_to_the_side_to_which_somebody_turned(
+    exercises: Motion, graph: MotionGraph
+) -> None:
+    route, start = line_route(graph, [exercises], [(0, 0), (4, 0), (4, -4)], actions=["walk"])
+    new = synthesize(graph, [exercises], route, start=start)
+    floor = new.positions[:, 0][:, [0, 2]]
+    assert np.linalg.norm(floor - [4, -4], axis=1).min() < 0.5
+    with pytest.raises(ParameterError, match="off the line near|goes along"):
+        line_route(graph, [exercises], [(0, 0), (4, 0), (4, 4)], actions=["walk"])
+
+
+def test_with_its_mirror_image_a_recording_turns_to_both_sides(exercises: Motion) -> None:
+    both = [exercises, kineme.mirror(exercises)]
+    graph = motion_graph(both)
+    for side in (4, -4):
+        route, start = line_route(graph, both, [(0, 0), (4, 0), (4, side)])
+        floor = synthesize(graph, both, route, start=start).positions[:, 0][:, [0, 2]]
+        assert np.linalg.norm(floor - [4, side], axis=1).min() < 0.5
+
+
 def test_turning_the_line_turns_the_walk(exercises: Motion, graph: MotionGraph) -> None:
     route, start = line_route(graph, [exercises], [(0, 0), (4, 0)], actions=["walk"])
     turned, other = line_route(graph, [exercises], [(0, 0), (0, 4)], actions=["walk"])

@@ -7,9 +7,12 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.messages import Failures
+from kineme.cli.inputs import Batch, Recursive
+from kineme.cli.request import Request
+from kineme.cli.signals import Columns
+from kineme.cli.targets import make_folder_of
 from kineme.errors import WriteError
-from kineme.labels import label_formats, read_segments, write_segments, written_suffixes
+from kineme.labels import label_formats, read_segments, write_segments
 from kineme.segments.table import Level
 
 
@@ -19,17 +22,37 @@ def _known(name: str | None) -> str | None:
     return name
 
 
-def _is_recording(source: Path) -> bool:
-    """Whether the suffix is one of recordings and of no labels."""
-    from kineme.formats import supported_formats
+def _is_recording(path: Path) -> bool:
+    """Whether a file is a recording and no labels, by its suffix and how it begins."""
+    from kineme.formats.listing import holds_motion
 
-    recordings = {suffix for known in supported_formats() for suffix in known.suffixes}
-    return source.suffix.lower() in recordings - set(written_suffixes())
+    suffix = path.suffix.lower()
+    if suffix == ".txt":
+        return _names_channels(path)
+    return path.is_dir() or holds_motion(path) or suffix in (".asf", ".dat")
+
+
+def _names_channels(path: Path) -> bool:
+    """Whether a text file is a table of channels: these name columns, labels begin with a time."""
+    from kineme.formats.channels.reading import is_signal_file
+    from kineme.formats.channels.text_table import TextTable
+    from kineme.formats.files import load
+
+    if not is_signal_file(path):
+        return False
+    table = TextTable.of(load(path))
+    return table.names[0] != "1" and bool(table.numeric())
 
 
 def convert(
-    source: Annotated[Path, typer.Argument(metavar="FROM", help="Segments, or a recording.")],
-    target: Annotated[Path, typer.Argument(metavar="TO", help="File to write; it must be new.")],
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FROM… TO",
+            help="Segments or recordings, or folders of recordings; last the file to write, "
+            "which must be new, for several with {name} in it.",
+        ),
+    ],
     from_format: Annotated[
         str | None,
         typer.Option("--from", callback=_known, help=f"Format read: {', '.join(label_formats())}."),
@@ -44,25 +67,52 @@ def convert(
     frames: Annotated[
         int | None, typer.Option(help="Length of the recording, where labels end before it.")
     ] = None,
+    recursive: Recursive = False,
+    columns: Columns = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Turn segments into labels of another program and back, or a recording into another format.
 
     The suffixes say what is read and written: BVH, AMC, TRC, CSV and npz hold recordings.
+    Signals keep the columns of their file, or those that --columns names.
     --fps is the recording's frame rate, too, for labels that hold seconds only.
     """
-    options = reading or {}
-    failures = Failures()
-    with failures.caught(source):
-        if target.exists():
-            raise WriteError(target, "is there already: remove it or name another file")
-        if from_format is None and _is_recording(source):
-            from kineme.formats import read, write
+    if len(files) < 2:
+        raise typer.BadParameter("give what to read and the file to write", param_hint="FROM… TO")
+    *sources, target = files
+    request = Request.of(reading=reading, columns=columns)
+    batch = Batch(sources, recursive=recursive)
+    several = not batch.single or "{" in target.name
+    if several and (target.is_dir() or not target.suffix):
+        raise typer.BadParameter(
+            f"name the files in it, such as '{target}/{{name}}.bvh'", param_hint="TO"
+        )
+    places = batch.files("TO", target) if several else [target]
+    for path, place in zip(batch.paths, places, strict=True):
+        with batch.caught(path):
+            if place.exists():
+                raise WriteError(place, "is there already: remove it or name another file")
+            if several:
+                make_folder_of(place)
+            if from_format is None and (columns is not None or _is_recording(path)):
+                _convert_recording(request, path, place)
+            else:
+                segments = read_segments(
+                    path, format=from_format, fps=request.reading.get("fps"), n_frames=frames
+                )
+                write_segments(segments, place, format=to_format, level=level)
+    batch.exit()
 
-            write(read(source, **options), target)
-        else:
-            segments = read_segments(
-                source, format=from_format, fps=options.get("fps"), n_frames=frames
-            )
-            write_segments(segments, target, format=to_format, level=level)
-    failures.exit()
+
+def _convert_recording(request: Request, path: Path, target: Path) -> None:
+    from kineme.recordings.motion import Motion
+
+    recording = request.read(path)
+    if isinstance(recording, Motion):
+        from kineme.formats import write
+
+        write(recording, target)
+    else:
+        from kineme.formats.channels.writing import write_signals
+
+        write_signals(recording, target, columns=request.signals.columns)

@@ -7,11 +7,11 @@ from typing import Annotated
 
 import typer
 
-from kineme.cli.messages import Failures
+from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Quiet
-from kineme.cli.segment import run, write_results
-from kineme.cli.targets import check_writable
-from kineme.methods.presets import KINEME
+from kineme.cli.request import Request
+from kineme.cli.segment import write_results
+from kineme.cli.targets import check_place, check_writable
 
 
 def demo(
@@ -27,8 +27,11 @@ def demo(
     table, picture = (output / f"{path.stem}{suffix}" for suffix in (".csv", ".png"))
     failures = Failures()
     with failures.caught(path):
+        check_place(table)
         check_writable(table, picture)
-        result, analysis, _ = run(path, {}, KINEME, None, quiet=quiet)
+        request = Request.of()
+        with progress(path.name, quiet=quiet) as stage:
+            result, analysis = request.segment(request.read(path), stage)
         write_results(result, analysis, table, picture)
         if not quiet:
             from kineme.cli.tables import show_segments

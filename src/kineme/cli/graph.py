@@ -8,16 +8,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme.cli.inputs import Batch, Files, Recursive
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Quiet
-from kineme.cli.targets import check_writable, targets
+from kineme.cli.request import Request
+from kineme.cli.targets import check_place, check_writable
 
 if TYPE_CHECKING:
+    from kineme.recordings.motion import Motion
+    from kineme.segments.segmentation import Segmentation
     from kineme.synthesis import MotionGraph
 
 
 def graph(
-    files: Annotated[list[Path], typer.Argument(metavar="FILES", help="BVH or AMC files.")],
+    files: Files,
     output: Annotated[Path, typer.Option("--output", "-o", help="The graph: a .json file.")],
     segments: Annotated[
         Path | None,
@@ -34,31 +38,41 @@ def graph(
     keep_dead_ends: Annotated[
         bool, typer.Option(help="Keep primitives after which nothing, or not all, can follow.")
     ] = False,
+    recursive: Recursive = False,
     quiet: Quiet = False,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Find which primitives of recordings can be played one after the other."""
-    options = {k: v for k, v in (reading or {}).items() if v is not None}
-    tables = targets("--segments", segments, files, ".json")
+    request = Request.of(reading=reading)
+    batch = Batch(files, recursive=recursive, quiet=quiet)
+    tables = batch.tables("--segments", segments)
     failures = Failures()
-    with failures.caught(output), progress(output.name, quiet=quiet) as stage:
+    with failures.caught(output):
+        check_place(output)
         check_writable(output, plot)
-        stage("reading")
-        from kineme.formats import read
-        from kineme.labels import read_segments
-        from kineme.segmentation.segmenter import segment
+    failures.exit()
+    motions: list[Motion] = []
+    found: list[Segmentation] = []
+    for path, table in zip(batch.paths, tables, strict=True):
+        with batch.caught(path), batch.progress(path) as stage:
+            from kineme.synthesis import check_source
+
+            stage("reading")
+            motion = request.read_motion(path)
+            check_source(motion, (motions or [motion])[0])
+            stage("segments")
+            found.append(request.segments(motion, table, stage))
+            motions.append(motion)
+    if not motions:
+        batch.exit()
+    with failures.caught(output), progress(output.name, quiet=quiet) as stage:
         from kineme.synthesis import motion_graph, write_graph
 
-        motions = [read(path, **options) for path in files]
-        stage("segments")
-        found = [
-            segment(motion) if table is None else read_segments(table)
-            for motion, table in zip(motions, tables, strict=True)
-        ]
         stage("jumps")
         made = motion_graph(
             motions, found, threshold=threshold, window=window, prune=not keep_dead_ends
         )
+        options = {k: v for k, v in request.reading.items() if v is not None}
         own = {k: str(v) if isinstance(v, Path) else v for k, v in options.items()}
         made = replace(made, sources=tuple(replace(s, options=own) for s in made.sources))
         write_graph(made, output)
@@ -68,6 +82,7 @@ def graph(
             plot_graph(made, plot)
         if not quiet:
             _show(made)
+    batch.exit()
     failures.exit()
 
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import Files, recordings_of
-from kineme.cli.messages import Failures
-from kineme.cli.reading import Effectors, Json, effector_names
-from kineme.cli.signals import Columns, SignalOptions, show_signals, signal_facts
+from kineme.cli.inputs import Batch, Files, Recursive
+from kineme.cli.reading import Effectors, Json
+from kineme.cli.request import Request
+from kineme.cli.signals import Columns, show_signals, signal_facts
 from kineme.errors import EndEffectorError
 
 if TYPE_CHECKING:
@@ -21,30 +21,31 @@ if TYPE_CHECKING:
 def info(
     files: Files,
     joints: Annotated[bool, typer.Option("--joints", help="Show the tree of joints.")] = False,
+    recursive: Recursive = False,
     json: Json = False,
     effectors: Effectors = None,
     columns: Columns = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Tell a recording's format, length, frame rate and skeleton or channels."""
-    reading = reading or {}
-    from kineme.formats import read
+    request = Request.of(reading=reading, effectors=effectors, columns=columns)
+    batch = Batch(files, recursive=recursive)
+    for path in batch.paths:
+        with batch.caught(path):
+            recording = request.read(path)
+            from kineme.recordings.motion import Motion
 
-    failures = Failures()
-    signals = SignalOptions.of(columns, reading.get("fps"))
-    for path in recordings_of(files, failures):
-        with failures.caught(path):
-            if signals.mean(path):
-                facts = signal_facts(signals.read(path))
-                typer.echo(dumps(facts)) if json else show_signals(facts)
-                continue
-            motion = read(path, **reading)
-            facts = _facts(motion, effector_names(effectors))
+            if isinstance(recording, Motion):
+                facts = _facts(recording, request.effectors)
+            else:
+                facts = signal_facts(recording)
             if json:
                 typer.echo(dumps(facts))
+            elif isinstance(recording, Motion):
+                _show(facts, recording, joints=joints)
             else:
-                _show(facts, motion, joints=joints)
-    failures.exit()
+                show_signals(facts)
+    batch.exit()
 
 
 def _facts(motion: Motion, names: Names | None) -> dict[str, Any]:

@@ -1,13 +1,22 @@
-"""What is given as FILES: recordings, or folders of them."""
+"""What is given as FILES: recordings, or folders of them, gone through one by one.
+
+One rule for every command: what is wrong with one recording costs that one only and is
+said at the end, by name and reason. The exit code is 1 where something asked for by name,
+a file or a folder, gave nothing.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from kineme.cli.messages import Failures
+from kineme.cli.messages import one_line, progress, say_error, say_skipped
+from kineme.cli.targets import absolute, files_for, folders_for, tables_for, targets_for
+from kineme.errors import KinemeError, WriteError
 
 Files = Annotated[
     list[Path],
@@ -16,17 +25,116 @@ Files = Annotated[
         help="Recordings, or folders of them: BVH, AMC, C3D, TRC, tables, npz, MOT.",
     ),
 ]
+Recursive = Annotated[
+    bool, typer.Option("--recursive", "-r", help="Look into the folders of a folder, too.")
+]
 
 
-def recordings_of(given: list[Path], failures: Failures) -> list[Path]:
-    """The files, and in place of each folder the recordings in it."""
-    found: list[Path] = []
-    for path in given:
-        with failures.caught(path):
-            if path.is_dir():
-                from kineme.formats.listing import recordings_in
+class Batch:
+    """The recordings of a command, each of which may fail by itself.
 
-                found += recordings_in(path)
-            else:
-                found.append(path)
-    return found
+    Parameters
+    ----------
+    given : list of Path
+        Files, and folders that stand for the recordings in them.
+    recursive : bool
+        Whether folders in folders count.
+    quiet : bool
+        Show no progress.
+    """
+
+    def __init__(self, given: list[Path], *, recursive: bool = False, quiet: bool = False):
+        self._quiet = quiet
+        self._missing = set(given)
+        self._messages: list[tuple[Callable[[str], None], str]] = []
+        self._at = 0
+        self._given_as: dict[Path, set[Path]] = {}
+        self.paths: list[Path] = []
+        for path in given:
+            found = self._recordings_in(path, recursive=recursive) if path.is_dir() else [path]
+            for recording in found:
+                origins = self._given_as.setdefault(absolute(recording), set())
+                if not origins:
+                    self.paths.append(recording)
+                origins.add(path)
+
+    @property
+    def single(self) -> bool:
+        """Whether there is one recording, given by its own name."""
+        return len(self.paths) == 1 and self._is_named(self.paths[0])
+
+    def targets(self, option: str, given: Path | None, suffix: str) -> list[Path | None]:
+        """Where the result of each recording goes; see `kineme.cli.targets`."""
+        with self._nothing_without():
+            return targets_for(option, given, self.paths, suffix)
+
+    def files(self, option: str, given: Path, suffix: str = "") -> list[Path]:
+        """The same where the option is never left out."""
+        with self._nothing_without():
+            return files_for(option, given, self.paths, suffix)
+
+    def folders(self, option: str, given: Path) -> list[Path]:
+        """The folder that each recording gets; the one given where it is a single one's."""
+        with self._nothing_without():
+            return folders_for(option, given, self.paths, single=self.single)
+
+    def tables(self, option: str, given: Path | None) -> list[Path | None]:
+        """The table or label file that belongs to each recording."""
+        return tables_for(option, given, self.paths)
+
+    @contextmanager
+    def caught(self, path: Path) -> Iterator[None]:
+        """Keep a failure with one of the recordings in the block for the end."""
+        self._at += 1
+        try:
+            yield
+        except KinemeError as error:
+            say = say_error if self._is_named(path) else say_skipped
+            self._messages.append((say, one_line(error, subject=path)))
+        else:
+            self._missing -= self._given_as[absolute(path)]
+
+    def progress(self, path: Path) -> AbstractContextManager[Callable[[str], None]]:
+        """A function that shows the stage at work on the recording whose turn it is."""
+        turn = f" ({self._at} of {len(self.paths)})" if len(self.paths) > 1 else ""
+        return progress(f"{path.name}{turn}", quiet=self._quiet)
+
+    def exit(self) -> None:
+        """Say what was left out and why; end with code 1 if something named gave nothing."""
+        for say, text in self._messages:
+            say(text)
+        if self._missing:
+            raise typer.Exit(1)
+
+    def _recordings_in(self, folder: Path, *, recursive: bool) -> list[Path]:
+        from kineme.formats.listing import recordings_in
+
+        listing = recordings_in(folder, recursive=recursive)
+        self._messages += [
+            (say_skipped, f"{path}: {reason}") for path, reason in listing.passed_over
+        ]
+        names = ", ".join(path.name for path in listing.folders[:3])
+        more = ", …" if len(listing.folders) > 3 else ""
+        deeper = f"--recursive looks into its folders ({names}{more})" if names else ""
+        if not listing.recordings:
+            told = "; ".join(filter(None, ("there is no recording in this folder", deeper)))
+            if folder not in (path for path, _ in listing.passed_over):
+                self._messages.append((say_error, f"{folder}: {told}"))
+        elif deeper:
+            self._messages.append((say_skipped, f"{folder}: {deeper}"))
+        return listing.recordings
+
+    def _is_named(self, path: Path) -> bool:
+        """Whether a recording was asked for by its own name, not found in a folder."""
+        own = absolute(path)
+        return any(absolute(origin) == own for origin in self._given_as[own])
+
+    @contextmanager
+    def _nothing_without(self) -> Iterator[None]:
+        """End at once where there is no place for any result."""
+        try:
+            yield
+        except WriteError as error:
+            self._messages.append((say_error, one_line(error)))
+            self._missing.add(Path(error.path))
+            self.exit()

@@ -1,56 +1,82 @@
-"""``kineme label``: the labelled primitives of a recording into a knowledge base."""
+"""``kineme label``: the labelled primitives of recordings into a knowledge base."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import Effectors, Quiet, effector_names
+from kineme.cli.inputs import Batch, Files, Recursive
+from kineme.cli.messages import Failures
+from kineme.cli.reading import Effectors, Quiet
+from kineme.cli.request import Request, Stage
+
+if TYPE_CHECKING:
+    from kineme.transfer import KnowledgeBase
 
 
 def label(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording.")],
+    files: Files,
     labels: Annotated[
         Path,
         typer.Option(
             metavar="TABLE",
-            help="Its labels: a segment table, or a label file of another program.",
+            help="Their labels: a segment table, or a label file of another program; a folder "
+            "of them; or a name with {name} in it.",
         ),
     ],
     knowledge: Annotated[
         Path, typer.Option(help="Knowledge base to add to, .npz; made if it is not there.")
     ],
+    recursive: Recursive = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
-    """Add the labelled primitives of a recording to a knowledge base.
+    """Add the labelled primitives of recordings to a knowledge base.
 
     Where the labels name whole activities only, the recording is cut into primitives first.
-    What the knowledge base held of this recording is replaced.
+    What the knowledge base held of a recording is replaced.
     """
-    reading = reading or {}
-    names = effector_names(effectors)
+    request = Request.of(reading=reading, effectors=effectors)
+    batch = Batch(files, recursive=recursive, quiet=quiet)
+    tables = batch.tables("--labels", labels)
     failures = Failures()
-    with failures.caught(file), progress(file.name, quiet=quiet) as stage:
-        stage("reading")
-        from kineme.formats import read
-        from kineme.labels import read_segments
-        from kineme.segmentation.segmenter import segment
-        from kineme.transfer import KnowledgeBase, name_primitives
+    from kineme.transfer import KnowledgeBase
 
-        known = [KnowledgeBase.load(knowledge)] if knowledge.exists() else []
-        motion = read(file, **reading)
-        table = read_segments(labels, fps=motion.fps, n_frames=motion.n_frames)
-        if not len(table.primitives):
-            table = name_primitives(segment(motion, effectors=names, progress=stage), table)
-        added = KnowledgeBase.from_recording(motion, table, effectors=names)
-        merged = KnowledgeBase.merged(*known, added)
-        merged.save(knowledge)
-        if not quiet:
-            what = ", ".join(f"{name} {count}" for name, count in added.counts().items())
-            typer.echo(f"{knowledge}: {what} from {file.name}; {len(merged)} primitives in all")
+    known = []
+    with failures.caught(knowledge):
+        known += [KnowledgeBase.load(knowledge)] if knowledge.exists() else []
     failures.exit()
+    added: dict[Path, KnowledgeBase] = {}
+    for path, table in zip(batch.paths, tables, strict=True):
+        with batch.caught(path), batch.progress(path) as stage:
+            added[path] = _labelled(request, path, table, stage)
+    with failures.caught(knowledge):
+        if added:
+            merged = KnowledgeBase.merged(*known, *added.values())
+            merged.save(knowledge)
+            if not quiet:
+                _show(knowledge, added, len(merged))
+    batch.exit()
+    failures.exit()
+
+
+def _labelled(request: Request, path: Path, labels: Path | None, stage: Stage) -> KnowledgeBase:
+    """The primitives of a recording, called as its labels say."""
+    from kineme.transfer import KnowledgeBase, name_primitives
+
+    stage("reading")
+    motion = request.read_motion(path)
+    table = request.segments(motion, labels, stage)
+    if not len(table.primitives):
+        table = name_primitives(request.segment(motion, stage)[0], table)
+    return KnowledgeBase.from_recording(motion, table, effectors=request.effectors)
+
+
+def _show(knowledge: Path, added: dict[Path, KnowledgeBase], total: int) -> None:
+    """One line per recording: what it added."""
+    for path, base in added.items():
+        what = ", ".join(f"{name} {count}" for name, count in base.counts().items())
+        typer.echo(f"{knowledge}: {what} from {path.name}; {total} primitives in all")

@@ -15,7 +15,7 @@ PATIENCE = 1.0  # seconds before progress is shown
 
 
 class Failures:
-    """Counts and reports the inputs that failed, so that the others still run."""
+    """Counts and reports what failed, so that the command can end with one sentence of it."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -27,8 +27,7 @@ class Failures:
             yield
         except KinemeError as error:
             self.count += 1
-            text = _one_line(error)
-            _say("error", text if str(subject) in text else f"{subject}: {text}", typer.colors.RED)
+            say_error(one_line(error, subject=subject))
 
     def exit(self) -> None:
         """End with code 1 if anything failed."""
@@ -66,14 +65,26 @@ def _no_progress(_: str) -> None:
     """Says nothing."""
 
 
+def say_error(text: str) -> None:
+    """A line about what failed."""
+    _say("error", text, typer.colors.RED)
+
+
+def say_skipped(text: str) -> None:
+    """A line about what was left out, though nobody had asked for it by name."""
+    _say("skipped", text, typer.colors.YELLOW)
+
+
+def one_line(message: object, *, subject: object = "") -> str:
+    """A message without line breaks, and what it is about if that is not in it."""
+    text = " ".join(str(message).split())
+    return text if str(subject) in text else f"{subject}: {text}"
+
+
 def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
-    _say("warning", _one_line(message), typer.colors.YELLOW)
+    _say("warning", one_line(message), typer.colors.YELLOW)
 
 
 def _say(what: str, text: str, color: str) -> None:
     typer.secho(f"{what}: ", fg=color, bold=True, err=True, nl=False)
     typer.echo(text, err=True)
-
-
-def _one_line(message: object) -> str:
-    return " ".join(str(message).split())

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from dataclasses import fields
 from functools import partial, wraps
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
@@ -25,9 +24,7 @@ from kineme.methods.presets import (
 
 PANEL = "Constants of the preset (seconds, metres; body sizes in kineme)"
 KINDS = (ActionPreset, RegionPreset)
-NAMES = tuple(
-    dict.fromkeys(field.name for kind in KINDS for field in fields(kind) if field.name != "name")
-)
+NAMES = tuple(dict.fromkeys(name for kind in KINDS for name in kind.constants()))
 
 
 def with_preset_options(command: Callable[..., None]) -> Callable[..., None]:

@@ -8,21 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import Files, recordings_of
-from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import Effectors, Json, Quiet, effector_names
-from kineme.cli.signals import Columns, Emg, SignalOptions, run_signals
-from kineme.cli.targets import check_writable, targets
-from kineme.errors import ParameterError
-from kineme.methods.presets import DEFAULT, PRESETS, Preset, resolve_preset
+from kineme.cli.inputs import Batch, Files, Recursive
+from kineme.cli.reading import Effectors, Json, Quiet
+from kineme.cli.request import Request
+from kineme.cli.signals import Columns, Emg
+from kineme.cli.targets import check_writable
+from kineme.methods.presets import DEFAULT, PRESETS
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
-    from kineme.features import Names
     from kineme.methods.recurrence.analysis import ActionAnalysis
     from kineme.methods.region_growing.analysis import Analysis
-    from kineme.recordings.motion import Motion
-    from kineme.recordings.signals import Signals
     from kineme.segments.segmentation import Segmentation
 
 
@@ -47,6 +43,7 @@ def segment(
         typer.Option(help="Page to look at: .html; a folder; or a name with {name} in it."),
     ] = None,
     level: Annotated[Level, typer.Option(help="Rows to print.")] = "activity",
+    recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
@@ -56,34 +53,24 @@ def segment(
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Cut recordings into activities, transitions and repeated primitives."""
-    overrides = overrides or {}
-    try:
-        chosen = resolve_preset(preset, **overrides)
-    except ParameterError as error:
-        raise typer.BadParameter(str(error)) from error
-    reading = reading or {}
-    failures = Failures()
-    files = recordings_of(files, failures)
-    tables = targets("--output", output, files, ".csv")
-    pictures = targets("--plot", plot, files, ".png")
-    pages = targets("--report", report, files, ".html")
-    names = effector_names(effectors)
-    signals = SignalOptions.of(columns, reading.get("fps"), emg=emg)
-    source: Motion | Signals
-    for path, table, picture, page in zip(files, tables, pictures, pages, strict=True):
-        with failures.caught(path):
+    request = Request.of(preset, overrides, reading, effectors, columns, emg=emg)
+    batch = Batch(files, recursive=recursive, quiet=quiet)
+    tables = batch.targets("--output", output, ".csv")
+    pictures = batch.targets("--plot", plot, ".png")
+    pages = batch.targets("--report", report, ".html")
+    for path, table, picture, page in zip(batch.paths, tables, pictures, pages, strict=True):
+        with batch.caught(path):
             check_writable(table, picture, page)
-            if signals.mean(path):
-                result, analysis, source = run_signals(
-                    path, signals, preset, overrides, quiet=quiet
-                )
-            else:
-                result, analysis, source = run(path, reading, chosen, names, quiet=quiet)
+            with batch.progress(path) as stage:
+                stage("reading")
+                recording = request.read(path)
+                result, analysis = request.segment(recording, stage)
             write_results(result, analysis, table, picture)
             if page is not None:
                 from kineme.report.page import write_report
 
-                write_report(source, result, page, effectors=names)
+                drawn = request.drawn(recording)
+                write_report(drawn, result, page, effectors=request.effectors)
             if json:
                 from kineme.labels.json_table import as_object
 
@@ -92,26 +79,7 @@ def segment(
                 from kineme.cli.tables import show_segments
 
                 show_segments(result, level, written=[table, picture, page])
-    failures.exit()
-
-
-def run(
-    path: Path,
-    reading: dict[str, Any],
-    preset: Preset,
-    effectors: Names | None,
-    *,
-    quiet: bool,
-) -> tuple[Segmentation, Analysis | ActionAnalysis, Motion]:
-    """The segments of a file, what each stage found on the way to them, and the motion."""
-    with progress(path.name, quiet=quiet) as stage:
-        stage("reading")
-        from kineme.formats import read
-        from kineme.segmentation.segmenter import segment_and_analysis
-
-        motion = read(path, **reading)
-        found = segment_and_analysis(motion, preset, effectors=effectors, progress=stage)
-        return *found, motion
+    batch.exit()
 
 
 def write_results(

@@ -1,4 +1,4 @@
-"""Options for recordings without a skeleton, and how such files are segmented and told."""
+"""Options for recordings without a skeleton, and how such files are read and told."""
 
 from __future__ import annotations
 
@@ -8,13 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.messages import progress
-
 if TYPE_CHECKING:
-    from kineme.methods.recurrence.analysis import ActionAnalysis
-    from kineme.methods.region_growing.analysis import Analysis
     from kineme.recordings.signals import Signals
-    from kineme.segments.segmentation import Segmentation
 
 PANEL = "Signals without a skeleton"
 
@@ -28,7 +23,11 @@ Columns = Annotated[
 ]
 Emg = Annotated[
     bool,
-    typer.Option("--emg", help="Muscle signals: take their envelopes.", rich_help_panel=PANEL),
+    typer.Option(
+        "--emg",
+        help="Muscle signals: take their envelopes; of a C3D, muscles only.",
+        rich_help_panel=PANEL,
+    ),
 ]
 
 
@@ -60,7 +59,7 @@ class SignalOptions:
         """The signals in a file."""
         from kineme.formats.channels.reading import read_signals
 
-        return read_signals(path, columns=self.columns, fps=self.fps)
+        return read_signals(path, columns=self.columns, fps=self.fps, emg=self.emg)
 
     def drawn(self, signals: Signals) -> Signals:
         """The signals as a page compares their moments: muscles by their envelopes."""
@@ -69,21 +68,6 @@ class SignalOptions:
         from kineme.features.emg import emg_envelope
 
         return replace(signals, values=emg_envelope(signals.values, signals.fps))
-
-
-def run_signals(
-    path: Path, options: SignalOptions, preset: str, overrides: dict[str, Any], *, quiet: bool
-) -> tuple[Segmentation, Analysis | ActionAnalysis, Signals]:
-    """The segments of a file of signals, what each stage found, and the signals to draw."""
-    with progress(path.name, quiet=quiet) as stage:
-        stage("reading")
-        from kineme.segmentation.channels import signal_preset
-        from kineme.segmentation.signals import segment_signals_and_analysis
-
-        signals = options.read(path)
-        chosen = signal_preset(preset, **overrides)
-        found = segment_signals_and_analysis(signals, chosen, emg=options.emg, progress=stage)
-        return *found, options.drawn(signals)
 
 
 def signal_facts(signals: Signals) -> dict[str, Any]:

@@ -1,29 +1,31 @@
-"""``kineme split``: a recording in, a folder of clips out."""
+"""``kineme split``: recordings in, a folder of clips of each out."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import Effectors, Quiet, effector_names
-from kineme.errors import ParameterError
-from kineme.methods.presets import DEFAULT, PRESETS, resolve_preset
+from kineme.cli.inputs import Batch, Files, Recursive
+from kineme.cli.reading import Effectors, Quiet
+from kineme.cli.request import Request
+from kineme.cli.signals import Columns, Emg
+from kineme.cli.targets import make_folder_of
+from kineme.methods.presets import DEFAULT, PRESETS
 from kineme.segments.table import Level
-
-if TYPE_CHECKING:
-    from kineme.features import Names
-    from kineme.methods.presets import Preset
-    from kineme.recordings.motion import Motion
-    from kineme.segments.segmentation import Segmentation
 
 
 def split(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A recording.")],
+    files: Files,
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder to make; it must be new or empty.")
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            help="Folder to make, new or empty; with several recordings one of its own in it "
+            "for each, or by a name with {name} in it.",
+        ),
     ],
     level: Annotated[Level, typer.Option(help="Segments to take.")] = "activity",
     cluster: Annotated[
@@ -34,55 +36,39 @@ def split(
     ] = False,
     segments: Annotated[
         Path | None,
-        typer.Option(help="Table or labels to cut by, instead of segmenting anew."),
+        typer.Option(
+            help="Table or labels to cut by, instead of segmenting anew; a folder of them; "
+            "or a name with {name} in it."
+        ),
     ] = None,
     preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
+    recursive: Recursive = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
+    columns: Columns = None,
+    emg: Emg = False,
     overrides: dict[str, Any] | None = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
-    """Write each segment of a recording as a motion file, and a manifest of them.
+    """Write each segment of a recording as a file of its own, and a manifest of them.
 
-    BVH, or CSV of joint positions where there are no rotations.
+    BVH, or CSV of joint positions where there are no rotations. Of signals, rows of their file.
     """
-    try:
-        chosen = resolve_preset(preset, **(overrides or {}))
-    except ParameterError as error:
-        raise typer.BadParameter(str(error)) from error
-    reading = reading or {}
-    failures = Failures()
-    with failures.caught(file):
-        motion, cuts = _cuts(
-            file, reading, chosen, effector_names(effectors), segments, quiet=quiet
-        )
-        from kineme.clips.split import split as write_clips
+    request = Request.of(preset, overrides, reading, effectors, columns, emg=emg)
+    batch = Batch(files, recursive=recursive, quiet=quiet)
+    folders = batch.folders("--output", output)
+    tables = batch.tables("--segments", segments)
+    for path, folder, table in zip(batch.paths, folders, tables, strict=True):
+        with batch.caught(path):
+            with batch.progress(path) as stage:
+                stage("reading")
+                recording = request.read(path)
+                cuts = request.segments(recording, table, stage)
+            from kineme.clips.split import split as write_clips
 
-        clips = write_clips(motion, cuts, output, level=level, cluster=cluster, loops=loop)
-        if not quiet:
-            typer.echo(f"{len(clips)} clips in {output}")
-    failures.exit()
-
-
-def _cuts(
-    file: Path,
-    reading: dict[str, Any],
-    preset: Preset,
-    names: Names | None,
-    table: Path | None,
-    *,
-    quiet: bool,
-) -> tuple[Motion, Segmentation]:
-    """The recording and its segments, from the table if there is one."""
-    with progress(file.name, quiet=quiet) as stage:
-        stage("reading")
-        from kineme.formats import read
-
-        motion = read(file, **reading)
-        if table is not None:
-            from kineme.labels import read_segments
-
-            return motion, read_segments(table, fps=motion.fps, n_frames=motion.n_frames)
-        from kineme.segmentation.segmenter import segment_and_analysis
-
-        return motion, segment_and_analysis(motion, preset, effectors=names, progress=stage)[0]
+            if not batch.single:
+                make_folder_of(folder)
+            clips = write_clips(recording, cuts, folder, level=level, cluster=cluster, loops=loop)
+            if not quiet:
+                typer.echo(f"{len(clips)} clips in {folder}")
+    batch.exit()

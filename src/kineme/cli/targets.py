@@ -1,8 +1,18 @@
-"""Where results go: a file, a folder, or a pattern with ``{name}`` in it."""
+"""Where results go: a file, a folder, or a pattern with ``{name}`` and ``{parent}`` in it.
+
+One rule for every command. A folder, one that exists or any path without a suffix, gets a
+file per recording, called as that is. ``{name}`` stands for the recording's name,
+``{parent}`` for its folder's. Recordings of one name are told apart by their folders:
+``a/take.bvh`` and ``b/take.bvh`` become ``a_take`` and ``b_take``.
+
+Folders are made; that which is to hold all of them must have a folder to lie in.
+"""
 
 from __future__ import annotations
 
 import os
+import re
+from collections import Counter
 from pathlib import Path
 
 import typer
@@ -10,39 +20,74 @@ import typer
 from kineme.errors import WriteError
 from kineme.labels import written_suffixes
 
-NAME = "{name}"
+NAME, PARENT = "{name}", "{parent}"
 PICTURES = (".png", ".pdf", ".svg")
 PAGES = (".html", ".htm")
+KEPT = (".segments.json", *written_suffixes())
+"""How the table of a recording may end in a folder of tables, likeliest first."""
+
+_FIELD = re.compile(r"\{(name|parent)\}")
 
 
-def targets(option: str, given: Path | None, inputs: list[Path], suffix: str) -> list[Path | None]:
-    """One path per input; None for each where the option was not given.
+def targets_for(
+    option: str, given: Path | None, inputs: list[Path], suffix: str
+) -> list[Path | None]:
+    """One path per recording; None for each where the option was not given.
 
-    A folder (one that exists, or any path without a suffix) gets
-    ``NAME`` + ``suffix`` for every input and is made if it is not there.
-    ``{name}`` in a file's name stands for the input's name.
+    Raises
+    ------
+    WriteError
+        The folder to write to has none to lie in.
+    typer.BadParameter
+        One file for several recordings, or one that is a recording itself.
     """
     if given is None:
         return [None] * len(inputs)
-    if given.is_dir() or not given.suffix:
-        given = given / f"{NAME}{suffix}"
-    elif len(inputs) > 1 and NAME not in given.name:
-        raise typer.BadParameter(
-            f"one file for {len(inputs)} recordings; give a folder or a name with {NAME} in it",
-            param_hint=option,
-        )
-    paths = [given.with_name(given.name.replace(NAME, path.stem)) for path in inputs]
-    if len(set(paths)) < len(paths):
-        twice = next(path for path in paths if paths.count(path) > 1)
-        raise typer.BadParameter(f"several recordings would become {twice}", param_hint=option)
-    given_files = {path.resolve() for path in inputs}
+    return [*files_for(option, given, inputs, suffix)]
+
+
+def files_for(option: str, given: Path, inputs: list[Path], suffix: str = "") -> list[Path]:
+    """The same where the option is never left out."""
+    pattern = given / f"{NAME}{suffix}" if _is_folder(given) else given
+    paths = _one_each(option, pattern, inputs)
+    recordings = {path.resolve() for path in inputs}
     for path in paths:
-        if path.resolve() in given_files:
+        if path.resolve() in recordings:
             raise typer.BadParameter(
                 f"{path} would take the place of a recording; give another folder or name",
                 param_hint=option,
             )
-    return list(paths)
+    check_place(pattern)
+    return paths
+
+
+def folders_for(option: str, given: Path, inputs: list[Path], *, single: bool) -> list[Path]:
+    """One folder per recording: the one given for a single one, else one of its own in it."""
+    if single and not _FIELD.search(str(given)):
+        return [given]
+    pattern = given if _FIELD.search(str(given)) else given / NAME
+    paths = _one_each(option, pattern, inputs)
+    check_place(pattern)
+    return paths
+
+
+def tables_for(option: str, given: Path | None, inputs: list[Path]) -> list[Path | None]:
+    """The table of each recording: a file, by a pattern, or that of its name in a folder."""
+    if given is None:
+        return [None] * len(inputs)
+    if not _is_folder(given):
+        return list(_one_each(option, given, inputs))
+    return [_kept(path, set(inputs)) for path in _one_each(option, given / NAME, inputs)]
+
+
+def check_place(pattern: Path) -> None:
+    """WriteError where the folder that is to hold all results has none to lie in."""
+    fixed = pattern.parent
+    while _FIELD.search(str(fixed)):
+        fixed = fixed.parent
+    if not fixed.exists() and not fixed.parent.is_dir():
+        reason = f"the folder {fixed} cannot be made: there is no {fixed.parent}"
+        raise WriteError(pattern, reason)
 
 
 def check_writable(
@@ -50,17 +95,88 @@ def check_writable(
 ) -> None:
     """WriteError for results that could not be written, before any work is done.
 
-    Makes the folder they go to if its own parent is there.
+    Makes the folders that they go to.
     """
     for path, suffixes in ((table, written_suffixes()), (picture, PICTURES), (page, PAGES)):
         if path is None:
             continue
         if path.suffix.lower() not in suffixes:
             raise WriteError(path, f"the suffix must be one of {', '.join(suffixes)}")
-        try:
-            path.parent.mkdir(exist_ok=True)
-        except OSError as error:
-            reason = f"the folder {path.parent} cannot be made: {error.strerror}"
-            raise WriteError(path, reason) from error
-        if not os.access(path.parent, os.W_OK):
-            raise WriteError(path, f"the folder {path.parent} may not be written to")
+        make_folder_of(path)
+
+
+def make_folder_of(path: Path) -> None:
+    """Make the folder that a file or a folder is to lie in; WriteError if that cannot be."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = f"the folder {path.parent} cannot be made: {error.strerror}"
+        raise WriteError(path, reason) from error
+    if not os.access(path.parent, os.W_OK):
+        raise WriteError(path, f"the folder {path.parent} may not be written to")
+
+
+def absolute(path: Path) -> Path:
+    """The path from the root, under the names that it was given: links are not followed."""
+    return Path(os.path.abspath(path))  # noqa: PTH100
+
+
+def _is_folder(given: Path) -> bool:
+    return given.is_dir() or not given.suffix
+
+
+def _one_each(option: str, pattern: Path, inputs: list[Path]) -> list[Path]:
+    """The pattern filled in for each recording, all of them different."""
+    if len(inputs) > 1 and not _FIELD.search(str(pattern)):
+        raise typer.BadParameter(
+            f"one file for {len(inputs)} recordings; give a folder or a name with {NAME} in it",
+            param_hint=option,
+        )
+    names, folders = _names(inputs), [absolute(path).parts[1:-1] for path in inputs]
+    depths = [0] * len(inputs)
+    while True:
+        paths = [
+            _filled(pattern, name, folder, depth)
+            for name, folder, depth in zip(names, folders, depths, strict=True)
+        ]
+        count = Counter(paths)
+        clashing = [i for i, path in enumerate(paths) if count[path] > 1]
+        deeper = [i for i in clashing if depths[i] < len(folders[i])]
+        if not deeper:
+            break
+        for i in deeper:
+            depths[i] += 1
+    if clashing:
+        raise typer.BadParameter(
+            f"several recordings would become {paths[clashing[0]]}; put {NAME} in it",
+            param_hint=option,
+        )
+    return paths
+
+
+def _names(inputs: list[Path]) -> list[str]:
+    """Names without suffixes, but for recordings that differ in nothing else."""
+    count = Counter(path.with_suffix("") for path in inputs)
+    return [
+        path.name
+        if path.is_dir()
+        else path.stem + path.suffix.replace(".", "_") * (count[path.with_suffix("")] > 1)
+        for path in inputs
+    ]
+
+
+def _filled(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> Path:
+    """The pattern with a recording's name and folder, and more of its folders the deeper."""
+    if PARENT in str(pattern):
+        parent = "_".join(folders[-1 - depth :])
+    else:
+        parent, name = "", "_".join((*folders[len(folders) - depth :], name))
+    values = {"name": name, "parent": parent}
+    return Path(_FIELD.sub(lambda field: values[field[1]], str(pattern)))
+
+
+def _kept(path: Path, recordings: set[Path]) -> Path:
+    """The first file of a name, with one of the suffixes of tables, that is no recording."""
+    candidates = [path.with_name(path.name + suffix) for suffix in KEPT]
+    there = (file for file in candidates if file.is_file() and file not in recordings)
+    return next(there, candidates[0])

@@ -8,19 +8,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import Effectors, Json, Quiet, effector_names
-from kineme.cli.targets import check_writable, targets
+from kineme.cli.inputs import Batch, Files, Recursive
+from kineme.cli.messages import Failures
+from kineme.cli.reading import Effectors, Json, Quiet
+from kineme.cli.request import Request, Stage
+from kineme.cli.targets import check_writable
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
-    from kineme.features import Names
     from kineme.segments.segmentation import Segmentation
     from kineme.transfer import KnowledgeBase
 
 
 def transfer(
-    files: Annotated[list[Path], typer.Argument(metavar="FILES", help="The recordings.")],
+    files: Files,
     knowledge: Annotated[
         list[Path],
         typer.Option(help="Knowledge base that `kineme label` made, .npz; may be given again."),
@@ -45,6 +46,7 @@ def transfer(
         ),
     ] = None,
     level: Annotated[Level, typer.Option(help="Rows to print.")] = "primitive",
+    recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
@@ -53,9 +55,9 @@ def transfer(
     """Cut recordings, and label what is like the primitives of a knowledge base."""
     if threshold is not None and not 0 < threshold < float("inf"):
         raise typer.BadParameter(f"must be a number above 0, not {threshold}")
-    reading = reading or {}
-    names = effector_names(effectors)
-    tables = targets("--output", output, files, ".csv")
+    request = Request.of(reading=reading, effectors=effectors)
+    batch = Batch(files, recursive=recursive, quiet=quiet)
+    tables = batch.targets("--output", output, ".csv")
     failures = Failures()
     from kineme.transfer import KnowledgeBase
 
@@ -68,10 +70,11 @@ def transfer(
     options: dict[str, Any] = {"spread": spread}
     if threshold is not None:
         options["threshold"] = threshold
-    for path, table in zip(files, tables, strict=True):
-        with failures.caught(path):
-            check_writable(table, None)
-            result = run(path, reading, base, names, options, quiet=quiet)
+    for path, table in zip(batch.paths, tables, strict=True):
+        with batch.caught(path):
+            check_writable(table)
+            with batch.progress(path) as stage:
+                result = _named(request, path, base, options, stage)
             if table is not None:
                 from kineme.labels import write_segments
 
@@ -84,27 +87,18 @@ def transfer(
                 from kineme.cli.tables import show_segments
 
                 show_segments(result, level, written=[table])
-    failures.exit()
+    batch.exit()
 
 
-def run(
-    path: Path,
-    reading: dict[str, Any],
-    base: KnowledgeBase,
-    effectors: Names | None,
-    options: dict[str, Any],
-    *,
-    quiet: bool,
+def _named(
+    request: Request, path: Path, base: KnowledgeBase, options: dict[str, Any], stage: Stage
 ) -> Segmentation:
     """The segments of a file, labelled."""
-    with progress(path.name, quiet=quiet) as stage:
-        stage("reading")
-        from kineme.formats import read
-        from kineme.segmentation.segmenter import segment
-        from kineme.transfer import transfer_features, transfer_labels
+    from kineme.transfer import transfer_features, transfer_labels
 
-        motion = read(path, **reading)
-        found = segment(motion, effectors=effectors, progress=stage)
-        stage("labels")
-        features = transfer_features(motion, effectors=effectors)
-        return transfer_labels(found, features, base, **options)
+    stage("reading")
+    motion = request.read_motion(path)
+    found = request.segment(motion, stage)[0]
+    stage("labels")
+    features = transfer_features(motion, effectors=request.effectors)
+    return transfer_labels(found, features, base, **options)

@@ -1,7 +1,8 @@
-"""Segments as clips: a folder with a motion file each, and a manifest of them.
+"""Segments as clips: a folder with a file each, and a manifest of them.
 
-A clip is a BVH; a CSV of joint positions where the motion has no rotations
-(see :mod:`kineme.formats.tables.tables`). Clips are called
+A clip of a motion is a BVH; a CSV of joint positions where it has no rotations
+(see :mod:`kineme.formats.tables.tables`). A clip of signals is rows of their own file
+(see :mod:`kineme.formats.channels.writing`). Clips are called
 ``RECORDING_NUMBER_TEXT``, with the text of
 :mod:`kineme.labels.spans` and ``_`` for what file systems dislike.
 
@@ -24,7 +25,7 @@ from __future__ import annotations
 import csv
 import secrets
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from math import degrees
 from os import PathLike
@@ -33,9 +34,11 @@ from pathlib import Path
 from kineme.clips.loops import loop
 from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.formats import write
+from kineme.formats.channels.writing import rows_of
 from kineme.labels.spans import text_of
 from kineme.recordings.motion import Motion
 from kineme.recordings.operations import cut
+from kineme.recordings.signals import Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -43,9 +46,12 @@ MANIFEST = "manifest.csv"
 SPANS = ("start_frame", "stop_frame", "start_s", "stop_s", "level", "kind", "cluster", "label")
 CARRY = ("turn_deg", "x_m", "z_m")
 
+Write = Callable[[Segment, Path], tuple[float, ...]]
+"""Leaves the clip of a segment in a file; gives what carries a loop on, else nothing."""
+
 
 def split(
-    motion: Motion,
+    recording: Motion | Signals,
     segmentation: Segmentation,
     folder: str | PathLike[str],
     *,
@@ -57,42 +63,60 @@ def split(
 
     Parameters
     ----------
-    motion : the recording that was segmented
+    recording : what was segmented
     segmentation : its segments, of as many frames
     folder : to be made; one that is there must be empty
     level, cluster : the segments to take; without a cluster all, transitions too
-    loops : blend the ends of each clip (see :mod:`kineme.clips.loops`)
+    loops : blend the ends of each clip (see :mod:`kineme.clips.loops`); motions only
 
     Raises
     ------
     MotionError : the segments are of another recording
-    ParameterError : no segment is of that level and cluster
+    ParameterError : no segment is of that level and cluster, or loops of signals
     WriteError : the folder is not empty, or cannot be written
     """
-    if segmentation.n_frames != motion.n_frames:
+    if segmentation.n_frames != recording.n_frames:
         raise MotionError(
             f"the segments are of a recording of {segmentation.n_frames} frames, "
-            f"this one has {motion.n_frames}"
+            f"this one has {recording.n_frames}"
         )
     rows = [row for row in segmentation.level(level) if cluster in (None, row.cluster)]
     if not rows:
         found = sorted({row.cluster for row in segmentation.level(level)} - {-1})
         raise ParameterError(f"no {level} is in cluster {cluster}; there are {found}")
+    suffix, write_clip = _writer(recording, loops=loops)
     target = Path(folder)
-    names = [_name(motion, number, row) for number, row in enumerate(rows)]
+    stem = _plain(Path(recording.provenance.path or "recording").stem)
+    names = [f"{stem}_{i:04d}_{_plain(text_of(row))}{suffix}" for i, row in enumerate(rows)]
     with _new_folder(target) as draft:
-        carries = [
-            _write_clip(cut(motion, row.start_frame, row.stop_frame), draft / name, loops=loops)
-            for row, name in zip(rows, names, strict=True)
-        ]
-        _write_manifest(draft / MANIFEST, motion, rows, names, carries)
+        carries = [write_clip(row, draft / name) for row, name in zip(rows, names, strict=True)]
+        _write_manifest(draft / MANIFEST, recording, rows, names, carries)
     return [target / name for name in names]
 
 
-def _name(motion: Motion, number: int, row: Segment) -> str:
-    source = Path(motion.provenance.path or "motion").stem
-    suffix = ".csv" if motion.rotations is None else ".bvh"
-    return f"{_plain(source)}_{number:04d}_{_plain(text_of(row))}{suffix}"
+def _writer(recording: Motion | Signals, *, loops: bool) -> tuple[str, Write]:
+    """The suffix of clips, and what writes one."""
+    if isinstance(recording, Signals):
+        if loops:
+            raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
+        own = rows_of(recording)
+
+        def write_rows(row: Segment, path: Path) -> tuple[float, ...]:
+            own.write(path, row.start_frame, row.stop_frame)
+            return ()
+
+        return own.suffix, write_rows
+
+    def write_motion(row: Segment, path: Path) -> tuple[float, ...]:
+        clip = cut(recording, row.start_frame, row.stop_frame)
+        if not loops:
+            write(clip, path)
+            return ()
+        clip, carry = loop(clip)
+        write(clip, path)
+        return degrees(carry.turn), carry.x, carry.z
+
+    return ".csv" if recording.rotations is None else ".bvh", write_motion
 
 
 def _plain(text: str) -> str:
@@ -123,24 +147,14 @@ def _new_folder(target: Path) -> Iterator[Path]:
         shutil.rmtree(draft, ignore_errors=True)
 
 
-def _write_clip(clip: Motion, path: Path, *, loops: bool) -> tuple[float, ...]:
-    """Leave a clip at ``path``; what carries a loop on, else nothing."""
-    numbers: tuple[float, ...] = ()
-    if loops:
-        clip, carry = loop(clip)
-        numbers = (degrees(carry.turn), carry.x, carry.z)
-    write(clip, path)
-    return numbers
-
-
 def _write_manifest(
     path: Path,
-    motion: Motion,
+    recording: Motion | Signals,
     rows: Sequence[Segment],
     names: Sequence[str],
     carries: Sequence[tuple[float, ...]],
 ) -> None:
-    source = str(motion.provenance.path or "").encode(errors="backslashreplace").decode()
+    source = str(recording.provenance.path or "").encode(errors="backslashreplace").decode()
     with path.open("w", encoding="utf-8", newline="") as file:
         lines = csv.writer(file, lineterminator="\n")
         lines.writerow(["file", "source", *SPANS, *(CARRY if carries[0] else ())])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -78,18 +77,16 @@ def recordings_below(folder: Path) -> list[Path]:
     Returns
     -------
     list of Path
-        In the order of their names, those of the folder itself first.
+        In the order of their names, those of a folder before those deeper in it.
 
     Raises
     ------
     ReadError
-        There are none, or the folder cannot be opened.
+        There are none.
     """
     from kineme.formats.listing import recordings_in
 
-    inner = sorted(path for path in folder.iterdir() if path.is_dir()) if folder.is_dir() else []
-    found: list[Path] = []
-    for home in (folder, *inner):
-        with suppress(ReadError):
-            found += recordings_in(home)
-    return found or recordings_in(folder)
+    found = recordings_in(folder, recursive=True).recordings
+    if not found:
+        raise ReadError(folder, "there is no recording in this folder")
+    return found

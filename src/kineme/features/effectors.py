@@ -15,12 +15,13 @@ wrist joints, and the crown of the head where the skeleton has one.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._checks import check_type, is_one_of
 from kineme.errors import EndEffectorError
 from kineme.features.naming import find_by_name, words_of
 from kineme.features.topology import find_by_shape
@@ -85,6 +86,7 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     Voegele et al. 2014, section 3.1; the choice of tips as in the authors'
     program.
     """
+    check_type(source, (Motion, Skeleton), "end_effectors", "kineme.read(path) gives a motion")
     skeleton = source.skeleton if isinstance(source, Motion) else source
     found = {part: (joint, "as named") for part, joint in _named(skeleton, names).items()}
     _add(found, _find_by_asf_names(skeleton), "by ASF name")
@@ -118,11 +120,17 @@ def _add(found: dict[str, tuple[int, str]], more: Mapping[str, int], how: str) -
         found.setdefault(part, (joint, how))
 
 
+def _are_five(names: object) -> bool:
+    if isinstance(names, str) or not isinstance(names, Collection):
+        return False
+    return len(names) == len(PARTS)
+
+
 def _named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
     if names is None:
         return {}
     if not isinstance(names, Mapping):
-        if isinstance(names, str) or len(names) != len(PARTS):
+        if not _are_five(names):
             raise EndEffectorError(
                 f"five joint names are needed ({', '.join(PARTS)}), not {names!r}"
             )
@@ -130,7 +138,7 @@ def _named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
     for part, name in names.items():
         if part not in PARTS:
             raise EndEffectorError(f"no part is called {part!r}; there are {', '.join(PARTS)}")
-        if name not in skeleton.names:
+        if not is_one_of(name, skeleton.names):
             raise EndEffectorError(
                 f"no joint is called {name!r} (given for {part}); there are {_joint_list(skeleton)}"
             )

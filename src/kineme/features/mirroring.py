@@ -17,9 +17,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import as_floats
 from kineme.errors import MotionError, ParameterError
 from kineme.features.effectors import PARTS
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings.motion import Motion, Skeleton, check_motion
 
 Floats = NDArray[np.float64]
 
@@ -43,6 +44,7 @@ def mirror(motion: Motion) -> Motion:
     MotionError : no joint has a counterpart on the other side by name, or a limb
         has no equal there
     """
+    check_motion(motion, "mirror")
     partners = _partners(motion.skeleton)
     skeleton = replace(motion.skeleton, offsets=motion.skeleton.offsets[partners] * FLIP)
     rotations = motion.rotations
@@ -67,7 +69,7 @@ def mirror_features(features: ArrayLike) -> Floats:
     ------
     ParameterError : no such features
     """
-    values = np.asarray(features, np.float64)
+    values = as_floats(features, "features")
     block = 3 * len(PARTS)
     if values.ndim != 2 or values.shape[1] == 0 or values.shape[1] % block:
         raise ParameterError(

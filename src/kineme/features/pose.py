@@ -13,10 +13,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import as_floats, as_indices
 from kineme.errors import ParameterError
 from kineme.features.body_frame import body_frame
 from kineme.features.effectors import EndEffectors, Names, end_effectors
-from kineme.recordings.motion import Motion
+from kineme.recordings.motion import Motion, check_motion
 
 Floats = NDArray[np.float64]
 
@@ -38,6 +39,7 @@ def pose_features(motion: Motion, *, effectors: EndEffectors | Names | None = No
     ------
     Voegele et al. 2014, section 3.1 (feature set of 15 values).
     """
+    check_motion(motion, "pose_features")
     if not isinstance(effectors, EndEffectors):
         effectors = end_effectors(motion, names=effectors)
     local = body_frame(motion, effectors.indices, effectors=effectors)
@@ -64,7 +66,8 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
     ParameterError : features are not two-dimensional or empty, or there are no
         offsets or equal ones
     """
-    features = np.asarray(features, dtype=np.float64)
+    features = as_floats(features, "features")
+    offsets = as_indices(offsets, "offsets")
     if features.ndim != 2 or len(features) == 0:
         raise ParameterError(f"features must be frames x dims, not of shape {features.shape}")
     if len(offsets) == 0 or len(set(offsets)) < len(offsets):

@@ -3,7 +3,9 @@
 A joint is two or three columns that differ in their last letter: ``hip_x hip_y
 hip_z``, ``hip.x``, ``hip x`` or ``hipX``, in any order. Besides these there may be
 
-- the time: ``time``, ``t``, ``timestamp`` or ``seconds``, also ``time_s`` and ``time_ms``;
+- the time: ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or ``seconds``,
+  with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``: numbers or dates, see
+  `kineme.formats.timing`;
 - a rate in every row: ``fps`` or ``rate``;
 - how sure a pose estimator is: ``hip_confidence``, ``_likelihood``, ``_score``,
   ``_visibility``, ``_presence`` or ``_c``. Below 0.5 the joint counts as not seen.
@@ -21,9 +23,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme.formats.files import Source
+from kineme.formats.gaps import split_at
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import ReadOptions
-from kineme.formats.timing import even_frames
+from kineme.formats.timing import UNITS_OF_TIME, Timing, is_date, seconds, timing_of
 from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
@@ -37,7 +40,12 @@ _COORDINATE = re.compile(r"(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]
 _CONFIDENCE = re.compile(
     r"(.*[^\s_.:/-])[\s_.:/-]+(confidence|likelihood|score|visibility|presence|c)", re.IGNORECASE
 )
-_TIME = re.compile(r"(time|t|timestamp|seconds?)[\s_]*[\[(]?(s|ms)?[\])]?", re.IGNORECASE)
+_TIME = re.compile(
+    r"((?:unix|epoch|utc|sensor|elapsed)?[\s_]*time(?:[\s_]*stamp)?|t|date[\s_]*time|elapsed|"
+    rf"seconds?(?:[\s_]*elapsed)?|epoch?(?=[\s_]*[\[(]?[mun]?s\b))[\s_]*(?:[\[(]?({'|'.join(UNITS_OF_TIME)})?[\])]?|"
+    r"[\[(]?(?:utc|iso|[+-]\d{2}:?\d{2})[\])]?)",
+    re.IGNORECASE,
+)
 _RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
 
 
@@ -65,14 +73,16 @@ def columns_to_motion(
     limit = limit if options.confidence is None else options.confidence
     positions[sure < limit] = np.nan
     flat = all(len(axes) == 2 for axes in _axes(columns).values())
-    fps, positions, notes = timed(source, columns, positions, options.fps)
+    timing = timed(source, columns, options.fps)
+    notes = list(timing.notes)
     if (sure < limit).any():
         notes.append(f"{int((sure < limit).sum())} positions less sure than {limit:g} not used")
     unit, up = options.unit, options.up
     if flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")
         unit, up = unit or "pixel", up or "-y"
-    return to_motion(Points(names, positions, fps, unit, up), source.provenance(name, notes))
+    points = Points(names, positions, timing.fps, unit, up)
+    return split_at(to_motion(points, source.provenance(name, notes)), timing.gaps)
 
 
 def is_used(column: str) -> bool:
@@ -91,15 +101,18 @@ def is_timing(column: str) -> bool:
     return any(pattern.fullmatch(column.strip()) for pattern in (_TIME, _RATE))
 
 
-def timed(
-    source: Source, columns: Mapping[str, ArrayLike], values: Floats, fps: float | None
-) -> tuple[float, Floats, list[str]]:
-    """Frames per second, the values at even times, and what was done.
+def dated(names: Sequence[str], cells: Sequence[str]) -> list[int]:
+    """Which columns of a text table tell the time by dates, as their first cells do."""
+    pairs = enumerate(zip(names, cells, strict=False))
+    return [i for i, (name, cell) in pairs if _TIME.fullmatch(name.strip()) and is_date(cell)]
+
+
+def timed(source: Source, columns: Mapping[str, ArrayLike], fps: float | None) -> Timing:
+    """Frames per second, pauses, and what was seen of the times.
 
     Parameters
     ----------
     columns : (rows,) each, by their names; one of them tells the time or the rate
-    values : (rows, ...)
     fps : in place of what the columns tell
 
     Raises
@@ -107,16 +120,14 @@ def timed(
     ReadError : nothing tells the rate, or what does contradicts itself
     """
     if fps:
-        return fps, values, []
+        return Timing(fps)
     for column in columns:
         if _RATE.fullmatch(column.strip()):
-            return _one_rate(source, _column(source, columns, column)), values, []
+            return Timing(_one_rate(source, _column(source, columns, column)))
     for column in columns:
         match = _TIME.fullmatch(column.strip())
         if match:
-            times = _column(source, columns, column, len(values))
-            times = times / 1000 if (match[2] or "").lower() == "ms" else times
-            return _in_seconds(source, *even_frames(source, times, values))
+            return _in_seconds(source, timing_of(source, _times(source, columns, column, match[2])))
     raise source.error("no column 'time' or 'fps' found: give fps= (--fps)")
 
 
@@ -167,16 +178,24 @@ def _column(
     return values
 
 
-def _in_seconds(
-    source: Source, rate: float, values: Floats, notes: list[str]
-) -> tuple[float, Floats, list[str]]:
+def _times(source: Source, columns: Mapping[str, ArrayLike], name: str, unit: str | None) -> Floats:
+    """(rows,): a column of times in seconds."""
+    try:
+        times = seconds(columns[name], unit and unit.lower())
+    except (ValueError, TypeError) as error:
+        raise source.error(f"column {name!r} does not tell times: {error}") from None
+    return _column(source, {name: times}, name)
+
+
+def _in_seconds(source: Source, timing: Timing) -> Timing:
     """What the times tell, refused where they are so far apart that they are hardly seconds."""
+    rate = timing.fps
     if rate <= _SLOWEST:
         raise source.error(
             f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
             f"(--fps; {1000 * rate:g} for milliseconds)"
         )
-    return rate, values, notes
+    return timing
 
 
 def _one_rate(source: Source, rates: Sequence[float] | Floats) -> float:

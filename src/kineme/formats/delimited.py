@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.formats.files import Source, numbers, warn
+from kineme.formats.timing import date_seconds
 
 EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "-"})
 """What stands in a cell without a number, in lower case."""
@@ -23,6 +24,8 @@ def rows_of(
     separator: str,
     width: int,
     columns: Sequence[int] | None = None,
+    *,
+    dates: Sequence[int] = (),
 ) -> NDArray[np.float64]:
     """(rows, columns): the lines' cells as numbers, NaN where empty.
 
@@ -34,12 +37,14 @@ def rows_of(
     separator : between cells
     width : cells in a line; empty ones may follow
     columns : those wanted, all by default; the others may hold anything
+    dates : columns that hold dates, given as seconds since 1970
 
     Raises
     ------
     ReadError : a cell is not a number, or a line is too short or too long
     """
     wanted = range(width) if columns is None else columns
+    dated = [i for i in dates if i in wanted]
     values = array("d")
     reader = csv.reader(lines, delimiter=separator)
     try:
@@ -53,6 +58,8 @@ def rows_of(
                     raise source.error(reason, line)
                 warn(f"{source.path}, line {line}: {reason}: the last row breaks off, left out")
                 break
+            for i in dated:
+                cells[i] = _seconds(source, cells[i].strip(), line)
             values.extend(_numbers(source, [cells[i] for i in wanted], line))
     except csv.Error as error:
         raise source.error(str(error), first + reader.line_num - 1) from None
@@ -70,6 +77,14 @@ def texts_of(lines: Sequence[str], separator: str, column: int) -> list[str]:
 def separator_of(line: str) -> str:
     """Tab, semicolon or comma, whichever cuts the line into most cells."""
     return max("\t;,", key=line.count)
+
+
+def _seconds(source: Source, cell: str, line: int) -> str:
+    """A date as a number in text; what is empty stays so."""
+    try:
+        return cell if cell.lower() in EMPTY else repr(date_seconds(cell))
+    except ValueError as error:
+        raise source.error(str(error), line) from None
 
 
 def _numbers(source: Source, cells: list[str], line: int) -> list[float]:

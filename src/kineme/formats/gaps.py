@@ -10,7 +10,7 @@ every frame has some: nobody is to look at those.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,6 +89,12 @@ def covered(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
     for start, stop in spans:
         inside[start:stop] = True
     return inside
+
+
+def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
+    """The motion with these frames [start, stop) in its gaps, besides those that it has."""
+    joined = covered([*motion.gaps, *spans], motion.n_frames)
+    return replace(motion, gaps=tuple((a, b) for a, b in spans_of(joined).tolist()))
 
 
 def unseen(motion: Motion) -> list[bool]:

@@ -9,16 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import isfinite
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
+from kineme._checks import check_path, is_number, is_one_of
 from kineme.errors import MotionError, ParameterError, ReadError, WriteError
 from kineme.formats.files import Source, load
 from kineme.formats.units import AXES, UNITS
-from kineme.recordings.motion import Motion
+from kineme.recordings.motion import Motion, check_motion
 
 AnyPath = str | PathLike[str]
 
@@ -40,16 +40,20 @@ class ReadOptions:
     confidence: float | None = None
 
     def __post_init__(self) -> None:
-        if self.fps is not None and not (isfinite(self.fps) and self.fps > 0):
-            raise ParameterError(f"fps is {self.fps}: give frames per second, above 0")
-        if isinstance(self.unit, str) and self.unit not in UNITS:
-            raise ParameterError(f"unit is {self.unit!r}: give metres or one of {', '.join(UNITS)}")
-        if isinstance(self.unit, int | float) and not (isfinite(self.unit) and self.unit > 0):
-            raise ParameterError(f"unit is {self.unit}: give the metres in one unit, above 0")
-        if self.up is not None and self.up not in AXES:
+        if self.fps is not None and not (is_number(self.fps) and self.fps > 0):
+            raise ParameterError(f"fps is {self.fps!r:.60}: give frames per second, above 0")
+        if isinstance(self.unit, str):
+            if self.unit not in UNITS:
+                known = ", ".join(UNITS)
+                raise ParameterError(f"unit is {self.unit!r}: give metres or one of {known}")
+        elif self.unit is not None and not (is_number(self.unit) and self.unit > 0):
+            raise ParameterError(f"unit is {self.unit!r:.60}: give the metres in one unit, above 0")
+        if self.up is not None and not is_one_of(self.up, AXES):
             raise ParameterError(f"up is {self.up!r}: give one of {', '.join(AXES)}")
-        if self.confidence is not None and not isfinite(self.confidence):
-            raise ParameterError(f"confidence is {self.confidence}: give a number, such as 0.5")
+        if self.confidence is not None and not is_number(self.confidence):
+            raise ParameterError(
+                f"confidence is {self.confidence!r:.60}: give a number, such as 0.5"
+            )
 
 
 @dataclass(frozen=True)
@@ -116,6 +120,9 @@ def read(
     ReadError : the file is missing, damaged or of no known format
     ParameterError : an option is outside what it accepts
     """
+    check_path(path, "read")
+    if skeleton is not None:
+        check_path(skeleton, "skeleton")
     options = ReadOptions(
         skeleton=Path(skeleton) if skeleton is not None else None,
         fps=fps,
@@ -142,6 +149,8 @@ def write(motion: Motion, path: AnyPath) -> None:
     WriteError : unknown suffix, a motion the format cannot hold, or a place
         that cannot be written
     """
+    check_motion(motion, "write")
+    check_path(path, "write")
     target = Path(path)
     for known in _formats:
         if target.suffix.lower() in known.suffixes and known.write is not None:

@@ -1,72 +1,217 @@
-"""The frame rate that a column of times tells, and frames at even times where they are not."""
+"""What a column of times tells of a recording: its frame rate, and where it pauses.
+
+The rows of a file are the frames of the recording, whatever their times: none is
+added, left out or moved. The rate is that of the ordinary steps from row to row.
+Clocks do worse than that: they are set while they run, they give several rows one time
+(those that count whole seconds, those that stamp a packet of samples), rows are lost or
+come a moment late. All of this is said; a step that is longer or shorter than usual by
+more than 0.2 s, forward or back, splits the recording as any other gap does.
+
+Times may be dates: ISO 8601 with or without a zone (UTC without), or the time of day.
+Numbers may count from 1970 in seconds, milli-, micro- or nanoseconds, which their size
+tells: those of the years 2001 to 2100 in one unit are none of these years in another.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from datetime import UTC, datetime, time
+from typing import Any, NamedTuple
+
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kineme.formats.files import Source
+from kineme.formats.gaps import LONGEST_S, spans_of
 
 Floats = NDArray[np.float64]
 
 UNEVEN = 0.1
 """Share of a period by which times may differ from even ones."""
 
-_MOST_FRAMES_MORE = 20  # even frames per frame given, at most; beyond that the times are wrong
+UNITS_OF_TIME = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "μs": 1e6, "ns": 1e9}
+"""How many of each make a second."""
+
+_ORDINARY = 0.5  # share of the median step by which an ordinary step differs from it at most
+_MOST = 2 / 3  # share of steps that are ordinary, else the rate is that of the whole duration
+_ADDS_UP = 0.1  # share by which steps of whole periods may miss the duration
+_SHUFFLED = 0.25  # share of steps backward from which on the rows are in no order of time
+_EPOCH = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
 
 
-def even_frames(source: Source, times: Floats, values: Floats) -> tuple[float, Floats, list[str]]:
-    """Frames per second, the values at even times, and what was done.
+class Timing(NamedTuple):
+    """What times tell.
 
-    The rate is that of the median step; a rate that rounds to whole
-    thousandths of a hertz is taken as such. Where times are uneven or rows are missing,
-    values are interpolated on a straight line; more than two periods between rows
-    leave a gap (NaN).
+    ``gaps`` are frames [start, stop): the last before each jump, which lasts as long as it.
+    """
+
+    fps: float
+    gaps: tuple[tuple[int, int], ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+def timing_of(source: Source, times: Floats) -> Timing:
+    """The frame rate, the pauses, and what was seen of uneven times.
+
+    A rate within a millionth of whole thousandths of a hertz is taken as such, and so is
+    one that the times, as large as they are, cannot tell from it.
 
     Parameters
     ----------
-    times : (rows,), seconds
-    values : (rows, ...)
+    times : (rows,), seconds, NaN where a row has none
 
     Raises
     ------
-    ReadError : times do not increase, or are too few to tell a rate
+    ReadError : times stand still, are in no order, or are too few to tell a rate
     """
-    if len(times) < 2 or not np.isfinite(times).all():
+    known = np.isfinite(times)
+    if known.sum() < 2 or known.mean() < 0.5:
         raise source.error("the times are too few or not numbers: give fps= (--fps)")
+    rows = np.arange(len(times))
+    times = np.interp(rows, rows[known], times[known])
     steps = np.diff(times)
-    if steps.min() <= 0:
+    if not (steps > 0).any():
         row = int(steps.argmin()) + 1
         raise source.error(f"times do not increase: row {row + 1} has {times[row]:g} s")
+    if (steps < 0).mean() > _SHUFFLED:
+        raise source.error(
+            f"its rows are in no order of time, {(steps < 0).sum()} of {len(steps)} steps go "
+            "back: sort them, or give fps= (--fps) if their order is right"
+        )
+    jumps = np.abs(steps - np.median(steps[steps > 0])) > LONGEST_S + 1e-9
+    jumps &= steps != 0
+    even = _is_even(times, steps)
+    duration = float(times[-1] - times[0])
+    period = duration / len(steps) if even else _period(steps, jumps)
+    if not period > 0:
+        raise source.error("the times do not tell a rate: give fps= (--fps)")
+    jumps &= np.abs(steps - period) > 0.75 * period  # at low rates a frame may come late
+    doubt = 2 * np.spacing(np.abs(times).max()) / (period * len(steps))
+    fps = _rounded(len(steps) / duration if even else 1 / period, max(1e-6, float(doubt)))
+    notes = [] if even else [_said(steps, jumps, period, fps)]
+    if not known.all():
+        notes.append(f"{int((~known).sum())} rows without a time counted as frames")
+    gaps = tuple((start, stop) for start, stop in spans_of(jumps).tolist())
+    return Timing(fps, gaps, tuple(notes))
+
+
+def seconds(values: ArrayLike, unit: str | None = None) -> Floats:
+    """Times as seconds: numbers, dates of numpy and pandas, or text; NaN where there is none.
+
+    Parameters
+    ----------
+    values : (rows,)
+    unit : of numbers, one of `UNITS_OF_TIME`; None for seconds, or what numbers of this
+        size since 1970 must be
+
+    Raises
+    ------
+    ValueError : text that is no date, or anything else that is no time
+    TypeError : the same
+    """
+    given = np.asarray(values)
+    if given.dtype.kind in "mM":
+        whole = given.astype(f"{given.dtype.kind}8[ns]")
+        return np.where(np.isnat(whole), np.nan, whole.astype(np.int64) / 1e9)
+    if given.dtype.kind in "OUS" and any(isinstance(value, str) for value in given.ravel()[:9]):
+        return np.array([_nan_or_date(value) for value in given.tolist()])
+    numbers = np.asarray(given, np.float64)
+    return numbers / UNITS_OF_TIME[unit or _unit_since_1970(numbers)]
+
+
+def is_date(text: str) -> bool:
+    """Whether a cell holds a date or a time of day."""
+    try:
+        date_seconds(text)
+    except ValueError:
+        return False
+    return True
+
+
+def date_seconds(text: str) -> float:
+    """Seconds since 1970, or since midnight for a time of day; ValueError if it is neither."""
+    if not any(mark in text for mark in "-:"):
+        raise ValueError(f"{text[:40]!r} is no ISO date")
+    try:
+        moment = datetime.fromisoformat(text)
+    except ValueError:
+        moment = datetime.combine(datetime(1970, 1, 1).date(), _time_of_day(text))  # noqa: DTZ001
+    return (moment if moment.tzinfo else moment.replace(tzinfo=UTC)).timestamp()
+
+
+def _nan_or_date(value: Any) -> float:
+    """As `date_seconds`; NaN for None and empty text."""
+    return date_seconds(value.strip()) if value and value.strip() else np.nan
+
+
+def _time_of_day(text: str) -> time:
+    try:
+        return time.fromisoformat(text)
+    except ValueError:
+        raise ValueError(f"{text[:40]!r} is no ISO date such as 2026-01-31T09:30:00.25") from None
+
+
+def _unit_since_1970(numbers: Floats) -> str:
+    known = numbers[np.isfinite(numbers)]
+    middle = float(np.median(known)) if len(known) else 0.0
+    units = ("ms", "us", "ns")
+    return next((u for u in units if _EPOCH[0] <= middle / UNITS_OF_TIME[u] < _EPOCH[1]), "s")
+
+
+def _is_even(times: Floats, steps: Floats) -> bool:
+    """Whether the times are even ones, give or take a tenth of a period."""
     period = float(np.median(steps))
-    even = times[0] + period * np.arange(len(times))
-    drift = np.abs(times - even - (times - even).mean()).max()
-    if drift <= UNEVEN * period or np.ptp(steps) <= UNEVEN * period:
-        fps = (len(times) - 1) / float(times[-1] - times[0])
-        return _rounded(fps), values, []
-    fps = _rounded(1 / period)
-    n = int((times[-1] - times[0]) * fps + 0.5) + 1
-    if n > _MOST_FRAMES_MORE * len(times):
-        raise source.error(f"the times span {n} periods in {len(times)} rows: give fps= (--fps)")
-    at = times[0] + np.arange(n) / fps
-    return (
-        fps,
-        _interpolated(times, values, at, 2.5 * period),
-        [f"times are uneven: positions interpolated to {fps:g} Hz"],
+    if steps.min() <= 0:
+        return False
+    drift = times - period * np.arange(len(times))
+    return bool(
+        np.abs(drift - drift.mean()).max() <= UNEVEN * period or np.ptp(steps) <= UNEVEN * period
     )
 
 
-def _interpolated(times: Floats, values: Floats, at: Floats, farthest: float) -> Floats:
-    after = np.clip(np.searchsorted(times, at), 1, len(times) - 1)
-    span = times[after] - times[after - 1]
-    share = np.clip((at - times[after - 1]) / span, 0, 1)
-    share = share.reshape(-1, *[1] * (values.ndim - 1))
-    between = (1 - share) * values[after - 1] + share * values[after]
-    between[(span > farthest) & (share.reshape(-1) % 1 > 0)] = np.nan
-    return between
+def _period(steps: Floats, jumps: NDArray[np.bool_]) -> float:
+    """Seconds from row to row where times are uneven.
+
+    The mean of the steps that are nearly the median: clocks that count milliseconds
+    give 120 Hz steps of 8 and 9, and lost rows leave steps of several periods. Where
+    that does not add up, as in packets under one time or where one row in three comes
+    late, all count but the jumps, from one change of the time to another.
+    """
+    median = float(np.median(steps))
+    ordinary = np.abs(steps - median) <= _ORDINARY * median * (1 + 1e-9)
+    if median > 0 and ordinary.mean() >= _MOST:
+        period = float(steps[ordinary].mean())
+        lasted = float(steps[~jumps].sum())
+        whole = period * float(np.maximum(np.rint(steps[~jumps] / period), 1).sum())
+        if abs(whole - lasted) <= _ADDS_UP * lasted:
+            return period
+    changes = np.flatnonzero(steps > 0)
+    between = slice(changes[0] + 1, changes[-1] + 1) if len(changes) > 1 else slice(None)
+    counted = steps[between][~jumps[between]]
+    return float(counted.mean()) if len(counted) else 0.0
 
 
-def _rounded(fps: float) -> float:
-    """The rate to thousandths of a hertz where it is within a millionth of that."""
+def _said(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: float) -> str:
+    """One sentence on uneven times."""
+    seen: Sequence[tuple[int, str]] = [
+        (int((steps == 0).sum()), "rows have the time of the row before"),
+        (int((steps < 0).sum()), "steps go back in time"),
+        (int((steps > 1.5 * period).sum()), "steps are longer than a frame and a half"),
+    ]
+    parts = [f"{n} {what}" for n, what in seen if n]
+    said = f"times are uneven ({', '.join(parts) or 'jitter'}): rows are frames, at {fps:g} Hz"
+    if not jumps.any():
+        return said
+    at = np.flatnonzero(jumps)
+    shown = [f"{steps[i]:.4g} s after frame {i}" for i in at[:4].tolist()]
+    more = f" and {len(at) - 4} more" if len(at) > 4 else ""
+    return (
+        f"{said}; times jump {', '.join(shown)}{more}: the recording is split there, "
+        "and seconds count frames"
+    )
+
+
+def _rounded(fps: float, share: float) -> float:
+    """The rate to thousandths of a hertz where it is within this share of that."""
     whole = round(fps, 3)
-    return whole if whole > 0 and abs(fps - whole) <= 1e-6 * fps else fps
+    return whole if whole > 0 and abs(fps - whole) <= share * fps else fps

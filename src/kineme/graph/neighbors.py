@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import as_features
+from kineme._checks import as_features, as_indices, is_number
 from kineme._threads import even_slices, map_threads
 from kineme.errors import ParameterError
 from kineme.graph import _kernels
@@ -57,6 +57,7 @@ class NeighborGraph:
 
     def __getitem__(self, i: int) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
         """Neighbours of frame i and their distances, nearest first; ties by frame."""
+        (i,) = as_indices([i], "frames")
         if not -len(self) <= i < len(self):
             raise IndexError(f"frame {i} of a graph of {len(self)}")
         row = slice(*self.indptr[i % len(self) :][:2])
@@ -84,8 +85,8 @@ class NeighborGraph:
 
     def nearest(self, k: int) -> NeighborGraph:
         """The same graph with the k nearest of each frame only; ties to the earlier frame."""
-        if k < 1:
-            raise ParameterError(f"the number of neighbours must be at least 1, not {k}")
+        if not (is_number(k) and k >= 1):
+            raise ParameterError(f"the number of neighbours must be at least 1, not {k!r}")
         if self.n_entries == 0 or k >= self.counts.max():
             return self
 
@@ -160,11 +161,11 @@ def neighbor_graph(
     columns = rows if others is None else as_features(others, "others")
     if rows.shape[1] != columns.shape[1]:
         raise ParameterError(f"features have {rows.shape[1]} dimensions, others {columns.shape[1]}")
-    if not (np.isfinite(radius) and radius >= 0):
-        raise ParameterError(f"the radius must be a finite number from 0, not {radius}")
+    if not (is_number(radius) and radius >= 0):
+        raise ParameterError(f"the radius must be a finite number from 0, not {radius!r}")
     for name, value in (("k", k), ("max_lag", max_lag)):
-        if value is not None and value < 1:
-            raise ParameterError(f"{name} must be at least 1, not {value}")
+        if value is not None and not (is_number(value) and value >= 1):
+            raise ParameterError(f"{name} must be at least 1, not {value!r}")
     lag = max(len(rows), len(columns)) if max_lag is None else max_lag
 
     blocks = _search(rows, columns, radius=float(radius), k=k, lag=lag)

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._checks import as_indices, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.graph import _path_kernels
 from kineme.graph.neighbors import NeighborGraph
@@ -123,6 +124,14 @@ def warping_paths(
     max_slope : float, optional
         Paths steeper than this, or flatter than its inverse, are dropped.
     """
+    check_type(graph, NeighborGraph, "warping_paths", "kineme.neighbor_graph(...) gives one")
+    rows, columns = _box(rows, "rows"), _box(columns, "columns")
+    numbers = {"skip_penalty": skip_penalty, "zero_cost": zero_cost, "min_nodes": min_nodes}
+    chosen = {"separation": separation, "max_slope": max_slope}
+    numbers |= {name: value for name, value in chosen.items() if value is not None}
+    for name, value in numbers.items():
+        if not (is_number(value) and value >= 0):
+            raise ParameterError(f"{name} must be a number from 0, not {value!r:.60}")
     moves = _as_steps(steps)
     skipped = np.maximum(moves - 1, 0).sum(axis=1)
     ptr, path_rows, path_columns, costs = _path_kernels.paths_in_box(
@@ -132,8 +141,8 @@ def warping_paths(
         *rows,
         *columns,
         moves,
-        skip_penalty * skipped,
-        zero_cost,
+        float(skip_penalty) * skipped,
+        float(zero_cost),
         min_nodes,
         graph.n_columns + 1 if separation is None else separation,
     )
@@ -159,8 +168,22 @@ def component_labels(
     return labels
 
 
+def _box(frames: tuple[int, int], name: str) -> tuple[int, int]:
+    found = as_indices(frames, name)
+    if len(found) != 2:
+        raise ParameterError(f"{name} are a start and a stop frame, not {frames!r:.60}")
+    return found[0], found[1]
+
+
 def _as_steps(steps: Sequence[Step]) -> NDArray[np.int64]:
-    moves = np.array(steps, np.int64).reshape(-1, 2)
+    try:
+        given = np.array(steps)
+    except ValueError:  # of different lengths
+        given = np.empty(0)
+    whole = given.dtype.kind in "iu" and given.ndim == 2 and given.shape[1] == 2
+    moves = given.astype(np.int64) if whole else np.empty((0, 2), np.int64)
     if not len(moves) or moves.min() < 0 or (moves.sum(axis=1) == 0).any():
-        raise ParameterError(f"warping steps are pairs (a, b) from 0, not both 0; got {steps}")
+        raise ParameterError(
+            f"warping steps are pairs (a, b) from 0, not both 0; got {steps!r:.60}"
+        )
     return moves

@@ -24,8 +24,9 @@ from numpy.typing import NDArray
 from kineme.errors import MissingDependencyError, ParameterError, ReadError
 from kineme.formats.columns import SURE
 from kineme.formats.files import Source
+from kineme.formats.gaps import split_at
 from kineme.formats.points import Points, to_motion
-from kineme.formats.timing import even_frames
+from kineme.formats.timing import Timing, timing_of
 from kineme.recordings.motion import Motion, Provenance
 
 if TYPE_CHECKING:
@@ -125,17 +126,18 @@ def from_movement(
         places[sure < confidence] = np.nan
     attributes = dataset.attrs
     source = Source(Path(str(attributes.get("source_file") or "dataset")), b"")
-    rate, places, timing = _timed(source, dataset, places, fps)
+    timing = _timed(source, dataset, fps)
     flat = "z" not in axes
     points = Points(
         [str(name) for name in position["keypoints"].values],
         places,
-        rate,
+        timing.fps,
         unit or attributes.get("length_unit") or ("pixel" if flat else None),
         up or attributes.get("up") or ("-y" if flat else None),
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
-    return to_motion(points, Provenance(str(source.path), name, None, (*timing, *notes)))
+    said = Provenance(str(source.path), name, None, (*timing.notes, *notes))
+    return split_at(to_motion(points, said), timing.gaps)
 
 
 def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
@@ -154,14 +156,12 @@ def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
     return dataset.isel(individuals=0 if name is None else known.index(name))
 
 
-def _timed(
-    source: Source, dataset: xr.Dataset, places: NDArray[np.float64], fps: float | None
-) -> tuple[float, NDArray[np.float64], list[str]]:
+def _timed(source: Source, dataset: xr.Dataset, fps: float | None) -> Timing:
     rate = fps or dataset.attrs.get("fps")
     if rate:
-        return float(rate), places, []
+        return Timing(float(rate))
     if dataset.attrs.get("time_unit") == "seconds":
-        return even_frames(source, np.asarray(dataset["time"], np.float64), places)
+        return timing_of(source, np.asarray(dataset["time"], np.float64))
     raise ReadError(source.path, "the dataset counts frames and has no fps: give fps=")
 
 

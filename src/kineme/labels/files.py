@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import warnings
-from math import isclose, isfinite
+from math import isclose
 from os import PathLike
 from pathlib import Path
 
+from kineme._checks import check_path, check_type, is_number
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.registry import format_to_read, format_to_write
@@ -55,6 +56,8 @@ def write_segments(
     ...     kineme.read_segments(f"{folder}/take.eaf").n_frames
     2898
     """
+    check_type(segmentation, Segmentation, "write_segments", "kineme.segment(motion) gives one")
+    check_path(path, "write_segments")
     known = format_to_write(path, format)
     if known.holds == "all" and level is not None:
         raise ParameterError(f"{known.name} always holds both levels: leave out level={level!r}")
@@ -115,10 +118,11 @@ def read_segments(
     >>> kineme.read_segments(bundled_truth()).activities.label[:3].tolist()
     ['walk', '', 'squat']
     """
-    if fps is not None and not (isfinite(fps) and fps > 0):
-        raise ParameterError(f"fps is {fps}: give frames per second, above 0")
-    if n_frames is not None and n_frames < 1:
-        raise ParameterError(f"n_frames is {n_frames}: a recording has at least 1 frame")
+    check_path(path, "read_segments")
+    if fps is not None and not (is_number(fps) and fps > 0):
+        raise ParameterError(f"fps is {fps!r:.60}: give frames per second, above 0")
+    if n_frames is not None and not (is_number(n_frames) and n_frames >= 1):
+        raise ParameterError(f"n_frames is {n_frames!r:.60}: a recording has at least 1 frame")
     known, content = read_content(path, format)
     told = content.fps
     if isinstance(content, Labels):

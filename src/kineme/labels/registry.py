@@ -13,6 +13,7 @@ from os import PathLike
 from pathlib import Path
 from types import MappingProxyType
 
+from kineme._checks import is_one_of
 from kineme._plugins import plugins
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
@@ -172,7 +173,7 @@ def _speaks(known: LabelFormat, path: Path) -> bool:
 
 def _named(name: str) -> LabelFormat:
     known = label_formats()
-    if name not in known:
+    if not is_one_of(name, known):
         raise ParameterError(f"format must be one of {', '.join(known)}, not {name!r}")
     return known[name]
 

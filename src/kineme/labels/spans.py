@@ -139,7 +139,11 @@ def as_segmentation(
         n_frames = last
         notes.append(f"length of {last} frames taken from the end of the last label")
     elif last > n_frames + 1:  # 1: some programs close with the frame after the last
-        raise ReadError(path, f"has labels up to frame {last}, but the recording has {n_frames}")
+        raise ReadError(
+            path,
+            f"has labels up to frame {last} ({last / rate:.3f} s), but the recording has {n_frames} "
+            f"({n_frames / rate:.3f} s)",
+        )
     if n_frames < 1:
         raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
     unusual = list(labels.notes)

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import is_dataclass
 from typing import Any
 
+from kineme._checks import check_type
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.recurrence.preset import KINEME, ActionPreset
@@ -55,6 +56,7 @@ def resolve_preset(preset: str | Preset, **overrides: Any) -> Preset:
         if preset not in PRESETS:
             raise ParameterError(f"no preset {preset!r}; there are {', '.join(PRESETS)}")
         preset = PRESETS[preset]
+    check_type(preset, Preset, "preset", f"give one, or the name of one: {', '.join(PRESETS)}")
     for name in overrides:
         others = [other for other, known in PRESETS.items() if hasattr(known, name)]
         if others and not hasattr(preset, name):

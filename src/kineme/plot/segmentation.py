@@ -26,6 +26,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from kineme._checks import check_path, check_type
 from kineme._colors import NO_CLUSTER, cluster_color
 from kineme._files import atomic_write
 from kineme.errors import WriteError
@@ -66,6 +67,11 @@ def plot_segmentation(
     ------
     WriteError : another suffix, or the file cannot be written
     """
+    check_type(segmentation, Segmentation, "plot_segmentation", "kineme.segment gives one")
+    from kineme.graph import NeighborGraph  # compiled code
+
+    check_type(graph, NeighborGraph, "plot_segmentation", "kineme.neighbor_graph gives one")
+    check_path(path, "plot_segmentation")
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"pictures are written as {', '.join(SUFFIXES)}")
     figure = Figure(figsize=(9.4, 8.2))

@@ -22,10 +22,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import cached_property
+from operator import index
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import as_floats, as_spans, as_texts, check_type, is_number
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.kinematics import (
     forward_kinematics,
@@ -68,8 +70,15 @@ class Skeleton:
     end_sites: frozenset[int] = frozenset()
 
     def __post_init__(self) -> None:
-        _set(self, names=tuple(self.names), parents=tuple(int(p) for p in self.parents))
-        _set(self, offsets=_frozen(self.offsets, "offsets"), end_sites=frozenset(self.end_sites))
+        try:
+            _set(self, names=as_texts(self.names, "names of joints", error=MotionError))
+            _set(self, parents=tuple(index(p) for p in self.parents))
+            _set(self, end_sites=frozenset(index(joint) for joint in self.end_sites))
+        except TypeError:
+            raise MotionError(
+                "parents and end sites of a skeleton are lists of joints, by whole numbers"
+            ) from None
+        _set(self, offsets=_frozen(self.offsets, "offsets"))
         n = len(self.names)
         if n == 0:
             raise MotionError("a skeleton needs at least one joint")
@@ -95,8 +104,8 @@ class Skeleton:
         """The index of the joint called ``name``; ParameterError if there is none."""
         try:
             return self._index[name]
-        except KeyError:
-            close = get_close_matches(name, self.names, n=3) or self.names[:5]
+        except (KeyError, TypeError):
+            close = get_close_matches(str(name), self.names, n=3) or self.names[:5]
             raise ParameterError(
                 f"no joint is called {name!r}; did you mean {_listed(close)}?"
             ) from None
@@ -172,9 +181,10 @@ class Motion:
     gaps: tuple[tuple[int, int], ...] = ()
 
     def __post_init__(self) -> None:
+        check_type(self.skeleton, Skeleton, "Motion", "then positions and fps", error=MotionError)
+        if not (is_number(self.fps) and self.fps > 0):
+            raise MotionError(f"the frame rate is {self.fps!r:.60}: it must be a positive number")
         _set(self, positions=_frozen(self.positions, "positions"), fps=float(self.fps))
-        if not (np.isfinite(self.fps) and self.fps > 0):
-            raise MotionError(f"the frame rate is {self.fps}: it must be a positive number")
         joints = self.skeleton.n_joints
         if self.positions.ndim != 3 or self.positions.shape[1:] != (joints, 3):
             raise MotionError(
@@ -182,7 +192,7 @@ class Motion:
             )
         if self.n_frames == 0:
             raise MotionError("a motion needs at least one frame")
-        _set(self, gaps=tuple((int(start), int(stop)) for start, stop in self.gaps))
+        _set(self, gaps=as_spans(self.gaps, error=MotionError))
         _check_gaps(self.gaps, self.n_frames)
         if self.rotations is None:
             return
@@ -239,6 +249,11 @@ class Motion:
         return self.skeleton.joint(name)
 
 
+def check_motion(motion: object, door: str) -> None:
+    """ParameterError where a public function was given no Motion."""
+    check_type(motion, Motion, door, "kineme.read(path) gives one")
+
+
 def _check_gaps(gaps: tuple[tuple[int, int], ...], n_frames: int) -> None:
     before = -1
     for start, stop in gaps:
@@ -251,7 +266,7 @@ def _check_gaps(gaps: tuple[tuple[int, int], ...], n_frames: int) -> None:
 
 def _frozen(values: ArrayLike, what: str) -> Floats:
     """A read-only float64 view, C-contiguous and finite."""
-    array = np.ascontiguousarray(values, dtype=np.float64).view()
+    array = np.ascontiguousarray(as_floats(values, what, error=MotionError)).view()
     if not np.isfinite(array).all():
         raise MotionError(f"{what} hold values that are not finite (NaN or infinite)")
     array.flags.writeable = False

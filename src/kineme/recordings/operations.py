@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme import _rotations as rot
-from kineme._checks import check_rates
+from kineme._checks import check_rates, is_number
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.kinematics import forward_kinematics, local_translations
-from kineme.recordings.motion import Motion
+from kineme.recordings.motion import Motion, check_motion
 
 Floats = NDArray[np.float64]
 
@@ -38,8 +38,9 @@ def resample(motion: Motion, fps: float) -> Motion:
     Source: [V14], section 5 works at 30 Hz; at whole ratios the spline of the
     authors' program amounts to taking every fourth frame as well.
     """
-    if not (isfinite(fps) and fps > 0):
-        raise ParameterError(f"fps is {fps}: give frames per second, above 0")
+    check_motion(motion, "resample")
+    if not (is_number(fps) and fps > 0):
+        raise ParameterError(f"fps is {fps!r:.60}: give frames per second, above 0")
     ratio = motion.fps / fps
     if ratio == 1:
         return motion

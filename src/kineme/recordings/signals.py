@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._checks import as_floats, as_spans, as_texts, is_number
 from kineme.errors import ParameterError
 from kineme.recordings.motion import Provenance
 
@@ -38,7 +39,7 @@ class Signals:
     provenance: Provenance = field(default_factory=Provenance)
 
     def __post_init__(self) -> None:
-        values = np.array(self.values, np.float64)
+        values = np.array(as_floats(self.values, "signals"))
         if values.ndim == 1:
             values = values[:, None]
         if values.ndim != 2 or 0 in values.shape:
@@ -46,9 +47,11 @@ class Signals:
         if not np.isfinite(values).all():
             frame = int(np.argmin(np.isfinite(values).all(axis=1)))
             raise ParameterError(f"signals hold a value that is not finite, first in frame {frame}")
-        if not (np.isfinite(self.fps) and self.fps > 0):
-            raise ParameterError(f"the frame rate is {self.fps}: it must be a positive number")
-        names = tuple(self.names) or tuple(str(i) for i in range(1, values.shape[1] + 1))
+        if not (is_number(self.fps) and self.fps > 0):
+            raise ParameterError(f"the frame rate is {self.fps!r}: it must be a positive number")
+        names = as_texts(self.names, "names of channels") or tuple(
+            str(i) for i in range(1, values.shape[1] + 1)
+        )
         if len(names) != values.shape[1] or len(set(names)) < len(names):
             raise ParameterError(
                 f"{values.shape[1]} channels need as many different names, not {', '.join(names)}"
@@ -93,7 +96,7 @@ class Signals:
 
 
 def _checked(gaps: Sequence[tuple[int, int]], n_frames: int) -> tuple[tuple[int, int], ...]:
-    found = tuple((int(start), int(stop)) for start, stop in gaps)
+    found = as_spans(gaps)
     borders = [0, *(frame for gap in found for frame in gap), n_frames]
     if sorted(borders) != borders or any(start == stop for start, stop in found):
         raise ParameterError(f"gaps must be stretches in time order inside {n_frames} frames")

@@ -14,6 +14,7 @@ from importlib.resources import files
 from os import PathLike
 from pathlib import Path
 
+from kineme._checks import check_path, check_type
 from kineme._files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
@@ -48,6 +49,10 @@ def write_report(
         rate is another
     WriteError : another suffix, or the file cannot be written
     """
+    check_type(segmentation, Segmentation, "write_report", "kineme.segment(motion) gives one")
+    check_path(path, "write_report")
+    if name is not None:
+        check_type(name, str, "name", "give a text, or leave it out")
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"reports are written as {', '.join(SUFFIXES)}")
     shown = footage(source, fps=segmentation.fps, effectors=effectors)

@@ -14,6 +14,8 @@ distance at which its moments recur, of which noise and irregularity are part.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -39,6 +41,11 @@ quarter beyond the largest scale, so that about half of the moments count as rec
 
 NEAREST = 0.02
 """Standard deviations: what recurs nearer than this recurs exactly, as in made-up signals."""
+
+DEFAULTS: Mapping[str, Mapping[str, Any]] = {"kineme": {"any_pace": False}}
+"""Constants that presets given by name have for signals. Few channels at one moment tell little,
+so pace counts: what is the same at another is another action, as running is to a sensor that walks.
+"""
 
 _LENGTHS = ("radius", "growth_radius", "zero_cost")
 _TINY, _HUGE = 1e-9, 1e9
@@ -111,21 +118,22 @@ def search_vectors(
 def signal_preset(preset: str | Preset, **overrides: Any) -> Preset:
     """The preset with its lengths as standard deviations; overrides are taken as such.
 
-    Few channels at one moment tell little, so pace counts: what is the same at
-    another pace is another action, as running is to a sensor that walks.
+    Metres become standard deviations once: what comes out can be passed on to
+    `segment_signals` and `Segmenter` as it is. A preset given by name starts from
+    `DEFAULTS`, one given as an object keeps what it says.
 
     Raises
     ------
     ParameterError : no such preset or constant, or a value it cannot take
     """
+    if isinstance(preset, str):
+        overrides = {**DEFAULTS.get(preset, {}), **overrides}
     chosen = resolve_preset(preset)
-    if isinstance(chosen, RegionPreset):
+    if isinstance(chosen, RegionPreset) and chosen.unit == "metres":
         per_channel = np.sqrt(POSE_CHANNELS * len(chosen.offsets)) * POSE_DEVIATION
         lengths = {name: getattr(chosen, name) for name in _LENGTHS}
         scaled = {name: v / per_channel for name, v in lengths.items() if v is not None}
-        overrides = {**scaled, **overrides}
-    if isinstance(chosen, ActionPreset):
-        overrides = {"any_pace": False, **overrides}
+        chosen = replace(chosen, unit="standard deviations", **scaled)
     return resolve_preset(chosen, **overrides)
 
 

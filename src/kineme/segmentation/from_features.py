@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +16,13 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.methods.numbering import by_first_appearance
-from kineme.methods.presets import ActionPreset, Preset, RegionPreset
+from kineme.methods.presets import (
+    DEFAULT,
+    ActionPreset,
+    Preset,
+    RegionPreset,
+    resolve_preset,
+)
 from kineme.methods.stages import Progress
 from kineme.segmentation.parts import Columns, Part, gaps_between, in_source_frames
 from kineme.segments.segmentation import Segmentation
@@ -28,6 +34,46 @@ if TYPE_CHECKING:
 # Scores below which a result is to be looked at: activities whose moments are nearly as
 # much like another action's, and counts that others fit nearly as well.
 UNSURE_ACTION, UNSURE_COUNT = 0.25, 0.5
+
+
+def analyze(
+    features: ArrayLike,
+    preset: str | Preset = DEFAULT,
+    *,
+    mirror: Mirror | None = None,
+    progress: Progress | None = None,
+) -> Analysis | ActionAnalysis:
+    """What each stage of a method finds in a sequence of features.
+
+    Parameters
+    ----------
+    features : (frames, dims)
+        Search vectors at the working rate, in the unit that the preset's lengths are in.
+    preset : by name or as it is; its class says which method
+    mirror : exchanges left and right in such features, for presets that mirror;
+        `kineme.mirror_features` for those of motions
+    progress : called with the name of each stage before it runs
+
+    Returns
+    -------
+    `Analysis` from the published methods, `ActionAnalysis` from ``kineme``
+
+    Raises
+    ------
+    ParameterError : no such preset, a preset of no known method, features of another shape,
+        empty or not finite, or a preset that mirrors what has no left and right
+    """
+    chosen = resolve_preset(preset)
+    # Each method brings compiled code of its own, loaded only where it is used.
+    if isinstance(chosen, ActionPreset):
+        from kineme.methods.recurrence.analysis import analyze_actions
+
+        return analyze_actions(features, chosen, progress=progress)
+    if isinstance(chosen, RegionPreset):
+        from kineme.methods.region_growing.analysis import analyze_regions
+
+        return analyze_regions(features, chosen, mirror=mirror, progress=progress)
+    raise ParameterError(f"no method goes with a preset of type {type(chosen).__name__}")
 
 
 def segment_features(
@@ -62,20 +108,11 @@ def segment_features(
     ------
     ParameterError : a preset of no known method, or features it cannot take
     """
-    # Each method brings compiled code of its own, loaded only where it is used.
-    analysis: Analysis | ActionAnalysis
+    analysis = analyze(features, preset, mirror=mirror, progress=progress)
     if isinstance(preset, ActionPreset):
-        from kineme.methods.recurrence.analysis import analyze_actions
-
-        analysis = analyze_actions(features, preset, progress=progress)
-        columns = _action_columns(analysis)
-    elif isinstance(preset, RegionPreset):
-        from kineme.methods.region_growing.analysis import analyze
-
-        analysis = analyze(features, preset, mirror=mirror, progress=progress)
-        columns = _region_columns(analysis)
+        columns = _action_columns(cast("ActionAnalysis", analysis))
     else:
-        raise ParameterError(f"no method goes with a preset of type {type(preset).__name__}")
+        columns = _region_columns(cast("Analysis", analysis))
     parts = parts or [Part(0, n_frames, int(columns["stop_frame"].max()))]
     columns = in_source_frames(columns, parts, n_frames, fps / preset.working_fps)
     doubts = _doubts(columns, fps) if isinstance(preset, ActionPreset) else []

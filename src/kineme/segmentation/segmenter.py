@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._checks import check_type
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import (
     EndEffectors,
@@ -72,26 +73,32 @@ def segment(
     Raises
     ------
     MotionError : the joints named are not those of a body, or there is a single point
-    ParameterError : no such preset or constant, a value it cannot take, no motion, or mirroring
-        where nothing tells left from right
+    ParameterError : no such preset or constant, a value it cannot take, a preset for signals, no
+        motion, or mirroring where nothing tells left from right
     """
-    if not isinstance(motion, Motion):
-        raise ParameterError(
-            f"segment takes a Motion, not {type(motion).__name__}: kineme.read(path) gives one; "
-            f"channels go to segment_signals, arrays to Segmenter"
-        )
     chosen = resolve_preset(preset, **overrides)
     return segment_and_analysis(motion, chosen, effectors=effectors, progress=progress)[0]
 
 
 def segment_and_analysis(
     motion: Motion,
-    preset: Preset,
+    preset: str | Preset = DEFAULT,
     *,
     effectors: Names | None = None,
     progress: Progress | None = None,
 ) -> tuple[Segmentation, Analysis | ActionAnalysis]:
-    """The segments, and what each stage found on the way to them (for pictures)."""
+    """The segments, and what each stage found on the way to them (for pictures).
+
+    Parameters and errors are those of `segment`; constants are changed by ``Preset.replace``.
+    """
+    advice = "kineme.read(path) gives one; channels go to segment_signals, arrays to Segmenter"
+    check_type(motion, Motion, "segment", advice)
+    preset = resolve_preset(preset)
+    if preset.unit == "standard deviations":
+        raise ParameterError(
+            f"the lengths of this {preset.name} are in standard deviations of signals: "
+            f"give motions one in metres"
+        )
     if progress is not None:
         progress("features")
     start = time.perf_counter()

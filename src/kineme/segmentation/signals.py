@@ -6,6 +6,7 @@ import time
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from kineme._checks import check_type, is_number
 from kineme.errors import ParameterError
 from kineme.features.emg import emg_envelope
 from kineme.methods.presets import DEFAULT, ActionPreset, Preset
@@ -39,7 +40,7 @@ def segment_signals(
     Parameters
     ----------
     signals : Signals
-    preset : ``kineme``, ``voegele2014`` or ``krueger2017``; lengths of the published ones
+    preset : ``kineme``, ``voegele2014`` or ``krueger2017``, or a preset; lengths in metres
         become standard deviations, see :mod:`kineme.segmentation.channels`
     emg : take the envelopes of muscle signals, see :func:`emg_envelope`
     smoothing : seconds over which channels are averaged; 0 for none
@@ -52,11 +53,6 @@ def segment_signals(
     ParameterError : no such preset or constant, a value it cannot take, or mirroring, for
         which signals have no left and right
     """
-    if not isinstance(signals, Signals):
-        raise ParameterError(
-            f"segment_signals takes Signals, not {type(signals).__name__}: "
-            f"kineme.read_signals(path) gives them; arrays go to Segmenter"
-        )
     chosen = signal_preset(preset, **overrides)
     return segment_signals_and_analysis(
         signals, chosen, emg=emg, smoothing=smoothing, progress=progress
@@ -65,7 +61,7 @@ def segment_signals(
 
 def segment_signals_and_analysis(
     signals: Signals,
-    preset: Preset,
+    preset: str | Preset,
     *,
     emg: bool = False,
     smoothing: float = SMOOTHING,
@@ -73,10 +69,17 @@ def segment_signals_and_analysis(
 ) -> tuple[Segmentation, Analysis | ActionAnalysis]:
     """The segments, and what each stage found on the way to them (for pictures).
 
-    ``preset`` is one that `signal_preset` made.
+    The preset may be one that `signal_preset` made, or any that it takes.
     """
-    if not 0 <= smoothing < float("inf"):
-        raise ParameterError(f"smoothing is {smoothing}: give seconds, from 0")
+    check_type(
+        signals,
+        Signals,
+        "segment_signals",
+        "kineme.read_signals(path) gives them; arrays go to Segmenter",
+    )
+    preset = signal_preset(preset)
+    if not (is_number(smoothing) and smoothing >= 0):
+        raise ParameterError(f"smoothing is {smoothing!r}: give seconds, from 0")
     if progress is not None:
         progress("features")
     start = time.perf_counter()

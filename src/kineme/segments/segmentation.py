@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import check_type, is_number, is_one_of
 from kineme.errors import MissingDependencyError, ParameterError
 from kineme.segments.table import COLUMNS, Level, Segment, SegmentTable, segment_table
 
@@ -51,6 +52,9 @@ class Segmentation:
     timings: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        check_type(
+            self.table, SegmentTable, "Segmentation", "Segmentation.from_columns takes columns"
+        )
         _check_recording(self.n_frames, self.fps)
         for level in get_args(Level):
             _check_tiles(self.level(level), level, self.n_frames)
@@ -76,12 +80,15 @@ class Segmentation:
         are always computed, whatever is given.
         """
         _check_recording(n_frames, fps)
+        check_type(columns, Mapping, "from_columns", "give arrays by the names of columns")
         table = segment_table(columns, float(fps))
-        return cls(table, int(n_frames), float(fps), provenance or {}, timings or {})
+        said = {} if provenance is None else provenance
+        spent = {} if timings is None else timings
+        return cls(table, int(n_frames), float(fps), said, spent)
 
     def level(self, level: Level) -> SegmentTable:
         """The segments of one level, in time order."""
-        if level not in get_args(Level):
+        if not is_one_of(level, get_args(Level)):
             raise ParameterError(f"level must be 'activity' or 'primitive', not {level!r}")
         return self.table.select(self.table.level == level)
 
@@ -106,7 +113,7 @@ class Segmentation:
 
     def per_frame(self, column: str = "cluster", *, level: Level = "primitive") -> NDArray[Any]:
         """A column of the table spread over the frames: one value per frame."""
-        if column not in COLUMNS:
+        if not is_one_of(column, COLUMNS):
             raise ParameterError(f"no column {column!r}; there are {', '.join(COLUMNS)}")
         rows = self.level(level)
         values: NDArray[Any] = getattr(rows, column)
@@ -151,10 +158,10 @@ class Segmentation:
 
 
 def _check_recording(n_frames: int, fps: float) -> None:
-    if n_frames < 1:
-        raise ParameterError(f"a recording has at least 1 frame, not {n_frames}")
-    if not (np.isfinite(fps) and fps > 0):
-        raise ParameterError(f"the frame rate must be a positive number, not {fps}")
+    if not (is_number(n_frames) and n_frames >= 1):
+        raise ParameterError(f"a recording has at least 1 frame, not {n_frames!r:.60}")
+    if not (is_number(fps) and fps > 0):
+        raise ParameterError(f"the frame rate must be a positive number, not {fps!r:.60}")
 
 
 def _check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:

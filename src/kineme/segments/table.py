@@ -26,7 +26,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from typing import Any, Literal, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -85,9 +85,14 @@ class SegmentTable:
         """The columns by name, in the documented order."""
         return {name: getattr(self, name) for name in COLUMNS}
 
-    def select(self, rows: NDArray[Any] | slice) -> SegmentTable:
-        """The rows that a mask, a slice or an index array picks."""
-        return SegmentTable(**{name: column[rows] for name, column in self.columns().items()})
+    def select(self, rows: slice | ArrayLike) -> SegmentTable:
+        """The rows that a mask, a slice or an index array picks, as ``table[rows]``."""
+        picked = rows if isinstance(rows, slice) else _picked(rows, len(self))
+        try:
+            columns = {name: column[picked] for name, column in self.columns().items()}
+        except (TypeError, ValueError):  # a slice that is none of whole numbers
+            raise ParameterError(f"{rows!r} picks no rows: give whole numbers") from None
+        return SegmentTable(**columns)
 
     def __len__(self) -> int:
         return len(self.level)
@@ -95,8 +100,23 @@ class SegmentTable:
     def __iter__(self) -> Iterator[Segment]:
         return map(Segment, *(column.tolist() for column in self.columns().values()))
 
-    def __getitem__(self, row: int) -> Segment:
-        return Segment(*(column[row].item() for column in self.columns().values()))
+    @overload
+    def __getitem__(self, rows: int) -> Segment: ...
+    @overload
+    def __getitem__(self, rows: slice | ArrayLike) -> SegmentTable: ...
+    def __getitem__(self, rows: Any) -> Segment | SegmentTable:
+        """The segment in a row; or the table of those that a slice, mask or index array picks.
+
+        Raises
+        ------
+        IndexError : there is no such row
+        ParameterError : neither a row nor what picks rows
+        """
+        if not isinstance(rows, int | np.integer) or isinstance(rows, bool):
+            return self.select(rows)
+        if not -len(self) <= rows < len(self):
+            raise IndexError(f"row {rows} of a table of {len(self)}")
+        return Segment(*(column[rows].item() for column in self.columns().values()))
 
     def __eq__(self, other: object) -> bool:
         """Equal in every cell, where nan equals nan."""
@@ -141,6 +161,22 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
         arrays["activity"] = np.searchsorted(parents, start, side="right") - 1
     order = np.lexsort((stop, start, level))
     return SegmentTable(**{name: array[order] for name, array in arrays.items()})
+
+
+def _picked(rows: ArrayLike, n: int) -> NDArray[Any]:
+    """A mask or row numbers of a table of n rows, checked."""
+    picked = _array(rows, "rows")
+    if picked.shape == (0,):
+        return picked.astype(np.int64)
+    if picked.ndim != 1 or picked.dtype.kind not in "biu":
+        raise ParameterError(
+            f"rows are picked by a slice, a mask or row numbers, not by {rows!r:.60}"
+        )
+    if picked.dtype.kind == "b" and len(picked) != n:
+        raise ParameterError(f"a mask of {len(picked)} does not fit a table of {n} rows")
+    if picked.dtype.kind != "b" and not (-n <= picked.min() and picked.max() < n):
+        raise IndexError(f"row {picked[(picked < -n) | (picked >= n)][0]} of a table of {n}")
+    return picked
 
 
 def _integers(values: ArrayLike, name: str) -> NDArray[np.int64]:

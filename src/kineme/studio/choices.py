@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import sqrt
 from typing import NamedTuple
 
@@ -60,7 +61,7 @@ def presets() -> list[PresetChoice]:
     ]
 
 
-def preset_of(name: str, parameters: dict[str, float]) -> Preset:
+def preset_of(name: str, parameters: Mapping[str, float]) -> Preset:
     """The preset with the given constants, each within its limits.
 
     Raises

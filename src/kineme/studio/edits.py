@@ -10,7 +10,6 @@ from typing import Any
 from kineme.errors import ParameterError
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.choices import preset_of
 from kineme.studio.takes import Take
 from kineme.web.messages import Edit
 
@@ -46,7 +45,7 @@ def edited(
         function, arguments = BY_HAND[edit["kind"]]
         return _counted(function(table, *(sent[name] for name in arguments))), []
     if edit["kind"] == "segment":
-        found = take.segment(preset_of(edit["preset"], edit["parameters"]))
+        found = take.segment(edit["preset"], edit["parameters"])
         return found, list(found.provenance["notes"])
     if edit["kind"] == "transfer":
         from kineme.transfer import THRESHOLD, KnowledgeBase

@@ -173,7 +173,7 @@ class Api:
         shown = document.table
         if "preset" in sent:
             title = sent["preset"]
-            other = document.take.segment(choices.preset_of(title, {}))
+            other = document.take.segment(title)
             scores = comparison.agreement(shown, other)
         else:
             path = self._documents.annotation(sent["annotation"])

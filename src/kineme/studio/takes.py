@@ -16,9 +16,10 @@ from typing import TYPE_CHECKING, Any
 
 from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError
 from kineme.formats import read
-from kineme.methods.presets import DEFAULT, PRESETS, Preset
+from kineme.methods.presets import DEFAULT
 from kineme.recordings.motion import Motion
 from kineme.segments.segmentation import Segmentation
+from kineme.studio.choices import preset_of
 
 if TYPE_CHECKING:
     from kineme.features import Names
@@ -123,22 +124,26 @@ class Take:
                 self._footage = footage(self.source, effectors=self.effectors)
             return self._footage
 
-    def segment(self, preset: Preset) -> Segmentation:
-        """The segments by a preset."""
+    def segment(
+        self, preset: str = DEFAULT, parameters: Mapping[str, float] | None = None
+    ) -> Segmentation:
+        """The segments by the preset of that name, with some of the constants it offers changed."""
         found = self.source
+        chosen = preset_of(preset, parameters or {})
         if isinstance(found, Motion):
             from kineme.segmentation.segmenter import segment_and_analysis
 
-            return segment_and_analysis(found, preset, effectors=self.effectors)[0]
-        from kineme.segmentation.channels import signal_preset
+            return segment_and_analysis(found, chosen, effectors=self.effectors)[0]
+        from kineme.segmentation.channels import DEFAULTS, signal_preset
         from kineme.segmentation.signals import segment_signals_and_analysis
 
-        return segment_signals_and_analysis(found, signal_preset(preset))[0]
+        chosen = signal_preset(chosen, **DEFAULTS.get(preset, {}))
+        return segment_signals_and_analysis(found, chosen)[0]
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
         """The segments by the default preset, or one for all; and what to know about them."""
         try:
-            return self.segment(PRESETS[DEFAULT]), []
+            return self.segment(), []
         except MotionError as error:  # a single point
             columns: dict[str, list[str] | list[int]] = {
                 "level": ["activity"],

@@ -1,7 +1,7 @@
 """New motion from primitives: a motion graph, ways through it, and their blending."""
 
 from kineme.synthesis.blending import Placement, synthesize
-from kineme.synthesis.building import motion_graph
+from kineme.synthesis.building import check_source, motion_graph
 from kineme.synthesis.feet import foot_contacts, plant_feet
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
@@ -15,6 +15,7 @@ __all__ = [
     "Placement",
     "Source",
     "action_route",
+    "check_source",
     "following",
     "foot_contacts",
     "line_route",

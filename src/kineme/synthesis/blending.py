@@ -18,9 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._checks import as_indices, check_type
 from kineme.errors import ParameterError
 from kineme.recordings.kinematics import local_translations
-from kineme.recordings.motion import Motion, Provenance
+from kineme.recordings.motion import Motion, Provenance, check_motion
 from kineme.synthesis.feet import plant_feet
 from kineme.synthesis.graph import MotionGraph
 
@@ -76,6 +77,16 @@ def synthesize(
     ParameterError : an empty route, nodes without an edge between them, or
         other motions than the graph's
     """
+    check_type(graph, MotionGraph, "synthesize", "kineme.motion_graph(motions) gives one")
+    check_type(motions, Sequence, "synthesize", "give the motions of the graph")
+    for each in motions:
+        check_motion(each, "synthesize")
+    route = as_indices(route, "the nodes of a route")
+    for node in route:
+        if not 0 <= node < len(graph.nodes):
+            raise ParameterError(f"no node {node} in a graph of {len(graph.nodes)}")
+    if start is not None:
+        check_type(start, Placement, "start", "leave it out to start as recorded")
     if [m.n_frames for m in motions] != [s.n_frames for s in graph.sources]:
         raise ParameterError("the motions are not those the graph was built on: build it anew")
     pieces = pieces_of(graph, route, start or Placement())

@@ -12,19 +12,19 @@ entering frames are given at the sources' own rate.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._checks import check_type, is_number
 from kineme.errors import ParameterError
 from kineme.features.point_clouds import fit_clouds
 from kineme.graph import neighbor_graph
 from kineme.methods.presets import KINEME
-from kineme.recordings.motion import Motion
+from kineme.recordings.motion import Motion, check_motion
 from kineme.recordings.operations import resample
 from kineme.segmentation.segmenter import motion_features, segment
 from kineme.segments.segmentation import Segmentation
@@ -71,7 +71,11 @@ def motion_graph(
         them, a threshold or window not above 0, or nothing is left after pruning
     """
     _check(motions, threshold, window)
+    if segmentations is not None:
+        check_type(segmentations, Iterable, "motion_graph", "give one segmentation per motion")
     found = [segment(m) for m in motions] if segmentations is None else list(segmentations)
+    for each in found:
+        check_type(each, Segmentation, "motion_graph", "kineme.segment(motion) gives one")
     if [s.n_frames for s in found] != [m.n_frames for m in motions]:
         raise ParameterError(
             f"segments of {[s.n_frames for s in found]} frames do not belong to motions "
@@ -95,25 +99,32 @@ def motion_graph(
 
 def _check(motions: Sequence[Motion], threshold: float, window: float) -> None:
     for name, value in (("threshold", threshold), ("window", window)):
-        if not (isfinite(value) and value > 0):
-            raise ParameterError(f"{name} must be a number above 0, not {value}")
+        if not (is_number(value) and value > 0):
+            raise ParameterError(f"{name} must be a number above 0, not {value!r:.60}")
+    check_type(motions, Sequence, "motion_graph", "give a list of motions")
+    for motion in motions:
+        check_motion(motion, "motion_graph")
     if not motions:
         raise ParameterError("a motion graph needs at least one recording")
-    first = motions[0]
     for motion in motions:
-        where = motion.provenance.path or "a motion"
-        if motion.rotations is None:
-            raise ParameterError(f"{where} has no rotations: give BVH or AMC files")
-        same = (
-            motion.skeleton.names == first.skeleton.names
-            and motion.skeleton.parents == first.skeleton.parents
-            and np.allclose(motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3)
+        check_source(motion, motions[0])
+
+
+def check_source(motion: Motion, first: Motion) -> None:
+    """ParameterError for a motion that cannot be in one graph with the first."""
+    where = motion.provenance.path or "a motion"
+    if motion.rotations is None:
+        raise ParameterError(f"{where} has no rotations: give BVH or AMC files")
+    same = (
+        motion.skeleton.names == first.skeleton.names
+        and motion.skeleton.parents == first.skeleton.parents
+        and np.allclose(motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3)
+    )
+    if not same or motion.fps != first.fps:
+        raise ParameterError(
+            f"{where} has another skeleton or frame rate than "
+            f"{first.provenance.path or 'the first motion'}; build one graph for each"
         )
-        if not same or motion.fps != first.fps:
-            raise ParameterError(
-                f"{where} has another skeleton or frame rate than "
-                f"{first.provenance.path or 'the first motion'}; build one graph for each"
-            )
 
 
 def _nodes_of(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:

@@ -19,11 +19,12 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._checks import check_type
 from kineme.errors import ParameterError, ReadError
 from kineme.features import end_effectors
 from kineme.features.effectors import Names
 from kineme.methods.presets import KINEME
-from kineme.recordings.motion import Motion
+from kineme.recordings.motion import Motion, check_motion
 from kineme.segmentation.segmenter import motion_features
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
@@ -99,6 +100,8 @@ class KnowledgeBase:
         EndEffectorError : head, hands or feet were not found
         ParameterError : the segments are of a recording of another length, or none is labelled
         """
+        check_motion(motion, "from_recording")
+        check_type(segments, Segmentation, "from_recording", "kineme.segment(motion) gives one")
         if segments.n_frames != motion.n_frames:
             raise ParameterError(
                 f"the segments are of {segments.n_frames} frames, the motion has {motion.n_frames}"

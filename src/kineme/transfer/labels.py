@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import as_floats, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.methods.presets import KINEME
 from kineme.segments.segmentation import Segmentation
@@ -62,8 +63,10 @@ def transfer_labels(
     ------
     ParameterError : features of another recording, or a threshold that is not above 0
     """
-    if not (math.isfinite(threshold) and threshold > 0):
-        raise ParameterError(f"the threshold must be a number above 0, not {threshold}")
+    check_type(segmentation, Segmentation, "transfer_labels", "kineme.segment(motion) gives one")
+    check_type(knowledge, KnowledgeBase, "transfer_labels", "KnowledgeBase.load(path) gives one")
+    if not (is_number(threshold) and threshold > 0):
+        raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
     features = _checked(features, segmentation)
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     rows = segmentation.level(level)
@@ -119,7 +122,7 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
 
 
 def _checked(features: ArrayLike, segmentation: Segmentation) -> Floats:
-    array = np.asarray(features, np.float64)
+    array = as_floats(features, "features")
     expected = segmentation.n_frames * FPS / segmentation.fps
     if array.ndim != 2 or abs(len(array) - expected) > 2:
         raise ParameterError(

@@ -19,7 +19,7 @@ from kineme.datasets import random_recording
 from kineme.errors import ParameterError
 from kineme.graph import BASIC_STEPS
 from kineme.methods.presets import PUBLISHED, RegionPreset, resolve_preset
-from kineme.methods.region_growing.analysis import Analysis, analyze
+from kineme.methods.region_growing.analysis import Analysis, analyze_regions
 from kineme.segmentation.segmenter import motion_features
 
 presets = pytest.mark.parametrize("preset", PUBLISHED.values(), ids=PUBLISHED.keys())
@@ -33,7 +33,7 @@ def recorded(seed: int, preset: RegionPreset) -> np.ndarray:
 
 @cache
 def found_in(seed: int, preset: RegionPreset) -> Analysis:
-    return analyze(recorded(seed, preset), preset)
+    return analyze_regions(recorded(seed, preset), preset)
 
 
 def assert_same(found: Analysis, expected: Analysis) -> None:
@@ -61,7 +61,7 @@ def assert_tiles(found: Analysis, n: int) -> None:
 def test_moving_and_turning_the_features_changes_nothing(preset, seed, turn, shift) -> None:
     rows = recorded(seed, preset)
     turned = rows @ ortho_group.rvs(rows.shape[1], random_state=turn) + shift
-    assert_same(analyze(turned, preset), found_in(seed, preset))
+    assert_same(analyze_regions(turned, preset), found_in(seed, preset))
 
 
 @presets
@@ -76,14 +76,14 @@ def test_scaling_the_features_with_all_lengths_changes_nothing(preset, seed, fac
         growth_radius=None if growth is None else factor * growth,
         zero_cost=factor * preset.zero_cost,
     )
-    found = analyze(factor * recorded(seed, preset), scaled)
+    found = analyze_regions(factor * recorded(seed, preset), scaled)
     assert_same(found, found_in(seed, preset))
 
 
 @presets
 def test_a_reach_beyond_the_recording_is_no_limit(preset: RegionPreset) -> None:
     rows = recorded(1, preset)
-    far = analyze(rows, preset.replace(max_lag=len(rows) / preset.working_fps))
+    far = analyze_regions(rows, preset.replace(max_lag=len(rows) / preset.working_fps))
     assert_same(far, found_in(1, preset))
 
 
@@ -100,12 +100,13 @@ PRINT_DIGEST = """
 import hashlib, numpy as np
 from kineme.datasets import random_recording
 from kineme.methods.region_growing.analysis import analyze
+from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.presets import PUBLISHED
 from kineme.segmentation.segmenter import motion_features
 digest = hashlib.sha256()
 for preset in PUBLISHED.values():
     for _ in range(2):
-        found = analyze(motion_features(random_recording(2).motion, preset), preset)
+        found = analyze_regions(motion_features(random_recording(2).motion, preset), preset)
         for part in (found.graph.indices, found.graph.distances, found.blocks, found.repetition,
                      found.segments, found.clustering.labels, found.clustering.scores):
             digest.update(np.ascontiguousarray(part).tobytes())
@@ -171,7 +172,7 @@ def constants(draw: st.DrawFn) -> RegionPreset:
 @given(features(max_frames=60), constants())
 @settings(max_examples=300)
 def test_segments_tile_whatever_the_constants(points, preset) -> None:
-    assert_tiles(analyze(points, preset, mirror=np.negative), len(points))
+    assert_tiles(analyze_regions(points, preset, mirror=np.negative), len(points))
 
 
 def test_progress_and_timings_name_the_stages() -> None:
@@ -181,7 +182,7 @@ def test_progress_and_timings_name_the_stages() -> None:
         ("krueger2017", ["bundling", *stages]),
     ):
         names: list[str] = []
-        found = analyze(np.zeros((40, 2)), PUBLISHED[name], progress=names.append)
+        found = analyze_regions(np.zeros((40, 2)), PUBLISHED[name], progress=names.append)
         assert names == [*found.timings] == expected
         assert all(seconds >= 0 for seconds in found.timings.values())
 

@@ -14,7 +14,7 @@ from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
 from kineme.features import mirror, mirror_features
 from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
-from kineme.methods.region_growing.analysis import Analysis, analyze
+from kineme.methods.region_growing.analysis import Analysis, analyze_regions
 from kineme.methods.region_growing.mirroring import merged_cuts
 from kineme.segmentation.segmenter import motion_features, segment_and_analysis
 
@@ -75,13 +75,13 @@ def test_a_kick_with_the_other_leg_has_the_same_cuts(preset: RegionPreset) -> No
 
 def test_features_without_sides_are_refused() -> None:
     with pytest.raises(ParameterError, match="mirror=False"):
-        analyze(np.zeros((30, 2)), MIRRORING["krueger2017"])
+        analyze_regions(np.zeros((30, 2)), MIRRORING["krueger2017"])
 
 
 def test_stages_are_named() -> None:
     motion = synthesize([Action("walk", 3)], fps=30).motion
     features = motion_features(motion, KRUEGER2017)
-    found = analyze(features, MIRRORING["krueger2017"], mirror=mirror_features)
+    found = analyze_regions(features, MIRRORING["krueger2017"], mirror=mirror_features)
     assert [*found.timings] == [
         "bundling", "neighbors", "activities", "primitives", "mirroring", "clusters",
     ]  # fmt: skip

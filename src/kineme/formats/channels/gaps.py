@@ -8,20 +8,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.formats.files import Source
-from kineme.formats.gaps import LONGEST_S, spans_of
+from kineme.formats.gaps import LONGEST_S, covered, spans_of
+from kineme.formats.timing import Timing
 
 Floats = NDArray[np.float64]
 
 
 def without_gaps(
-    source: Source, values: Floats, fps: float, names: Sequence[str]
+    source: Source, values: Floats, timing: Timing, names: Sequence[str]
 ) -> tuple[Floats, list[tuple[int, int]], list[str]]:
     """Finite values, the stretches in which a channel is missing for long, and what was done.
 
     Parameters
     ----------
     values : (frames, channels), NaN or infinite where there is nothing
-    fps : frames per second
+    timing : frames per second, and the frames at which the times jump
     names : of the channels
 
     Raises
@@ -30,7 +31,7 @@ def without_gaps(
     """
     missing = ~np.isfinite(values)
     if not missing.any():
-        return values, [], []
+        return values, list(timing.gaps), []
     if missing.all(axis=0).any():
         name = names[int(missing.all(axis=0).argmax())]
         raise source.error(f"column {name!r} holds no number at all: name the others (--columns)")
@@ -41,12 +42,14 @@ def without_gaps(
         at = np.flatnonzero(missing[:, channel])
         filled[at, channel] = np.interp(at, seen, values[seen, channel])
         for start, stop in spans_of(missing[:, channel]).tolist():
-            if stop - start > LONGEST_S * fps + 1e-9:
+            if stop - start > LONGEST_S * timing.fps + 1e-9:
                 long[start:stop] = True
-    if long.all():
+    jumps = covered(timing.gaps, len(values))
+    if (long | jumps).all():
         raise source.error("in every frame some channel is missing for long: choose columns")
-    gaps = [(start, stop) for start, stop in spans_of(long).tolist()]
+    holes = spans_of(long)
+    gaps = [(start, stop) for start, stop in spans_of(long | jumps).tolist()]
     notes = [f"{int((missing & ~long[:, None]).sum())} missing values filled in a straight line"]
-    if gaps:
-        notes.append(f"{len(gaps)} gaps of more than {LONGEST_S:g} s, {int(long.sum())} frames")
+    if len(holes):
+        notes.append(f"{len(holes)} gaps of more than {LONGEST_S:g} s, {int(long.sum())} frames")
     return filled, gaps, notes

@@ -5,7 +5,7 @@ CSV, TSV, text names in the first line, or numbers only (channels 1, 2, …);
                between commas, tabs, semicolons or blanks
 Parquet        one channel per column
 MOT, STO       OpenSim's coordinates, forces or other channels
-C3D            the analog channels
+C3D            the analog channels, or those of muscles, see `kineme.formats.channels.muscles`
 MAT            vectors, and columns of matrices, of the length that most have
 ============== ==================================================================
 
@@ -24,9 +24,10 @@ from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 
+from kineme._checks import as_texts, check_path, is_number
 from kineme.errors import FileError, ParameterError
 from kineme.formats.channels.gaps import without_gaps
-from kineme.formats.channels.tables import KINDS, kind_of
+from kineme.formats.channels.tables import KINDS, kind_of, read_muscles
 from kineme.formats.columns import joint_names
 from kineme.formats.files import load
 from kineme.formats.tables.pose_tables import is_pose_table
@@ -45,6 +46,7 @@ def read_signals(
     *,
     columns: Sequence[str] | None = None,
     fps: float | None = None,
+    emg: bool = False,
 ) -> Signals:
     """The channels in a file, with what was inferred in their provenance.
 
@@ -56,24 +58,31 @@ def read_signals(
     path : the file
     columns : the channels wanted, by name and in this order; all by default
     fps : frames per second, in place of the file's
+    emg : of the analog channels of a C3D only those of muscles, where ``columns`` names none;
+        their envelopes are `segment_signals`' part
 
     Raises
     ------
-    ReadError : missing or damaged, no such channel, nothing that tells the frame rate
+    ReadError : missing or damaged, no such channel, nothing that tells the frame rate,
+        or, with ``emg``, which channels of a C3D are muscles
     MissingDependencyError : Parquet without pyarrow
     ParameterError : a frame rate that is not positive
     """
-    if fps is not None and not 0 < fps < float("inf"):
-        raise ParameterError(f"fps is {fps}: give frames per second, above 0")
+    check_path(path, "read_signals")
+    if columns is not None:
+        columns = as_texts(columns, "columns")
+    if fps is not None and not (is_number(fps) and fps > 0):
+        raise ParameterError(f"fps is {fps!r:.60}: give frames per second, above 0")
     source = load(path)
     if not source.data.strip():
         raise source.error("the file is empty")
     kind = kind_of(source)
-    table = KINDS[kind].read(source, columns)
-    rate, values, notes = table.timed(source, fps)
-    values, gaps, filled = without_gaps(source, values, rate, table.names)
-    provenance = source.provenance(kind, [*table.notes, *notes, *filled])
-    return Signals(values, rate, table.names, gaps, provenance)
+    table = read_muscles(source) if emg and kind == "C3D" and columns is None else None
+    table = table or KINDS[kind].read(source, columns)
+    timing = table.timed(source, fps)
+    values, gaps, filled = without_gaps(source, table.values, timing, table.names)
+    provenance = source.provenance(kind, [*table.notes, *timing.notes, *filled])
+    return Signals(values, timing.fps, table.names, gaps, provenance)
 
 
 def is_signal_file(path: str | PathLike[str]) -> bool:

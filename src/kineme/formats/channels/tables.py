@@ -12,15 +12,17 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import MissingDependencyError, ReadError
 from kineme.formats.arrays.mat import mat_channels
+from kineme.formats.channels.muscles import muscles_of
 from kineme.formats.channels.text_table import NAMELESS, TextTable, named
-from kineme.formats.columns import is_timing, timed
+from kineme.formats.columns import dated, is_timing, timed
 from kineme.formats.delimited import rows_of
 from kineme.formats.files import MOST_EXPANSION, Source, unique
 from kineme.formats.markers.c3d_file import parse_c3d
+from kineme.formats.timing import Timing
 
 Floats = NDArray[np.float64]
 
@@ -46,17 +48,17 @@ class Table:
 
     names: list[str]
     values: Floats
-    timing: Mapping[str, Floats]
+    timing: Mapping[str, ArrayLike]
     rate: float | None = None
     notes: tuple[str, ...] = ()
 
-    def timed(self, source: Source, fps: float | None) -> tuple[float, Floats, list[str]]:
-        """Frames per second, the values at even times, and what was done."""
+    def timed(self, source: Source, fps: float | None) -> Timing:
+        """Frames per second, pauses, and what was seen of the times."""
         if fps or self.rate:
-            return fps or self.rate or 0.0, self.values, []
+            return Timing(fps or self.rate or 0.0)
         if not self.timing:
             raise source.error("nothing in it tells the frame rate: give fps (--fps)")
-        return timed(source, self.timing, self.values, None)
+        return timed(source, self.timing, None)
 
 
 class Kind(NamedTuple):
@@ -86,32 +88,55 @@ def _read_text(source: Source, columns: Sequence[str] | None) -> Table:
     text = TextTable.of(source)
     wanted = _wanted(source, text.names, columns, text.numeric())
     at = [text.names.index(name) for name in wanted]
-    values = rows_of(source, text.rows, text.first_row, text.separator, len(text.names), at)
+    values = rows_of(
+        source,
+        text.rows,
+        text.first_row,
+        text.separator,
+        len(text.names),
+        at,
+        dates=dated(text.names, text.first_cells()),
+    )
     return _table(source, text.names, dict(zip(wanted, values.T, strict=True)), columns)
 
 
 def _parquet_names(source: Source) -> list[str]:
-    return named(_parquet(source).schema_arrow.names)
+    return named(parquet_file(source).schema_arrow.names)
 
 
 def _read_parquet(source: Source, columns: Sequence[str] | None) -> Table:
     import pyarrow as pa
 
-    file = _parquet(source)
+    file = parquet_file(source)
     names = named(file.schema_arrow.names)
     types = dict(zip(names, file.schema_arrow.types, strict=True))
     kinds = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
-    numeric = [name for name in names if any(kind(types[name]) for kind in kinds)]
+    numeric = [
+        name
+        for name in names
+        if any(kind(types[name]) for kind in kinds)
+        or (is_timing(name) and _tells_dates(types[name]))
+    ]
     wanted = _wanted(source, names, columns, numeric)
     try:
         table = file.read(columns=[file.schema_arrow.names[names.index(name)] for name in wanted])
         values = {
-            name: np.asarray(column.to_numpy(), np.float64)
+            name: column.to_numpy() if is_timing(name) else _plain(column)
             for name, column in zip(wanted, table.columns, strict=True)
         }
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
         raise ReadError(source.path, f"its columns cannot be read as numbers: {error}") from error
     return _table(source, names, values, columns)
+
+
+def _tells_dates(kind: Any) -> bool:
+    import pyarrow as pa
+
+    return bool(pa.types.is_timestamp(kind) or pa.types.is_string(kind))
+
+
+def _plain(column: Any) -> Floats:
+    return np.asarray(column.to_numpy(), np.float64)
 
 
 def _c3d_names(source: Source) -> list[str]:
@@ -126,6 +151,12 @@ def _read_c3d(source: Source, columns: Sequence[str] | None) -> Table:
     wanted = _wanted(source, names, columns, names)
     at = [names.index(name) for name in wanted]
     return Table(wanted, file.analog[:, at], {}, file.analog_rate or None)
+
+
+def read_muscles(source: Source) -> Table:
+    """The analog channels of a C3D that are muscles', with a note of what was taken."""
+    names, note = muscles_of(source, parse_c3d(source))
+    return replace(_read_c3d(source, names), notes=(note,))
 
 
 def _mat_names(source: Source) -> list[str]:
@@ -153,7 +184,8 @@ def _read_mat(source: Source, columns: Sequence[str] | None) -> Table:
     return replace(table, rate=rate) if known else table
 
 
-def _parquet(source: Source) -> Any:
+def parquet_file(source: Source) -> Any:
+    """A Parquet file, opened but not read; ReadError where it is none or damaged."""
     try:
         import pyarrow as pa
         from pyarrow import parquet

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from kineme.formats.columns import dated
 from kineme.formats.delimited import EMPTY, separator_of
 from kineme.formats.files import Source, numbers, unique
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut
@@ -45,10 +46,18 @@ class TextTable:
         return cls(named(cells), lines[first + 1 :], first + 2, separator)
 
     def numeric(self) -> list[str]:
-        """The columns whose first cell is a number or empty."""
-        first = _cells(self.rows[0], self.separator) if self.rows else []
-        cells = zip(self.names, first, strict=False)
-        return [name for name, cell in cells if cell.lower() in EMPTY or _is_number(cell)]
+        """The columns whose first cell is a number or empty, and those of dates."""
+        cells = list(zip(self.names, self.first_cells(), strict=False))
+        dates = {self.names[i] for i in dated(self.names, self.first_cells())}
+        return [
+            name
+            for name, cell in cells
+            if cell.lower() in EMPTY or name in dates or _is_number(cell)
+        ]
+
+    def first_cells(self) -> list[str]:
+        """The cells of the first row."""
+        return _cells(self.rows[0], self.separator) if self.rows else []
 
 
 def named(names: Iterable[str]) -> list[str]:

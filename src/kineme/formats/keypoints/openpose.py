@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from kineme.errors import ReadError
-from kineme.formats.files import Source, load
+from kineme.formats.files import Source, head_of, load
 from kineme.formats.keypoints.keypoints import (
     Person,
     Video,
@@ -89,9 +89,28 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
 
 
 def frame_files(folder: Path) -> list[tuple[int, Path]]:
-    """The files in a folder that hold a frame each, with the numbers of the frames, in order."""
-    found = [(match, file) for file in folder.iterdir() if (match := _NUMBER.search(file.name))]
-    return sorted((int(match[1][-18:]), file) for match, file in found)
+    """The files in a folder that hold a frame each, with the numbers of the frames, in order.
+
+    Files numbered alike are frames where one of them begins as OpenPose's do; a numbered
+    JSON of something else is none.
+    """
+    series: dict[str, list[tuple[int, Path]]] = {}
+    for file in folder.iterdir():
+        match = _NUMBER.search(file.name)
+        if match:
+            number = int(match[1][-18:])
+            series.setdefault(file.name[: match.start()], []).append((number, file))
+    return sorted(
+        frame
+        for frames in series.values()
+        if any(_begins_a_frame(file) for _, file in frames)
+        for frame in frames
+    )
+
+
+def _begins_a_frame(file: Path) -> bool:
+    head = head_of(file)
+    return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") and b'"people"' in head
 
 
 def _frames(data: Any) -> list[tuple[int, Any]]:

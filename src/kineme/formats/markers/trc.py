@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from kineme.formats.delimited import rows_of, separator_of
 from kineme.formats.files import Source, numbers, save, unique, warn
-from kineme.formats.gaps import unseen
+from kineme.formats.gaps import split_at, unseen
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
-from kineme.formats.timing import even_frames
+from kineme.formats.timing import Timing, timing_of
 from kineme.formats.units import unit_named
 from kineme.recordings.motion import Motion
 
@@ -44,10 +44,10 @@ def read_trc(source: Source, options: ReadOptions) -> Motion:
     if declared.isdigit() and int(declared) != len(table):
         warn(f"{source.path}, line 3: {declared} frames declared, {len(table)} found and kept")
     positions = table[:, 2:].reshape(len(table), -1, 3)
-    fps, positions, notes = _rate(source, options, head, table[:, 1], positions)
+    timing = _rate(source, options, head, table[:, 1])
     unit = options.unit or unit_named(head.get("Units", ""))
-    points = Points(names, positions, fps, unit, options.up)
-    return to_motion(points, source.provenance("TRC", notes))
+    points = Points(names, positions, timing.fps, unit, options.up)
+    return split_at(to_motion(points, source.provenance("TRC", timing.notes)), timing.gaps)
 
 
 def write_trc(motion: Motion, path: Path) -> None:
@@ -86,23 +86,22 @@ def _header(keys: str, values: str, separator: str) -> dict[str, str]:
     return {key.strip(): value.strip() for key, value in pairs}
 
 
-def _rate(
-    source: Source, options: ReadOptions, head: dict[str, str], times: Floats, positions: Floats
-) -> tuple[float, Floats, list[str]]:
+def _rate(source: Source, options: ReadOptions, head: dict[str, str], times: Floats) -> Timing:
     if options.fps:
-        return options.fps, positions, []
+        return Timing(options.fps)
     try:
         (declared,) = numbers([head.get("DataRate", "")])
     except ValueError:
         declared = 0.0
     if declared > 0 and (len(times) < 2 or np.isnan(times).any()):
-        return declared, positions, []
-    fps, even, notes = even_frames(source, times, positions)
-    if abs(fps - declared) <= 0.005 * fps and len(even) == len(positions):
-        return declared, positions, notes
-    if declared > 0 and abs(fps - declared) > 0.005 * fps:
+        return Timing(declared)
+    timing = timing_of(source, times)
+    fps = timing.fps
+    if abs(fps - declared) <= 0.005 * fps:
+        return timing._replace(fps=declared)
+    if declared > 0:
         warn(f"{source.path}: DataRate is {declared:g}, but the times are {fps:g} Hz apart: taken")
-    return fps, even, notes
+    return timing
 
 
 FORMAT = Format(

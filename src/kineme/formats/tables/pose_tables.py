@@ -8,6 +8,7 @@ as not seen.
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -15,12 +16,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.columns import is_timing, timed
+from kineme.formats.columns import dated, is_timing, timed
 from kineme.formats.delimited import rows_of, texts_of
 from kineme.formats.files import Source
+from kineme.formats.gaps import split_at
 from kineme.formats.keypoints.keypoints import Person, Video, video_to_motion
 from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion
 from kineme.formats.registry import ReadOptions
+from kineme.formats.timing import Timing
 from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
@@ -61,7 +64,11 @@ class PoseTable:
     def numbers(self, columns: Sequence[int]) -> Floats:
         """(rows, columns): some of the columns."""
         width = len(self.names)
-        return rows_of(self.source, self.lines, self.first, self.separator, width, columns)
+        cells = next(csv.reader(self.lines[:1], delimiter=self.separator), [])
+        dates = dated(self.names, cells)
+        return rows_of(
+            self.source, self.lines, self.first, self.separator, width, columns, dates=dates
+        )
 
     def texts(self, column: int) -> list[str]:
         return texts_of(self.lines, self.separator, column)
@@ -102,11 +109,10 @@ def read_landmarks(table: PoseTable, options: ReadOptions) -> Motion:
     marks[..., 3] = 1.0
     for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
         marks[:, landmark, field] = column
-    frames, fps, notes = np.arange(len(rows)), options.fps, list[str]()
-    if timing and not fps:
+    frames, clock = np.arange(len(rows)), Timing(options.fps or 0.0)
+    if timing and not options.fps:
         columns = {table.names[i]: rows[:, len(at) + k] for k, i in enumerate(timing)}
-        fps, marks, notes = timed(table.source, columns, marks, None)
-        frames = np.arange(len(marks))
+        clock = timed(table.source, columns, None)
     elif numbered is not None:
         frames = _whole(table.source, rows[:, -1])
     people = [
@@ -114,9 +120,15 @@ def read_landmarks(table: PoseTable, options: ReadOptions) -> Motion:
         for frame, mark in zip(frames.tolist(), marks, strict=True)
         if np.isfinite(mark[:, :2]).any()
     ]
-    return landmarks_to_motion(
-        table.source, people, options, fps=fps, frames=frames.tolist(), notes=notes
+    motion = landmarks_to_motion(
+        table.source,
+        people,
+        options,
+        fps=clock.fps or None,
+        frames=frames.tolist(),
+        notes=clock.notes,
     )
+    return split_at(motion, clock.gaps)
 
 
 def read_long(table: PoseTable, options: ReadOptions) -> Motion:
@@ -136,7 +148,7 @@ def read_long(table: PoseTable, options: ReadOptions) -> Motion:
     if timing and not fps:
         times = np.zeros(len(frames))
         times[place] = rows[:, -1]
-        fps = timed(table.source, {table.names[timing[0]]: times}, times, None)[0]
+        fps = timed(table.source, {table.names[timing[0]]: times}, None).fps
     people = [
         Person(frame, mark[:, :3].tolist(), mark[:, 3].tolist())
         for frame, mark in zip(frames.tolist(), marks, strict=True)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from kineme.errors import MissingDependencyError, ReadError
-from kineme.formats.columns import columns_to_motion, is_used
+from kineme.formats.columns import columns_to_motion, dated, is_used
 from kineme.formats.delimited import rows_of, separator_of
 from kineme.formats.files import MOST_EXPANSION, Source, save, unique
 from kineme.formats.gaps import unseen
@@ -37,7 +37,9 @@ def read_table(source: Source, options: ReadOptions) -> Motion:
         if recognises(names):
             return reader(table, options)
     used = [i for i, name in enumerate(names) if is_used(name)]
-    values = rows_of(source, lines[first + 1 :], first + 2, separator, len(names), used)
+    below = lines[first + 1 :]
+    dates = dated(names, _cells(below[0], separator, source) if below else [])
+    values = rows_of(source, below, first + 2, separator, len(names), used, dates=dates)
     columns = {names[i]: column for i, column in zip(used, values.T, strict=True)}
     return columns_to_motion(source, "table", columns, options)
 

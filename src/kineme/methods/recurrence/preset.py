@@ -1,16 +1,17 @@
 """The constants of the ``kineme`` method, one set for every recording.
 
-Lengths are shares of the body's size (see ``kineme.features.body_size``),
-times seconds. ``docs/method.md`` says what each does and what other values
-measure.
+Lengths are shares of the body's size (see ``kineme.features.body_size``), or of
+what stands for it in signals, times seconds. ``docs/method.md`` says what each does
+and what other values measure.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from kineme._checks import is_number
 from kineme.errors import ParameterError
-from kineme.methods.base import Preset
+from kineme.methods.base import Preset, Unit
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,6 +45,7 @@ class ActionPreset(Preset):
     max_transition : longest transition taken from one end of an activity, seconds
     """
 
+    unit: Unit = "sizes"
     resolution: float
     window: float
     phase: float
@@ -77,12 +79,16 @@ class ActionPreset(Preset):
             "max_transition", "no_action_cost", "min_repetition",
         ]  # fmt: skip
         self._check(positive, not_negative)
+        if self.unit != "sizes":
+            raise ParameterError(f"unit must be sizes in {self.name}, not {self.unit!r}")
         if self.min_scale > self.max_scale:
             raise ParameterError(
                 f"min_scale {self.min_scale} is larger than max_scale {self.max_scale}"
             )
-        if not 0 < self.likeness <= 1:
-            raise ParameterError(f"likeness is a share above 0 and at most 1, not {self.likeness}")
+        if not (is_number(self.likeness) and 0 < self.likeness <= 1):
+            raise ParameterError(
+                f"likeness is a share above 0 and at most 1, not {self.likeness!r}"
+            )
 
     @property
     def step(self) -> int:

@@ -1,4 +1,4 @@
-"""From features to clusters: what each stage finds, in frames of the working rate.
+"""The published methods: what each stage finds, in frames of the working rate.
 
 Nothing here knows what a skeleton is: any array of frames × dims will do.
 """
@@ -13,6 +13,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.errors import ParameterError
 from kineme.graph import NeighborGraph, component_labels, neighbor_graph
@@ -62,7 +63,7 @@ class Analysis:
     timings: dict[str, float] = field(default_factory=dict)
 
 
-def analyze(
+def analyze_regions(
     features: ArrayLike,
     preset: RegionPreset,
     *,
@@ -83,8 +84,10 @@ def analyze(
 
     Raises
     ------
-    ParameterError : the preset mirrors, and nothing says how
+    ParameterError : features of another shape, empty or not finite, or the preset mirrors, and
+        nothing says how
     """
+    features = as_features(features)
     if preset.mirror and mirror is None:
         raise ParameterError("these features have no left and right: they take mirror=False")
     timings: dict[str, float] = {}
@@ -109,7 +112,7 @@ def analyze(
     symmetry = None
     if preset.mirror and mirror is not None:
         with stage("mirroring"):
-            graph_across = _neighbors(mirror(np.asarray(features, float)), features, preset)
+            graph_across = _neighbors(mirror(features), features, preset)
             mirrored = _primitives(graph_across, blocks, preset)
             cuts_inside = _merged(primitives, mirrored, preset)
             symmetry = _symmetry(blocks, repeats, primitives, mirrored, preset)

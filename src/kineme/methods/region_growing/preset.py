@@ -14,6 +14,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from kineme._checks import is_number
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 
@@ -88,10 +89,11 @@ class RegionPreset(Preset):
     def __post_init__(self) -> None:
         self._check(_POSITIVE, _NOT_NEGATIVE)
         for name in ("symmetry", "coverage"):
-            if not 0 < getattr(self, name) <= 1:
-                raise ParameterError(f"{name} is a share above 0 and at most 1")
-        if not self.max_slope >= 1:
-            raise ParameterError(f"max_slope must be at least 1, not {self.max_slope}")
+            value = getattr(self, name)
+            if not (is_number(value) and 0 < value <= 1):
+                raise ParameterError(f"{name} is a share above 0 and at most 1, not {value!r}")
+        if not (is_number(self.max_slope) and self.max_slope >= 1):
+            raise ParameterError(f"max_slope must be at least 1, not {self.max_slope!r}")
         for name, choices in _CHOICES.items():
             if getattr(self, name) not in choices:
                 raise ParameterError(
@@ -108,6 +110,7 @@ _NOT_NEGATIVE = (
     "min_primitive", "cluster_min_path",
 )  # fmt: skip
 _CHOICES = {
+    "unit": ("metres", "standard deviations"),
     "growth": ("squares", "scan_lines"),
     "diagonal": ("band", "component"),
     "connection": ("weak", "strong"),

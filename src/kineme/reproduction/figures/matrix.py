@@ -23,7 +23,7 @@ from kineme._colors import PALETTE
 from kineme.evaluation.labelling import TRANSITION, Annotation
 from kineme.graph import NeighborGraph, component_labels
 from kineme.methods.presets import PUBLISHED, RegionPreset
-from kineme.methods.region_growing.analysis import Analysis, analyze
+from kineme.methods.region_growing.analysis import Analysis, analyze_regions
 from kineme.methods.region_growing.primitives import primitive_cuts
 from kineme.plot.segmentation import SHADES, similarity_image
 from kineme.reproduction.figures.style import BETWEEN, heading, new_figure, save
@@ -35,7 +35,7 @@ FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
 
 def plot_regions(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voegele2014"]) -> Path:
     """Truth, forward regions, backward regions and activities in one matrix each."""
-    analysis = analyze(motion_features(trial.motion, preset), preset)
+    analysis = analyze_regions(motion_features(trial.motion, preset), preset)
     n, fps = len(analysis.graph), preset.working_fps
     figure = new_figure(9.2, 9.2)
     panels = figure.subplots(2, 2).ravel()
@@ -67,7 +67,7 @@ def plot_regions(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voe
 
 def plot_paths(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voegele2014"]) -> Path:
     """The longest activity: matrix, connected components, warping paths."""
-    analysis = analyze(motion_features(trial.motion, preset), preset)
+    analysis = analyze_regions(motion_features(trial.motion, preset), preset)
     lengths = np.diff(analysis.blocks) * analysis.repeats
     first, stop = analysis.blocks[lengths.argmax() :][:2].tolist()
     graph, fps = analysis.graph, preset.working_fps

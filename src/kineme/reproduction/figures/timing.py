@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from kineme._colors import PALETTE
 from kineme.methods.presets import PUBLISHED, RegionPreset
-from kineme.methods.region_growing.analysis import analyze
+from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.reproduction.figures.style import INK, heading, new_figure, save, tidy
 from kineme.reproduction.trials import Trial
 from kineme.segmentation.segmenter import motion_features, segment
@@ -41,7 +41,7 @@ def time_growth(trials: Sequence[Trial], preset: RegionPreset) -> list[tuple[int
     features = np.concatenate([motion_features(trial.motion, preset) for trial in trials] * 2)
     lengths: NDArray[np.int64] = np.geomspace(500, len(features), POINTS).astype(np.int64)
     return [
-        (int(n), _least([analyze(features[:n], preset).timings for _ in range(RUNS)]))
+        (int(n), _least([analyze_regions(features[:n], preset).timings for _ in range(RUNS)]))
         for n in lengths
     ]
 

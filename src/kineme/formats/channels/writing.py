@@ -1,0 +1,213 @@
+"""Signals to files: rows of the file that they came from, to the last digit, or their values.
+
+Where the file of a recording still holds what was read, its own rows are written: every
+column, channel or not, in the file's format and with its cells untouched. Elsewhere (channels
+of a C3D or MAT, arrays, channels that were changed or brought to even times) a CSV is, of
+``time`` in seconds and one column per channel, empty in gaps.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+import warnings
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from io import StringIO
+from itertools import islice
+from os import PathLike
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+
+from kineme._files import atomic_write
+from kineme.errors import KinemeWarning, WriteError
+from kineme.formats.channels.tables import KINDS, kind_of, parquet_file
+from kineme.formats.channels.text_table import TextTable, named
+from kineme.formats.columns import is_timing
+from kineme.formats.files import Source, load
+from kineme.recordings.signals import Signals
+
+SEPARATORS = {".csv": ",", ".tsv": "\t"}
+
+_ROW_COUNT = re.compile(r"^(\s*(?:nrows\s*=|datarows\s)\s*)\d+", re.IGNORECASE | re.MULTILINE)
+
+
+class Rows(Protocol):
+    """The frames of a recording as rows of a file; ``names`` is None where the file has none."""
+
+    @property
+    def suffix(self) -> str: ...
+    @property
+    def names(self) -> Sequence[str] | None: ...
+
+    def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
+        """Leave rows [start, stop) in a file of the suffix, whole or not at all."""
+
+    def cells(self) -> Iterator[Sequence[str]]:
+        """The cells of each row."""
+
+
+def write_signals(
+    signals: Signals, path: str | PathLike[str], *, columns: Sequence[str] | None = None
+) -> None:
+    """Leave signals in a file of their own format, a CSV or a TSV, whole or not at all.
+
+    Parameters
+    ----------
+    signals : Signals
+    path : str or PathLike
+        The suffix tells the format.
+    columns : sequence of str, optional
+        Write these alone, and the columns of times; by default all that the file has.
+
+    Raises
+    ------
+    WriteError
+        Another suffix, or a place that cannot be written.
+    """
+    target, rows = Path(path), rows_of(signals)
+    suffix = target.suffix.lower()
+    if columns is None and suffix == rows.suffix:
+        rows.write(target)
+    elif suffix in SEPARATORS:
+        _table(rows, suffix, columns).write(target)
+    else:
+        known = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS)))
+        raise WriteError(target, f"signals are written as {known}, not {suffix or 'that'!r}")
+
+
+def rows_of(signals: Signals) -> Rows:
+    """The frames of signals as rows of their own file, or of a CSV where these are others."""
+    path = signals.provenance.path
+    if path is not None and Path(path).is_file():
+        source = load(path)
+        if source.digest == signals.provenance.sha256 and _holds(source, signals):
+            if kind_of(source) == "Parquet table":
+                return _ParquetRows.of(source)
+            return _TextRows.of(source, signals.n_frames)
+    return _of_values(signals)
+
+
+@dataclass(frozen=True)
+class _TextRows:
+    """Lines of a text table as they stand, and the same lines for a csv reader (``records``)."""
+
+    suffix: str
+    names: Sequence[str] | None
+    head: str
+    lines: Sequence[str]
+    records: Sequence[str]
+    separator: str
+
+    @classmethod
+    def of(cls, source: Source, n_rows: int) -> _TextRows:
+        """The first rows of a file, blank lines left out."""
+        table = TextTable.of(source)
+        text = source.data.decode("utf-8", errors="surrogateescape")
+        lines = text.splitlines(keepends=True)
+        head, below = lines[: table.first_row - 1], lines[table.first_row - 1 :]
+        reader = csv.reader(table.rows, delimiter=table.separator)
+        kept: list[str] = []
+        start = 0
+        for cells in reader:
+            if any(map(str.strip, cells)):
+                kept.append("".join(below[start : reader.line_num]))
+            start = reader.line_num
+        numbered = [str(i) for i in range(1, len(table.names) + 1)]
+        names = None if table.names == numbered else table.names
+        suffix = source.path.suffix.lower()
+        return cls(suffix, names, "".join(head), kept[:n_rows], table.rows, table.separator)
+
+    def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
+        lines = self.lines[start:stop]
+        head = _ROW_COUNT.sub(rf"\g<1>{len(lines)}", self.head)
+        text = "".join((head, *lines))
+        with atomic_write(path) as draft:
+            draft.write_bytes(text.encode("utf-8", errors="surrogateescape"))
+
+    def cells(self) -> Iterator[Sequence[str]]:
+        reader = csv.reader(self.records, delimiter=self.separator)
+        return islice((cells for cells in reader if any(map(str.strip, cells))), len(self.lines))
+
+
+@dataclass(frozen=True)
+class _ParquetRows:
+    """An Arrow table."""
+
+    names: Sequence[str]
+    table: Any
+    suffix: str = ".parquet"
+
+    @classmethod
+    def of(cls, source: Source) -> _ParquetRows:
+        table = parquet_file(source).read()
+        return cls(named(table.column_names), table)
+
+    def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
+        from pyarrow import parquet
+
+        stop = self.table.num_rows if stop is None else stop
+        with atomic_write(path) as draft:
+            parquet.write_table(self.table.slice(start, stop - start), draft)
+
+    def cells(self) -> Iterator[Sequence[str]]:
+        columns = (column.to_pylist() for column in self.table.columns)
+        for row in zip(*columns, strict=True):
+            yield ["" if cell is None else str(cell) for cell in row]
+
+
+def _holds(source: Source, signals: Signals) -> bool:
+    """Whether the rows of a table on disk are the frames of signals, holes aside."""
+    kind = kind_of(source)
+    if kind not in ("table", "MOT/STO", "Parquet table"):
+        return False
+    if not set(signals.names) <= set(KINDS[kind].names(source)):
+        return False
+    with warnings.catch_warnings():  # said when it was read
+        warnings.simplefilter("ignore", KinemeWarning)
+        values = KINDS[kind].read(source, signals.names).values
+    if values.shape != signals.values.shape:
+        return False
+    return bool(((values == signals.values) | ~np.isfinite(values)).all())
+
+
+def _of_values(signals: Signals) -> _TextRows:
+    """Times and channels as a CSV that reads back to the same numbers."""
+    missing = np.zeros(signals.n_frames, np.bool_)
+    for start, stop in signals.gaps:
+        missing[start:stop] = True
+    empty = [""] * signals.n_channels
+    rows = (
+        [repr(i / signals.fps), *(empty if gap else map(repr, row))]
+        for i, (row, gap) in enumerate(zip(signals.values.tolist(), missing, strict=True))
+    )
+    return _rendered(".csv", ["time", *signals.names], rows)
+
+
+def _table(rows: Rows, suffix: str, columns: Sequence[str] | None) -> _TextRows:
+    """The same cells between commas or tabs: all of them, or some columns and those of times."""
+    names = rows.names
+    if columns is None:
+        return _rendered(suffix, names, rows.cells())
+    if names is None:
+        at = [int(name) - 1 for name in columns]
+    else:
+        timing = [name for name in names if is_timing(name) and name not in columns]
+        at = [names.index(name) for name in (*timing, *columns)]
+        names = [names[i] for i in at]
+    return _rendered(suffix, names, ([cells[i] for i in at] for cells in rows.cells()))
+
+
+def _rendered(suffix: str, names: Sequence[str] | None, rows: Iterable[Sequence[str]]) -> _TextRows:
+    separator = SEPARATORS[suffix]
+    head = "" if names is None else _line(names, separator)
+    lines = [_line(row, separator) for row in rows]
+    return _TextRows(suffix, names, head, lines, lines, separator)
+
+
+def _line(cells: Sequence[str], separator: str) -> str:
+    line = StringIO()
+    csv.writer(line, delimiter=separator, lineterminator="\n").writerow(cells)
+    return line.getvalue()
