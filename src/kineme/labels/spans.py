@@ -141,8 +141,8 @@ def as_segmentation(
     elif last > n_frames + 1:  # 1: some programs close with the frame after the last
         raise ReadError(
             path,
-            f"has labels up to frame {last} ({last / rate:.3f} s), but the recording has {n_frames} "
-            f"({n_frames / rate:.3f} s)",
+            f"has labels up to frame {last}, {last / rate:.3f} s, but the recording has "
+            f"{n_frames}, {n_frames / rate:.3f} s",
         )
     if n_frames < 1:
         raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
