@@ -19,8 +19,6 @@ import numpy as np
 
 from _recordings import hdm05, subject_86, synthetic
 from fairness import show
-from kineme.methods.numbering import by_first_appearance
-from kineme.methods.presets import KINEME
 from kineme.methods.recurrence import (
     analysis as action_analysis,
 )
@@ -30,6 +28,8 @@ from kineme.methods.recurrence import (
     transitions,
 )
 from kineme.methods.recurrence.actions import Actions
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.segments import by_first_appearance
 from sensitivity import at_working_rate, scores
 
 
@@ -50,7 +50,7 @@ STAGES: dict[str, tuple[dict[str, Any], list[Any]]] = {
     "no phase window": ({"phase": 0.0}, []),
     "one scale for all": ({"min_scale": 0.12, "max_scale": 0.12}, []),
     "parts not merged": ({}, [patch.object(stretches, "merge_parts", lambda b, *_, **__: b)]),
-    "actions not linked": ({"likeness": 1.0}, []),
+    "actions not linked": ({"link_similarity": 1.0}, []),
     "linked at one pace": ({"any_pace": False}, []),
     "moments not given anew": ({}, [patch.object(action_analysis, "refine", not_refined)]),
     "no transitions at ends": ({"max_transition": 0.0}, []),

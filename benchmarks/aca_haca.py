@@ -23,8 +23,8 @@ from threadpoolctl import threadpool_limits
 
 import kineme
 from kineme.evaluation import Labelling
+from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.baselines import aca, haca
-from kineme.methods.baselines.joints import joint_quaternions, log_maps
 from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
 from kineme.reproduction import read_trials

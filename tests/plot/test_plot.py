@@ -18,12 +18,12 @@ from matplotlib.image import imread
 from kineme._colors import NO_CLUSTER, PALETTE, cluster_color
 from kineme.errors import WriteError
 from kineme.graph import NeighborGraph, neighbor_graph
+from kineme.plot import segmentation as plot
 from kineme.plot.segmentation import (
     draw_segmentation,
     plot_segmentation,
     similarity_image,
 )
-from kineme.plot.segmentation import segmentation as plot
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 

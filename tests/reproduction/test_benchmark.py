@@ -16,7 +16,7 @@ from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.evaluation import Labelling, evaluate_segmentation
 from kineme.evaluation.tables import markdown_scores, write_records
-from kineme.methods.presets import VOEGELE2014
+from kineme.methods.region_growing.preset import VOEGELE2014
 from kineme.reproduction.benchmark import as_records, mean, mean_scores, run, score_published_cuts
 from kineme.reproduction.methods import METHODS, method, preset_method
 from kineme.reproduction.reoccurrence import reoccurring

@@ -9,8 +9,9 @@ from typing import Any
 import typer
 
 from kineme.cli.messages import progress
+from kineme.errors import ParameterError
 from kineme.evaluation.folder import FolderScores, Mapped, evaluate_folder
-from kineme.evaluation.methods import method_names
+from kineme.evaluation.methods import check_method
 from kineme.evaluation.recordings import Reading, recordings_below
 from kineme.evaluation.score import scores
 from kineme.evaluation.tables import write_records, write_text
@@ -32,10 +33,11 @@ def run_folder(
     quiet: bool,
 ) -> bool:
     """Print and write the scores of the methods; whether any recording could be scored."""
-    unknown = [name for name in methods if name not in method_names()]
-    if unknown:
-        known = ", ".join(method_names())
-        raise typer.BadParameter(f"no method {unknown[0]!r}; there are {known}")
+    try:
+        for name in methods:
+            check_method(name)
+    except ParameterError as error:
+        raise typer.BadParameter(str(error)) from error
     with progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
         recordings = recordings_below(folder)
@@ -43,13 +45,7 @@ def run_folder(
         result = evaluate_folder(found, methods, mapping=mapping, reading=reading, progress=stage)
     if not quiet:
         _tell("without labels, left out", [path.name for path in recordings if path not in found])
-    for name, ones in result.methods.items():
-        for one in ones:
-            if one.error:
-                typer.echo(f"{one.recording}, {name}: {one.error}", err=True)
-    for one in next(iter(result.methods.values())):
-        if one.notes and not quiet:
-            typer.echo(f"{one.recording}: {'; '.join(one.notes)}", err=True)
+    _tell_of_recordings(result, quiet=quiet)
     if as_json:
         typer.echo(result.to_json())
     elif not quiet:
@@ -65,6 +61,17 @@ def _tell(what: str, names: Sequence[str]) -> None:
     if names:
         more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
         typer.echo(f"{what}: {', '.join(names[:NAMED])}{more}", err=True)
+
+
+def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:
+    """Say which recordings failed and why, and what is unusual about the labels of others."""
+    for name, ones in result.methods.items():
+        for one in ones:
+            if one.error:
+                typer.echo(f"{one.recording}, {name}: {one.error}", err=True)
+    for one in next(iter(result.methods.values())):
+        if one.notes and not quiet:
+            typer.echo(f"{one.recording}: {'; '.join(one.notes)}", err=True)
 
 
 def _show(result: FolderScores) -> None:

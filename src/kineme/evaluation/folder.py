@@ -22,9 +22,9 @@ from typing import Any, Literal
 import numpy as np
 
 from kineme._version import __version__
-from kineme.errors import KinemeError, KinemeWarning, ParameterError
+from kineme.errors import KinemeError, KinemeWarning
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
-from kineme.evaluation.methods import method_names, segment_by
+from kineme.evaluation.methods import check_method, segment_by
 from kineme.evaluation.recordings import Reading
 from kineme.evaluation.score import Ratio, over_all, scores, value_of
 from kineme.labels.collections import LabelSource
@@ -169,8 +169,7 @@ def evaluate_folder(
         There is no such method.
     """
     for name in methods:
-        if name not in method_names():
-            raise ParameterError(f"no method {name!r}; there are {', '.join(method_names())}")
+        check_method(name)
     jobs = [
         Job(path, source, name, reading or Reading())
         for path, source in labels.items()

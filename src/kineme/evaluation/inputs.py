@@ -190,9 +190,9 @@ def score(truth: Annotation, found: Segmentation, motion: Motion | None = None) 
     """
     data: dict[str, Any] = {}
     if motion is not None:
-        from kineme.methods.presets import VOEGELE2014
+        from kineme.methods.region_growing.preset import VOEGELE2014
         from kineme.recordings.operations import resample
-        from kineme.segmentation.segmenter import motion_features
+        from kineme.segmentation.bodies import motion_features
 
         preset = VOEGELE2014.replace(working_fps=truth.fps)
         data["positions"] = resample(motion, truth.fps).positions

@@ -1,52 +1,38 @@
-"""Any method on any recording: the presets, and the baselines that they are compared with."""
+"""Any method on any recording, told what it has to be told.
+
+ACA, HACA and GMM have to be told the number of classes, as in all published comparisons; others
+find it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from kineme.errors import MotionError, ParameterError
-from kineme.methods.baselines import Pieces
+from kineme.errors import ParameterError
 from kineme.methods.presets import PRESETS
 from kineme.recordings.motion import Motion
 from kineme.recordings.signals import Signals
 from kineme.segments.segmentation import Segmentation
 
-Floats = NDArray[np.float64]
-
-SIGNALS_FPS = 30.0
-"""Rate at which the baselines see signals, which may be sampled far more often than they change."""
-UNIFORM_S = 0.5
+TOLD = "n_classes"
+"""The constant of presets that have to be told the number of classes."""
 
 
-def method_names() -> tuple[str, ...]:
-    """The methods that can be evaluated, the default first.
-
-    Returns
-    -------
-    tuple of str
-
-    Examples
-    --------
-    >>> method_names()[0]
-    'kineme'
-    """
-    return (*PRESETS, *_BASELINES)
-
-
-def segment_by(name: str, recording: Motion | Signals, *, n_classes: int) -> Segmentation:
+def segment_by(
+    name: str, recording: Motion | Signals, *, n_classes: int, **constants: Any
+) -> Segmentation:
     """The segments that a method finds in a recording.
 
     Parameters
     ----------
     name : str
-        One of `method_names`.
+        Of a preset, see `kineme.PRESETS`.
     recording : Motion or Signals
         What is segmented.
     n_classes : int
-        The number of classes, told to the methods that have to be (ACA, HACA, GMM).
+        The true number of classes, for methods that have to be told.
+    **constants
+        Of the preset to change.
 
     Returns
     -------
@@ -56,7 +42,7 @@ def segment_by(name: str, recording: Motion | Signals, *, n_classes: int) -> Seg
     Raises
     ------
     ParameterError
-        There is no such method, or the recording is too short for it.
+        There is no such preset, or the recording is too short for it.
 
     Examples
     --------
@@ -65,100 +51,25 @@ def segment_by(name: str, recording: Motion | Signals, *, n_classes: int) -> Seg
     >>> len(segment_by("uniform", motion, n_classes=4).activities)
     97
     """
-    if name in PRESETS:
-        if isinstance(recording, Signals):
-            from kineme.segmentation.signals import segment_signals
+    from kineme.segmentation.segmenter import segment
 
-            return segment_signals(recording, preset=name)
-        from kineme.segmentation.segmenter import segment
-
-        return segment(recording, preset=name)
-    if name not in _BASELINES:
-        raise ParameterError(f"no method {name!r}; there are {', '.join(method_names())}")
-    return _by_baseline(name, recording, n_classes)
+    check_method(name)
+    if getattr(PRESETS[name], TOLD, 0) is None:
+        constants = {TOLD: n_classes, **constants}
+    return segment(recording, preset=name, **constants)
 
 
-def _by_baseline(name: str, recording: Motion | Signals, n_classes: int) -> Segmentation:
-    features, fps = _seen_by(name, recording)
-    pieces = _BASELINES[name](features, fps, n_classes)
-    cuts = np.floor(pieces.cuts * (recording.fps / fps) + 0.5).astype(np.int64)
-    starts = np.concatenate([[0], cuts])
-    stops = np.concatenate([cuts, [recording.n_frames]])
-    kept = stops > starts
-    return Segmentation.from_columns(
-        {
-            "level": np.full(kept.sum(), "activity"),
-            "kind": np.full(kept.sum(), "activity"),
-            "start_frame": starts[kept],
-            "stop_frame": stops[kept],
-            "cluster": pieces.clusters[kept],
-        },
-        n_frames=recording.n_frames,
-        fps=recording.fps,
-        provenance={"method": name},
-    )
+def check_method(name: str) -> None:
+    """Refuse what is no method.
 
+    Parameters
+    ----------
+    name : str
 
-def _seen_by(name: str, recording: Motion | Signals) -> tuple[Floats, float]:
-    """Features and their rate: rotations of joints as published, else what was recorded."""
-    if isinstance(recording, Signals):
-        from kineme.segmentation.channels import at_rate, standardized
-
-        fps = min(SIGNALS_FPS, recording.fps)
-        return standardized(at_rate(recording.values, recording.fps, fps)), fps
-    from kineme.methods.baselines.joints import joint_quaternions, log_maps
-
-    n = recording.n_frames
-    try:
-        rotations = joint_quaternions(recording)
-    except MotionError:  # not the joints of CMU's skeleton
-        places = recording.positions - recording.positions.mean(axis=1, keepdims=True)
-        return places.reshape(n, -1), recording.fps
-    as_vectors = name in ("aca", "haca")
-    return log_maps(rotations) if as_vectors else rotations.reshape(n, -1), recording.fps
-
-
-def _aca(features: Floats, _: float, n_classes: int) -> Pieces:
-    from kineme.methods.baselines.aca import aca
-
-    return aca(features, n_classes=n_classes)
-
-
-def _haca(features: Floats, _: float, n_classes: int) -> Pieces:
-    from kineme.methods.baselines.haca import haca
-
-    return haca(features, n_classes=n_classes)
-
-
-def _pca(features: Floats, fps: float, _: int) -> Pieces:
-    from kineme.methods.baselines.pca import pca
-
-    return pca(features, fps=fps)
-
-
-def _ppca(features: Floats, fps: float, _: int) -> Pieces:
-    from kineme.methods.baselines.pca import ppca
-
-    return ppca(features, fps=fps)
-
-
-def _gmm(features: Floats, _: float, n_classes: int) -> Pieces:
-    from kineme.methods.baselines.gmm import gmm
-
-    return gmm(features, n_classes=n_classes)
-
-
-def _uniform(features: Floats, fps: float, _: int) -> Pieces:
-    from kineme.methods.baselines.uniform import uniform
-
-    return uniform(len(features), fps=fps, seconds=UNIFORM_S)
-
-
-_BASELINES: Mapping[str, Callable[[Floats, float, int], Pieces]] = {
-    "aca": _aca,
-    "haca": _haca,
-    "pca": _pca,
-    "ppca": _ppca,
-    "gmm": _gmm,
-    "uniform": _uniform,
-}
+    Raises
+    ------
+    ParameterError
+        The message lists those there are.
+    """
+    if name not in PRESETS:
+        raise ParameterError(f"no method {name!r}; there are {', '.join(PRESETS)}")

@@ -30,7 +30,7 @@ from kineme._checks import check_path, check_type
 from kineme._colors import NO_CLUSTER, cluster_color
 from kineme._files import atomic_write
 from kineme.errors import WriteError
-from kineme.segmentation.parts import in_time
+from kineme.segmentation.spans import in_time
 from kineme.segments.segmentation import Segmentation
 
 if TYPE_CHECKING:

@@ -1,8 +1,8 @@
 """The methods of the benchmark under one form: a trial in, a segmentation out.
 
-Presets see the motion alone. ACA, HACA and GMM are told the true number of
-classes, as in all published comparisons, and ACA and HACA the lengths of
-pieces that their authors chose per trial (Zhou et al., their program).
+Most presets see the motion alone. ACA, HACA and GMM are told the true number of classes, as in
+all published comparisons, and ACA and HACA the lengths of segments that their authors chose per
+trial (Zhou et al., their program).
 """
 
 from __future__ import annotations
@@ -12,54 +12,68 @@ from functools import partial
 from types import MappingProxyType
 from typing import Any
 
-from kineme._version import __version__
-from kineme.errors import ParameterError
 from kineme.evaluation.labelling import TRANSITION
-from kineme.methods.baselines import Pieces
-from kineme.methods.presets import PRESETS, Preset
-from kineme.reproduction.trials import Floats, Trial
+from kineme.evaluation.methods import check_method, segment_by
+from kineme.methods.base import Preset
+from kineme.methods.presets import PRESETS
+from kineme.reproduction.trials import Trial
 from kineme.segments.segmentation import Segmentation
 
 Method = Callable[[Trial], Segmentation]
 
-UNIFORM_S = 0.5
-
-# Trial 11 is fast: its authors gave it shorter pieces and fewer centres.
-SHORT_PIECES = "86_11"
+OF_TRIALS: Mapping[tuple[str, str], Mapping[str, Any]] = {
+    ("aca", "86_11"): {"shortest": 21, "longest": 36, "centres": 15},
+    ("haca", "86_11"): {"fine_lengths": (7, 9), "coarse_lengths": (3, 4), "centres": 15},
+}
+"""Constants by method and trial: trial 11 is fast, so its segments are shorter."""
 
 
 def method(name: str) -> Method:
     """The method of this name.
 
+    Parameters
+    ----------
+    name : str
+        Of a preset.
+
+    Returns
+    -------
+    callable
+        From a `Trial` to a `Segmentation`.
+
     Raises
     ------
-    ParameterError : there is none; the message lists those there are
+    ParameterError
+        There is none; the message lists those there are.
+
+    Examples
+    --------
+    >>> callable(method("haca"))
+    True
     """
-    if name not in METHODS:
-        raise ParameterError(f"no method {name!r}; there are {', '.join(METHODS)}")
-    return METHODS[name]
+    check_method(name)
+    return partial(_by_name, name)
 
 
 def preset_method(preset: Preset) -> Method:
-    """Segmentation by a preset, be it a published or a changed one."""
+    """Segmentation by a preset, be it a published or a changed one.
+
+    Parameters
+    ----------
+    preset : Preset
+
+    Returns
+    -------
+    callable
+        From a `Trial` to a `Segmentation`.
+    """
     return partial(_by_preset, preset)
 
 
-def as_segmentation(pieces: Pieces, trial: Trial, name: str) -> Segmentation:
-    """The pieces of a baseline, found at the rate of the recording, as activities."""
-    n = len(pieces.clusters)
-    return Segmentation.from_columns(
-        {
-            "level": ["activity"] * n,
-            "kind": ["activity"] * n,
-            "start_frame": pieces.starts,
-            "stop_frame": pieces.stops,
-            "cluster": pieces.clusters,
-        },
-        n_frames=trial.motion.n_frames,
-        fps=trial.motion.fps,
-        provenance={"kineme": __version__, "method": name, "trial": trial.name},
-    )
+def _by_name(name: str, trial: Trial) -> Segmentation:
+    n_classes = len(set(trial.truth.labels) - {TRANSITION})
+    own = OF_TRIALS.get((name, trial.name), {})
+    return segment_by(name, trial.motion, n_classes=n_classes, **own)
 
 
 def _by_preset(preset: Preset, trial: Trial) -> Segmentation:
@@ -68,76 +82,4 @@ def _by_preset(preset: Preset, trial: Trial) -> Segmentation:
     return segment(trial.motion, preset=preset)
 
 
-def _baseline(name: str, trial: Trial) -> Segmentation:
-    return as_segmentation(_PIECES[name](trial), trial, name)
-
-
-def _aca(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.aca import aca
-
-    short: dict[str, Any] = {"shortest": 21, "longest": 36, "centres": 15}
-    options = short if trial.name == SHORT_PIECES else {}
-    return aca(_log_maps(trial), n_classes=_n_classes(trial), **options)
-
-
-def _haca(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.haca import haca
-
-    short: dict[str, Any] = {"fine_lengths": (7, 9), "coarse_lengths": (3, 4), "centres": 15}
-    options = short if trial.name == SHORT_PIECES else {}
-    return haca(_log_maps(trial), n_classes=_n_classes(trial), **options)
-
-
-def _pca(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.pca import pca
-
-    return pca(_quaternions(trial), fps=trial.motion.fps)
-
-
-def _ppca(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.pca import ppca
-
-    return ppca(_quaternions(trial), fps=trial.motion.fps)
-
-
-def _gmm(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.gmm import gmm
-
-    return gmm(_quaternions(trial), n_classes=_n_classes(trial))
-
-
-def _uniform(trial: Trial) -> Pieces:
-    from kineme.methods.baselines.uniform import uniform
-
-    return uniform(trial.motion.n_frames, fps=trial.motion.fps, seconds=UNIFORM_S)
-
-
-def _log_maps(trial: Trial) -> Floats:
-    from kineme.methods.baselines.joints import joint_quaternions, log_maps
-
-    return log_maps(joint_quaternions(trial.motion))
-
-
-def _quaternions(trial: Trial) -> Floats:
-    from kineme.methods.baselines.joints import joint_quaternions
-
-    return joint_quaternions(trial.motion).reshape(trial.motion.n_frames, -1)
-
-
-def _n_classes(trial: Trial) -> int:
-    return len(set(trial.truth.labels) - {TRANSITION})
-
-
-_PIECES: Mapping[str, Callable[[Trial], Pieces]] = {
-    "aca": _aca,
-    "haca": _haca,
-    "pca": _pca,
-    "ppca": _ppca,
-    "gmm": _gmm,
-    "uniform": _uniform,
-}
-
-METHODS: Mapping[str, Method] = MappingProxyType(
-    {name: preset_method(preset) for name, preset in PRESETS.items()}
-    | {name: partial(_baseline, name) for name in _PIECES}
-)
+METHODS: Mapping[str, Method] = MappingProxyType({name: method(name) for name in PRESETS})

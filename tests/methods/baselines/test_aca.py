@@ -14,6 +14,7 @@ import kineme
 import naive
 from kineme.errors import MotionError, ParameterError
 from kineme.evaluation import Labelling
+from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.baselines._kernels import (
     cheapest_lengths,
     propagate,
@@ -21,7 +22,6 @@ from kineme.methods.baselines._kernels import (
 )
 from kineme.methods.baselines.aca import State, aca, improve, majority_pieces
 from kineme.methods.baselines.haca import haca, haca_levels
-from kineme.methods.baselines.joints import joint_quaternions, log_maps
 from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
 from kineme.reproduction import read_trials
