@@ -6,7 +6,7 @@ Three ways, by what the truth says:
   of action segmentation, for folders of recordings (:mod:`kineme.evaluation.folder`);
 - annotations whose borders are uncertain (`Annotation`): the published protocols of CMU subject 86
   and fair ones, all in `evaluate`;
-- how alike the segments of a cluster are: :mod:`kineme.evaluation.variance`.
+- how similar the segments of a cluster are: :mod:`kineme.evaluation.variance`.
 """
 
 from kineme.evaluation.annotated_scores import evaluate, evaluate_segmentation, labelling_of

@@ -23,7 +23,7 @@ OVERLAPS = (10, 25, 50)
 
 
 def edit_score(compared: Comparison) -> float:
-    """How alike the orders of the segments are: 1 is the same order, 0 has nothing of it.
+    """How similar the orders of the segments are: 1 is the same order, 0 has nothing of it.
 
     1 - distance / length: the fewest segments to add, leave out or exchange that turn one order
     of classes into the other, over the number of segments of the longer one.

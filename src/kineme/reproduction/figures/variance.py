@@ -1,4 +1,4 @@
-"""How alike are the segments of one cluster, by class and by method.
+"""How similar are the segments of one cluster, by class and by method.
 
 `plot_by_class` is figure 5 of Vögele, Krüger, Klein 2014: mean (bars) and
 variance (glyphs) of the dynamic-time-warping distance on point clouds and on
