@@ -22,12 +22,13 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 import kineme
-from kineme.evaluation import Labelling, read_trials
-from kineme.evaluation.aca_protocol import aca_accuracy
+from kineme.evaluation import Labelling
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.baselines import aca, haca
 from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
+from kineme.reproduction import read_trials
+from kineme.reproduction.aca_protocol import aca_accuracy
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = Path(os.environ.get("KINEME_DATA", ROOT.parent / "shared" / "data")) / "cmu86"

@@ -16,9 +16,9 @@ import warnings
 from pathlib import Path
 
 from agreement import CONFIGURATIONS
-from kineme.evaluation.benchmark import mean_scores, run
-from kineme.evaluation.methods import METHODS, preset_method
-from kineme.evaluation.trials import find_folder, load_trials
+from kineme.reproduction.benchmark import mean_scores, run
+from kineme.reproduction.methods import METHODS, preset_method
+from kineme.reproduction.trials import find_folder, load_trials
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 PROMISED = {

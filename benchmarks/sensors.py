@@ -27,11 +27,11 @@ from kineme import _rotations as rot
 from kineme.datasets import random_recording
 from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
 from kineme.evaluation.tables import markdown, shown
-from kineme.evaluation.trials import find_folder, load_trials
 from kineme.features import end_effectors, pose_features
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import world_rotations
 from kineme.recordings.operations import resample
+from kineme.reproduction.trials import find_folder, load_trials
 
 Floats = NDArray[np.float64]
 Recording = tuple[Annotation, Signals]

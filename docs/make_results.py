@@ -17,11 +17,11 @@ from pathlib import Path
 from string import Template
 
 from kineme._version import __version__
-from kineme.evaluation.benchmark import mean_scores, run
-from kineme.evaluation.figures import make_figures
-from kineme.evaluation.methods import METHODS
 from kineme.evaluation.tables import shown
-from kineme.evaluation.trials import find_folder, load_trials
+from kineme.reproduction.benchmark import mean_scores, run
+from kineme.reproduction.figures import make_figures
+from kineme.reproduction.methods import METHODS
+from kineme.reproduction.trials import find_folder, load_trials
 
 HERE = Path(__file__).parent
 PICTURES = HERE / "images" / "results"

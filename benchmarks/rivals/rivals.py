@@ -28,10 +28,10 @@ from rich.console import Console
 from rich.table import Table
 
 from kineme.evaluation import Labelling, border_score, labelling_of, one_to_one_accuracy
-from kineme.evaluation.methods import METHODS
-from kineme.evaluation.trials import FPS, Trial, find_folder, load_trials
 from kineme.features import pose_features
 from kineme.recordings.operations import resample
+from kineme.reproduction.methods import METHODS
+from kineme.reproduction.trials import FPS, Trial, find_folder, load_trials
 
 WINDOW = int(FPS)
 

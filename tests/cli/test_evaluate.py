@@ -119,12 +119,12 @@ def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
 @pytest.mark.parametrize(
     ("rows", "message"),
     [
-        ("0,20,a\n10,LAST,b", "starts at 10 s, while the row before stops at 20 s"),
-        ("0,20,a\n30,25,b\n30,LAST,c", "runs backwards, from 30 s to 25 s"),
-        ("0,20,a\n20,1000,b", "stops at 1000.000 s, the recording lasts"),
-        ("0,20,a", "stops at 20.000 s, the recording lasts"),
+        ("0,20,a\n10,LAST,b", "'b' starts at frame 300, before the label ahead of it stops (600)"),
+        ("0,20,a\n30,25,b\n30,LAST,c", "'b' stops at 25.0, before 30.0"),
+        ("0,20,a\n20,1000,b", "cover 1000.000 s (30000 frames at 30 fps), the recording lasts"),
+        ("0,20,a", "cover 20.000 s (600 frames at 30 fps), the recording lasts"),
         ("0,LAST,transition", "at least one action"),
-        ("zero,LAST,a", "start_s must be a number from 0 on, not 'zero'"),
+        ("zero,LAST,a", "start_s must be a number, not 'zero'"),
     ],
 )
 def test_annotations_that_overlap_run_backwards_or_pass_the_end(
@@ -151,7 +151,7 @@ def test_annotations_that_overlap_run_backwards_or_pass_the_end(
         (("cmu86", "--against", "labels.csv"), 2, "brings its own truth"),
         (("found.csv",), 2, "--against LABELS is needed"),
         (("found.csv", "--against", "labels.csv"), 1, "found.csv: cannot be read"),
-        (("labels.txt", "--against", "labels.csv"), 1, "needs the frame rate, --fps"),
+        (("labels.txt", "--against", "labels.csv"), 1, "give fps (--fps)"),
     ],
 )
 def test_a_call_that_cannot_work_is_one_sentence(kineme_here, tmp_path, arguments, code, message):

@@ -27,10 +27,9 @@ from kineme.evaluation import (
     evaluate,
     majority_accuracy,
     one_to_one_accuracy,
-    published,
-    read_trials,
     strict_and_tolerant,
 )
+from kineme.reproduction import published, read_trials
 
 
 @pytest.fixture(scope="module")

@@ -17,12 +17,13 @@ from praatio import textgrid
 from pympi import Elan
 
 from kineme.errors import KinemeError, KinemeWarning, ParameterError, ReadError, WriteError
-from kineme.labels import FORMATS, read_segments, write_segments
+from kineme.labels import label_formats, read_segments, write_segments
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from segmentations import segmentations
 
-LABEL_FORMATS = [n for n, known in FORMATS.items() if known.holds != "all" and known.writes]
+FORMATS = label_formats()
+LABEL_FORMATS = [n for n, known in FORMATS.items() if known.holds != "all" and known.write]
 BOTH_LEVELS = [name for name, known in FORMATS.items() if known.holds == "levels"]
 TELL_THE_RATE = ("elan", "bids", "boris", "clips")
 NASTY = [
@@ -47,10 +48,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def place(folder: Path, name: str, stem: str = "take") -> Path:
     """Where a file of the format may lie."""
-    suffix = (*FORMATS[name].suffixes, ".txt" if name == "ms-tcn" else ".dat")[0]
-    return (
-        folder / "groundTruth" / f"{stem}{suffix}" if name == "ms-tcn" else folder / (stem + suffix)
-    )
+    known = FORMATS[name]
+    return folder / known.folder / f"{stem}{known.written_suffix}"
 
 
 def there_and_back(result: Segmentation, path: Path, name: str, level: Level | None = None):
@@ -436,7 +435,7 @@ def test_points_are_left_out_and_the_end_is_said_to_be_guessed(tmp_path) -> None
         ("0\t1e300\twalk\n", {"fps": 10}, r"has a label at 1e\+300"),
         ("0\tone\twalk\n", {"fps": 10}, "line 1: the stop must be a number, not 'one'"),
         ("0\tnan\twalk\n", {"fps": 10}, "line 1: the stop must be a number, not 'nan'"),
-        ("walk\n", {"fps": 10}, "line 1: a label is a start, a stop and a text"),
+        ("0\t1\twalk\n5\n", {"fps": 10}, "line 2: a label is a start, a stop and a text"),
         ("0\t9\twalk\n", {"fps": 10, "n_frames": 50}, "labels up to frame 90, .* has 50"),
     ],
 )

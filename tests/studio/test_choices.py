@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
+from kineme.errors import ReadError
+from kineme.labels import LabelFormat
+from kineme.labels import register as register_labels
+from kineme.labels import registry as labels
 from kineme.methods import Preset, constant, presets, register
 from kineme.methods.constants import Limits
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Segment
 
 
 class Halves:
@@ -72,3 +79,37 @@ def test_a_preset_of_another_package_is_offered_with_its_help_and_sliders(
     compare = f"/api/recordings/{studio.id}/compare"
     other = studio.client.post(compare, json={"preset": "toy"}).json()["segmentation"]["segments"]
     assert [row["start_frame"] for row in other] == [0, 120]
+
+
+def write_toy(segments: Sequence[Segment], _: Segmentation, path: Path) -> None:
+    path.write_text("".join(f"{row.start_frame}\n" for row in segments))
+
+
+def read_toy(path: Path) -> Segmentation:
+    raise ReadError(path, "is not meant to be read")
+
+
+@pytest.fixture
+def toy_format() -> Iterator[LabelFormat]:
+    toy = LabelFormat("toy", "First frames, one a line", (".toy",), "level", read_toy, write_toy)
+    register_labels(toy)
+    yield toy
+    del labels._known()["toy"]
+
+
+def test_a_label_format_of_another_package_is_offered_and_written(
+    studio, toy_format, folder: Path
+) -> None:
+    state = studio.get("/api/state").json()
+    offered = {each["name"]: each for each in state["export_formats"]}["toy"]
+    assert offered == {"name": "toy", "suffix": ".toy", "help": "First frames, one a line"}
+    answer = studio.get(f"/api/recordings/{studio.id}/export/toy?level=primitive")
+    assert answer.headers["content-disposition"].endswith("take.toy")
+    assert answer.text.split() == [str(start) for start in studio.starts("primitive")]
+    studio.client.post("/api/recordings?name=said.toy", content=b"0\n")
+    state = studio.get("/api/state").json()
+    assert [file["name"] for file in state["annotations"]] == ["said.toy"]
+    (said,) = state["annotations"]
+    sent = {"annotation": said["id"]}
+    refused = studio.client.post(f"/api/recordings/{studio.id}/compare", json=sent)
+    assert "is not meant to be read" in refused.json()["error"]

@@ -11,7 +11,6 @@ import shutil
 import threading
 import zipfile
 from concurrent.futures import ThreadPoolExecutor
-from importlib import import_module
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
@@ -23,7 +22,7 @@ import pytest
 from studio_clients import TOKEN
 
 import kineme
-from kineme.labels import FORMATS
+from kineme.labels import label_formats
 from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.events import Hub
 from kineme.studio.reading import ReadingOptions, RecordingCache
@@ -264,8 +263,7 @@ def test_another_result_beside_the_one_shown(studio, folder: Path) -> None:
 def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
     message = studio.recording()
     formats = studio.get("/api/state").json()["export_formats"]
-    modules = {name: import_module(f"kineme.labels.{f.module}") for name, f in FORMATS.items()}
-    writers = {name for name, module in modules.items() if hasattr(module, "write")}
+    writers = {name for name, known in label_formats().items() if known.write}
     assert {known["name"] for known in formats} == writers | {"motions", "report"}
     before = sorted(studio.folder.iterdir())
     for known in formats:

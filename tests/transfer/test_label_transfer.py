@@ -12,7 +12,7 @@ import pytest
 import kineme
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
-from kineme.evaluation.trials import load_trials
+from kineme.reproduction.trials import load_trials
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer import KnowledgeBase, name_primitives, transfer_features, transfer_labels
 

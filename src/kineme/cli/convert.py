@@ -12,13 +12,13 @@ from kineme.cli.request import Request
 from kineme.cli.signals import Columns
 from kineme.cli.targets import make_folder_of
 from kineme.errors import WriteError
-from kineme.labels import FORMATS, read_segments, write_segments
+from kineme.labels import label_formats, read_segments, write_segments
 from kineme.segments.table import Level
 
 
 def _known(name: str | None) -> str | None:
-    if name not in (None, *FORMATS):
-        raise typer.BadParameter(f"{name!r} is not one of {', '.join(FORMATS)}")
+    if name not in (None, *label_formats()):
+        raise typer.BadParameter(f"{name!r} is not one of {', '.join(label_formats())}")
     return name
 
 
@@ -57,7 +57,7 @@ def convert(
     ],
     from_format: Annotated[
         str | None,
-        typer.Option("--from", callback=_known, help=f"Format read: {', '.join(FORMATS)}."),
+        typer.Option("--from", callback=_known, help=f"Format read: {', '.join(label_formats())}."),
     ] = None,
     to_format: Annotated[
         str | None,

@@ -1,34 +1,37 @@
-"""``kineme evaluate``: methods on the benchmark, or any result against any annotation."""
+"""``kineme evaluate``: methods on the benchmark or any folder, or one result against its truth."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from kineme._files import atomic_write
 from kineme.cli.messages import Failures, progress
 from kineme.cli.reading import Quiet
-from kineme.errors import ParameterError, WriteError
+from kineme.errors import ParameterError, ReadError, WriteError
 
 if TYPE_CHECKING:
-    from kineme.evaluation.benchmark import Result
-    from kineme.evaluation.methods import Method
+    from kineme.reproduction.benchmark import Result
+    from kineme.reproduction.methods import Method
 
 BENCHMARK = "cmu86"
 BENCH = "Benchmark"
-OWN = "Own files"
+FOLDER = "A folder of recordings"
+OWN = "One result"
+DEFAULT = "kineme"
+Mapped = Literal["recording", "folder"]
 
 
 def evaluate(
     what: Annotated[
         str,
         typer.Argument(
-            metavar="cmu86|SEGMENTS",
-            help="The benchmark, or a result: a segment table, a table of intervals, or a .txt "
-            "with one label per frame.",
+            metavar="cmu86|FOLDER|SEGMENTS",
+            help="The benchmark; a folder of recordings; or a result: a segment table, a table of "
+            "intervals, or a .txt with one label per frame.",
         ),
     ],
     against: Annotated[
@@ -40,6 +43,41 @@ def evaluate(
             rich_help_panel=OWN,
         ),
     ] = None,
+    labels: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE|FOLDER",
+            help="What people say of the recordings: a table with recording, start_s, stop_s, "
+            "label; or a folder with a label file for each.",
+            rich_help_panel=FOLDER,
+        ),
+    ] = None,
+    mapping: Annotated[
+        Mapped,
+        typer.Option(
+            help="Whether clusters stand for classes of one recording, or for the same in all.",
+            rich_help_panel=FOLDER,
+        ),
+    ] = "recording",
+    columns: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME,NAME,…",
+            help="Take these columns as signals, in place of joints; * and ? are wildcards.",
+            rich_help_panel=FOLDER,
+        ),
+    ] = None,
+    without_columns: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME,NAME,…",
+            help="Leave these columns of signals out, such as 'emg*'.",
+            rich_help_panel=FOLDER,
+        ),
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print JSON.", rich_help_panel=FOLDER)
+    ] = False,
     fps: Annotated[
         float | None,
         typer.Option(help="Frames per second of .txt files.", rich_help_panel=OWN),
@@ -58,9 +96,11 @@ def evaluate(
     method: Annotated[
         list[str] | None,
         typer.Option(
-            help="A method to run: a preset, aca, haca, pca, ppca, gmm or uniform. May be given "
-            "several times; all by default.",
-            rich_help_panel=BENCH,
+            "--method",
+            "--methods",
+            metavar="NAME,NAME,…",
+            help="Methods to run: presets, aca, haca, pca, ppca, gmm or uniform. All by default; "
+            "of a folder, the default preset.",
         ),
     ] = None,
     trial: Annotated[
@@ -99,6 +139,24 @@ def evaluate(
     failures = Failures()
     with failures.caught(what):
         _check_output(output)
+        names = [*(preset or ()), *_listed(*(method or ()))]
+        if what != BENCHMARK and Path(what).is_dir():
+            if labels is None:
+                raise typer.BadParameter("--labels FILE or FOLDER is needed for a folder")
+            from kineme.cli.evaluate_folder import run_folder
+            from kineme.evaluation.recordings import Reading
+
+            scored = run_folder(
+                Path(what),
+                labels,
+                names or [DEFAULT],
+                mapping=mapping,
+                reading=Reading(_listed(columns), _listed(without_columns)),
+                output=output,
+                as_json=as_json,
+                quiet=quiet,
+            )
+            raise typer.Exit(0 if scored else 1)
         if what != BENCHMARK:
             if against is None:
                 raise typer.BadParameter(f"--against LABELS is needed, or {BENCHMARK} to run it")
@@ -106,13 +164,18 @@ def evaluate(
         else:
             if against is not None:
                 raise typer.BadParameter(f"{BENCHMARK} brings its own truth: leave out --against")
-            names = [*(preset or ()), *(method or ())]
             records = _run_benchmark(names, trial, data, plot, figures, quiet=quiet)
         if output is not None:
             from kineme.evaluation.tables import write_records
 
             write_records(records, output)
     failures.exit()
+
+
+def _listed(*texts: str | None) -> tuple[str, ...]:
+    """The names in texts with commas between them."""
+    names = (name.strip() for text in texts if text for name in text.split(","))
+    return tuple(name for name in names if name)
 
 
 def _score_file(
@@ -125,11 +188,26 @@ def _score_file(
     quiet: bool,
 ) -> list[dict[str, Any]]:
     from kineme.cli.scores import show_one
-    from kineme.evaluation.inputs import read_result, read_truth, recording_of, score
+    from kineme.evaluation.inputs import (
+        comparison,
+        read_result,
+        read_truth,
+        recording_of,
+        score,
+    )
     from kineme.formats import read_motion
+    from kineme.reproduction.annotations import is_annotations, read_trial
 
     found = read_result(path, fps=fps)
-    truth = read_truth(labels, found, fps=fps, trial=trials[0] if trials else None)
+    n_frames, rate = comparison(found)
+    if is_annotations(labels):
+        recorded = (found.provenance.get("input") or {}).get("path") or ""
+        truth = read_trial(labels, trials[0] if trials else Path(recorded).stem, fps=rate)
+        if truth.frames != n_frames:
+            said, lasts = truth.frames / rate, n_frames / rate
+            raise ReadError(labels, f"speaks of {said:.2f} s, the result of {lasts:.2f} s")
+    else:
+        truth = read_truth(labels, found, fps=fps)
     source = recording or recording_of(found)
     scores = score(truth, found, read_motion(source) if source else None)
     if not quiet:
@@ -149,9 +227,8 @@ def _run_benchmark(
     quiet: bool,
 ) -> list[dict[str, Any]]:
     from kineme.cli.scores import show_results
-    from kineme.evaluation.benchmark import run
-    from kineme.evaluation.tables import as_records
-    from kineme.evaluation.trials import find_folder, load_trials
+    from kineme.reproduction.benchmark import as_records, run
+    from kineme.reproduction.trials import find_folder, load_trials
 
     methods = _methods(names)
     for folder in (plot, figures):
@@ -168,7 +245,7 @@ def _run_benchmark(
 
 
 def _methods(names: list[str]) -> Mapping[str, Method]:
-    from kineme.evaluation.methods import METHODS, method
+    from kineme.reproduction.methods import METHODS, method
 
     try:
         return {name: method(name) for name in names} or METHODS
@@ -180,11 +257,11 @@ def _draw(
     results: list[Result], data: Path, plot: Path | None, figures: Path | None, stage: Any
 ) -> None:
     if plot is not None:
-        from kineme.evaluation.figures.bars import plot_trials
+        from kineme.reproduction.figures.bars import plot_trials
 
         plot_trials(results, plot)
     if figures is not None:
-        from kineme.evaluation.figures import make_figures
+        from kineme.reproduction.figures import make_figures
 
         tables = make_figures(results, data, figures, progress=stage)
         text = "\n".join(f"## {title}\n\n{table}" for title, table in tables.items())

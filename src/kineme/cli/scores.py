@@ -9,10 +9,12 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from kineme.evaluation.benchmark import Result, mean_scores
 from kineme.evaluation.tables import score_rows
+from kineme.reproduction.benchmark import Result, mean_scores
 
 Scores = Mapping[str, float]
+
+Group = tuple[str, Sequence[tuple[str, Sequence[str]]]]
 
 NARROW = 80
 
@@ -33,17 +35,27 @@ def show_one(name: str, scores: Scores) -> None:
     _show(name, {"score": scores})
 
 
-def _show(title: str, columns: Mapping[str, Scores]) -> None:
+def show_table(
+    title: str,
+    header: Sequence[str],
+    groups: Sequence[tuple[str, Sequence[tuple[str, Sequence[str]]]]],
+) -> None:
+    """Print a table: a column of names, one per title in the header, rows in groups."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     table.add_column("", no_wrap=True)
-    for name in columns:
+    for name in header:
         table.add_column(name, justify="right", overflow="fold")
-    for group, rows in score_rows(columns):
-        table.add_row(Text(group, style="bold"))
+    for group, rows in groups:
+        if group:
+            table.add_row(Text(group, style="bold"))
         for name, cells in rows:
-            table.add_row(f"  {name}", *cells)
+            table.add_row(f"  {name}" if group else name, *cells)
     console = Console(highlight=False)
     if not console.is_terminal:  # a file has no edge: keep the columns whole
-        console = Console(highlight=False, width=max(NARROW, 28 + 14 * len(columns)))
+        console = Console(highlight=False, width=max(NARROW, 36 + 14 * len(header)))
     console.print(Text(title, style="bold"))
     console.print(table)
+
+
+def _show(title: str, columns: Mapping[str, Scores]) -> None:
+    show_table(title, list(columns), score_rows(columns))

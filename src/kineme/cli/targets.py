@@ -18,12 +18,12 @@ from pathlib import Path
 import typer
 
 from kineme.errors import WriteError
-from kineme.labels import SUFFIXES as TABLES
+from kineme.labels import written_suffixes
 
 NAME, PARENT = "{name}", "{parent}"
 PICTURES = (".png", ".pdf", ".svg")
 PAGES = (".html", ".htm")
-KEPT = (".segments.json", *TABLES)
+KEPT = (".segments.json", *written_suffixes())
 """How the table of a recording may end in a folder of tables, likeliest first."""
 
 _FIELD = re.compile(r"\{(name|parent)\}")
@@ -97,7 +97,7 @@ def check_writable(
 
     Makes the folders that they go to.
     """
-    for path, suffixes in ((table, TABLES), (picture, PICTURES), (page, PAGES)):
+    for path, suffixes in ((table, written_suffixes()), (picture, PICTURES), (page, PAGES)):
         if path is None:
             continue
         if path.suffix.lower() not in suffixes:

@@ -152,11 +152,11 @@ def _content(path: Path, folder: Path) -> int | None:
 
         read_asf(load(path))
     else:
-        from kineme.evaluation import read_trials
+        from kineme.datasets.annotated_trials import read_actions
 
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", KinemeWarning)
-            read_trials(path)
+            read_actions(path)
     return None
 
 

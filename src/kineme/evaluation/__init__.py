@@ -1,7 +1,17 @@
-"""Measuring segmentations: the published protocols, fair scores, and how alike clusters are."""
+"""Scores of any result against any truth.
 
-from kineme.evaluation.annotations import read_frame_labels, read_intervals, read_trials
+Three ways, by what the truth says:
+
+- labels per frame, where unlabelled frames count in nothing (`Comparison`): the registered scores
+  of action segmentation, for folders of recordings (:mod:`kineme.evaluation.folder`);
+- annotations whose borders are uncertain (`Annotation`): the published protocols of CMU subject 86
+  and fair ones, all in `evaluate`;
+- how similar the segments of a cluster are: :mod:`kineme.evaluation.variance`.
+"""
+
+from kineme.evaluation.annotated_scores import evaluate, evaluate_segmentation, labelling_of
 from kineme.evaluation.borders import border_ratio, border_score, covering, cut_ratio
+from kineme.evaluation.comparison import Comparison, compare
 from kineme.evaluation.counts import count_errors
 from kineme.evaluation.frames import (
     cluster_ratio,
@@ -11,8 +21,7 @@ from kineme.evaluation.frames import (
 )
 from kineme.evaluation.labelling import TRANSITION, Annotation, Labelling
 from kineme.evaluation.paper import majority_accuracy, strict_and_tolerant
-from kineme.evaluation.published import published
-from kineme.evaluation.scores import evaluate, evaluate_segmentation, labelling_of
+from kineme.evaluation.score import Ratio, Score, register, scores
 from kineme.evaluation.variance import (
     ClusterVariance,
     feature_variance,
@@ -24,10 +33,14 @@ __all__ = [
     "TRANSITION",
     "Annotation",
     "ClusterVariance",
+    "Comparison",
     "Labelling",
+    "Ratio",
+    "Score",
     "border_ratio",
     "border_score",
     "cluster_ratio",
+    "compare",
     "count_errors",
     "covering",
     "cut_ratio",
@@ -40,10 +53,8 @@ __all__ = [
     "one_to_one_accuracy",
     "overall",
     "point_cloud_variance",
-    "published",
     "rand_index",
-    "read_frame_labels",
-    "read_intervals",
-    "read_trials",
+    "register",
+    "scores",
     "strict_and_tolerant",
 ]

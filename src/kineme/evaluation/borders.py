@@ -3,7 +3,7 @@
 A found border is right within the annotators' span ± 0.25 s, and each border
 of the truth can be met once. Neighbours with equal labels have no border
 between them. A found transition of less than 1 s is one border, at its
-middle; a longer one is a stretch of its own, with a border at either side.
+middle; a longer one is a segment of its own, with a border at either side.
 """
 
 from __future__ import annotations
@@ -39,8 +39,15 @@ def border_score(
 
     Parameters
     ----------
-    truth, found : of one recording at one frame rate
-    tolerance_s : seconds added to both sides of the annotators' span
+    truth : Annotation
+    found : Labelling
+        Of one recording at one frame rate.
+    tolerance_s : float
+        Seconds added to both sides of the annotators' span.
+
+    Returns
+    -------
+    BorderScore
     """
     borders = border_frames(found)[:, None]
     slack = tolerance_s * truth.fps

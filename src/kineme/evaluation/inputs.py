@@ -1,117 +1,197 @@
-"""Any result against any annotation: what the two files may be, and how they meet.
+"""One result against its truth, from files: how the two meet.
 
-A result is a segment table (CSV, JSON, Parquet), a table of intervals with
-``start_s``, ``stop_s`` and ``label`` (CSV, TSV), or a text file with one label
-per frame. An annotation is a table of intervals (CSV, TSV), a text file with
-one label per frame, a segment table as JSON or Parquet, or the benchmark's own
-(``annotations.json``, ``mocap.txt``), of which one trial is taken. Both are
-compared at 30 Hz, as published, or at the result's rate if that is lower.
+Both are label files of any format (`kineme.labels`). They are compared at 30 Hz, as published, or
+at the result's rate if that is lower.
 """
 
 from __future__ import annotations
 
-import csv
-import json
-import re
-import warnings
-from math import floor
+from dataclasses import replace
+from math import floor, isfinite
 from pathlib import Path
 from typing import Any
 
-from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.evaluation.annotations import read_frame_labels, read_intervals, read_trials
-from kineme.evaluation.labelling import Annotation, Labelling
-from kineme.evaluation.scores import evaluate, evaluate_segmentation, labelling_of
-from kineme.evaluation.trials import FPS
-from kineme.labels import read_segments
+from kineme.errors import ParameterError, ReadError
+from kineme.evaluation.annotated_scores import evaluate_segmentation, labelling_of
+from kineme.evaluation.labelling import TRANSITION, Annotation
+from kineme.labels.files import read_content
+from kineme.labels.spans import Labels, as_segmentation
 from kineme.recordings import Motion
-from kineme.recordings.operations import resample
 from kineme.segments.segmentation import Segmentation
 
-Found = Segmentation | Labelling
+FPS = 30.0
 
 
-def read_result(path: Path, *, fps: float | None = None) -> Found:
-    """What a method found: segments, intervals, or one label per frame in a text file.
-
-    Parameters
-    ----------
-    fps : frames per second of a text file; of intervals 30 by default
-
-    Raises
-    ------
-    ReadError : cannot be read or understood
-    ParameterError : a text file without ``fps``
-    """
-    if path.suffix.lower() in (".csv", ".tsv") and "level" not in _first_line(path):
-        return _intervals(path, fps or FPS)
-    if path.suffix.lower() != ".txt":
-        return read_segments(path)
-    if fps is None:
-        raise ParameterError(f"{path}: one label per frame needs the frame rate, --fps")
-    lines = _text(path).splitlines()
-    for number, line in enumerate(lines, 1):
-        if not line.strip():
-            raise ReadError(path, "no label on this line", line=number)
-    return Labelling.from_frames([line.strip() for line in lines], fps=fps)
-
-
-def read_truth(
-    path: Path, found: Found, *, fps: float | None = None, trial: str | None = None
-) -> Annotation:
-    """What people say about the recording of this result, at the rate of comparison.
+def read_result(path: Path, *, fps: float | None = None) -> Segmentation:
+    """What a method found, in a file of any label format.
 
     Parameters
     ----------
-    fps : frames per second of a file with one label per frame, if not the result's
-    trial : which trial of the benchmark's annotations; by default the one whose
-        name the result's recording has
+    path : Path
+        A segment table, intervals, or one label per frame in a text file.
+    fps : float, optional
+        Frames per second, where the file does not tell; of labels in seconds 30 by default.
+
+    Returns
+    -------
+    Segmentation
 
     Raises
     ------
-    ReadError : cannot be read or understood, or of another length than the result
+    ReadError
+        It cannot be read or understood, or counts frames without a frame rate.
     """
-    frames, rate = comparison(found)
-    suffix = path.suffix.lower()
-    if _is_benchmark(path):
-        truth = _trial(path, trial or _recording(found).stem, rate)
-    elif suffix in (".csv", ".tsv"):
-        truth = read_intervals(path, frames=frames, fps=rate)
-    elif suffix in (".json", ".parquet"):
-        rows = read_segments(path)
-        labels = labelling_of(rows.activities, fps=rows.fps)
-        names = [
-            row.label or label for row, label in zip(rows.activities, labels.labels, strict=True)
-        ]
-        labels = Labelling(labels.borders, tuple(names), rows.fps)
-        truth = _annotation(path, labels, frames, rate)
-    else:
-        truth = read_frame_labels(path, frames=frames, fps=rate, labels_fps=fps or found.fps)
-    if truth.frames != frames:
-        raise ReadError(
-            path,
-            f"speaks of {truth.frames / rate:.2f} s, the result of {frames / rate:.2f} s",
-        )
-    return truth
+    known, content = read_content(path)
+    if isinstance(content, Segmentation):
+        return content
+    rate = content.fps or fps or (FPS if content.unit == "seconds" else None)
+    return as_segmentation(content, path, known.name, fps=rate)[0]
 
 
-def comparison(found: Found) -> tuple[int, float]:
-    """Frames and rate at which a result is compared: 30 Hz, or its own if lower."""
-    frames = found.n_frames if isinstance(found, Segmentation) else found.frames
+def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> Annotation:
+    """What people say about the recording of a result, at the rate of comparison.
+
+    Parameters
+    ----------
+    path : Path
+        Labels of any format.
+    found : Segmentation
+        The result.
+    fps : float, optional
+        Frames per second of labels that count frames, if not the result's.
+
+    Returns
+    -------
+    Annotation
+        Transitions are the spans in which a border may lie.
+
+    Raises
+    ------
+    ReadError
+        It cannot be read or understood, or is of another length than the result.
+    """
+    n_frames, rate = comparison(found)
+    known, content = read_content(path)
+    try:
+        if isinstance(content, Labels):
+            told = content.fps or (rate if content.unit == "seconds" else fps or found.fps)
+            content, _ = as_segmentation(content, path, known.name, fps=told)
+        return annotation_of(content, n_frames=n_frames, fps=rate)
+    except ParameterError as error:
+        raise ReadError(path, str(error)) from error
+
+
+def annotation_of(truth: Segmentation, *, n_frames: int, fps: float) -> Annotation:
+    """The activities of a segmentation as a truth; its transitions are uncertain borders.
+
+    Parameters
+    ----------
+    truth : Segmentation
+        Activities are called by their labels, else by their clusters.
+    n_frames, fps : int and float
+        Length and rate of the comparison.
+
+    Returns
+    -------
+    Annotation
+
+    Raises
+    ------
+    ParameterError
+        Another length than the comparison's, or no activity.
+    """
+    rows = truth.activities
+    clusters = labelling_of(rows, fps=truth.fps)
+    names = [
+        TRANSITION if row.kind == "transition" else row.label or name
+        for row, name in zip(rows, clusters.labels, strict=True)
+    ]
+    labels = replace(clusters, labels=tuple(names)).at(frames=n_frames, fps=fps)
+    annotation = Annotation.from_labelling(labels)
+    counts = truth.provenance.get("labels", {}).get("counts", ())
+    if len(counts) != len(labels.labels):  # none, or a segment vanished at this rate
+        return annotation
+    last = len(counts) - 1
+    kept = [c for i, c in enumerate(counts) if names[i] != TRANSITION or i in (0, last)]
+    return replace(annotation, counts=tuple(kept))
+
+
+def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
+    """The scores of a result, another segmentation of the recording taken for the truth.
+
+    Parameters
+    ----------
+    truth, found : Segmentation
+        Of one recording.
+
+    Returns
+    -------
+    dict of str to float
+        As `evaluate_segmentation` names them, those that are numbers; none where the truth has
+        no activity at the rate of comparison.
+
+    Raises
+    ------
+    ParameterError
+        The two are of different lengths.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> truth = kineme.read_segments(bundled_truth())
+    >>> agreement(truth, truth)["border_f1"]
+    1.0
+    """
+    if not (truth.activities.kind == "activity").any():
+        return {}
+    n_frames, fps = comparison(found)
+    annotation = annotation_of(truth, n_frames=n_frames, fps=fps)
+    scores = evaluate_segmentation(annotation, found)
+    return {name: value for name, value in scores.items() if isfinite(value)}
+
+
+def comparison(found: Segmentation) -> tuple[int, float]:
+    """Frames and rate at which a result is compared: 30 Hz, or its own if lower.
+
+    Parameters
+    ----------
+    found : Segmentation
+
+    Returns
+    -------
+    n_frames : int
+    fps : float
+    """
     rate = min(FPS, found.fps)
-    return floor((frames - 1) * rate / found.fps + 1e-9) + 1, rate
+    return floor((found.n_frames - 1) * rate / found.fps + 1e-9) + 1, rate
 
 
-def score(truth: Annotation, found: Found, motion: Motion | None = None) -> dict[str, float]:
+def score(truth: Annotation, found: Segmentation, motion: Motion | None = None) -> dict[str, float]:
     """Every score; with the recording also the variances within clusters.
 
+    Parameters
+    ----------
+    truth : Annotation
+        At the rate of comparison.
+    found : Segmentation
+    motion : Motion, optional
+        The recording.
+
+    Returns
+    -------
+    dict of str to float
+        As `evaluate_segmentation` names them.
+
     Raises
     ------
-    ParameterError : the recording is of another length than the result
+    ParameterError
+        The recording is of another length than the result.
     """
     data: dict[str, Any] = {}
     if motion is not None:
         from kineme.methods.region_growing.preset import VOEGELE2014
+        from kineme.recordings.operations import resample
         from kineme.segmentation.bodies import motion_features
 
         preset = VOEGELE2014.replace(working_fps=truth.fps)
@@ -122,78 +202,24 @@ def score(truth: Annotation, found: Found, motion: Motion | None = None) -> dict
                 f"the recording has {len(data['positions'])} frames at {truth.fps:g} Hz, "
                 f"the result {truth.frames}"
             )
-    if isinstance(found, Segmentation):
-        return evaluate_segmentation(truth, found, **data)
-    return evaluate(truth, found, **data)
+    return evaluate_segmentation(truth, found, **data)
 
 
-def recording_of(found: Found) -> Path | None:
-    """The file a segmentation was made from, if it is still there and unchanged."""
+def recording_of(found: Segmentation) -> Path | None:
+    """The file a segmentation was made from, if it is still there and unchanged.
+
+    Parameters
+    ----------
+    found : Segmentation
+
+    Returns
+    -------
+    Path or None
+    """
     from kineme.formats.files import load
 
-    path = _recording(found)
-    if not path.is_file() or not isinstance(found, Segmentation):
+    source = found.provenance.get("input") or {}
+    path = Path(source.get("path") or "")
+    if not path.is_file():
         return None
-    same = load(path).digest == found.provenance["input"].get("sha256")
-    return path if same else None
-
-
-def _intervals(path: Path, fps: float) -> Labelling:
-    """A table of intervals as a result that lasts to its last stop."""
-    lines = _text(path).splitlines()
-    separator = "\t" if "\t" in lines[0] else ","
-    try:
-        stops = [float(row["stop_s"]) for row in csv.DictReader(lines, delimiter=separator)]
-        frames = max(1, round(max(stops) * fps))
-    except (KeyError, ValueError, TypeError, OverflowError):
-        frames = 1  # the reader says what is wrong
-    return read_intervals(path, frames=frames, fps=fps).labelling()
-
-
-def _first_line(path: Path) -> str:
-    return _text(path).partition("\n")[0]
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise ReadError(path, f"cannot be read: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise ReadError(path, f"is not UTF-8 text (byte {error.start})") from error
-
-
-def _recording(found: Found) -> Path:
-    source = found.provenance.get("input", {}) if isinstance(found, Segmentation) else {}
-    return Path(source.get("path") or "")
-
-
-def _is_benchmark(path: Path) -> bool:
-    """Whether this is ``annotations.json`` or ``mocap.txt``, by what it holds."""
-    if path.suffix.lower() == ".txt":
-        return re.match(r"\s*\S*\b\d+_\d+\b", _text(path)) is not None
-    if path.suffix.lower() != ".json":
-        return False
-    try:
-        content = json.loads(_text(path))
-    except ValueError:
-        return False
-    return isinstance(content, dict) and "trials" in content
-
-
-def _trial(path: Path, name: str, rate: float) -> Annotation:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KinemeWarning)
-        trials = read_trials(path, fps=rate)
-    if name not in trials:
-        raise ReadError(
-            path, f"holds no trial {name!r}: name one of {', '.join(trials)} with --trial"
-        )
-    return trials[name]
-
-
-def _annotation(path: Path, labels: Labelling, frames: int, rate: float) -> Annotation:
-    try:
-        return Annotation.from_labelling(labels.at(frames=frames, fps=rate))
-    except ParameterError as error:
-        raise ReadError(path, str(error)) from error
+    return path if load(path).digest == source.get("sha256") else None

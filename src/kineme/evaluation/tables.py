@@ -11,14 +11,11 @@ import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from kineme._files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
-
-if TYPE_CHECKING:
-    from kineme.evaluation.benchmark import Result
 
 GROUPS: Mapping[str, Mapping[str, str]] = {
     "published protocols": {
@@ -97,17 +94,6 @@ def markdown_scores(columns: Mapping[str, Mapping[str, float]]) -> str:
     return markdown(["", *columns], rows)
 
 
-def as_records(results: Sequence[Result]) -> list[dict[str, Any]]:
-    """One record per trial and method, then one per method with the means (trial ``mean``)."""
-    from kineme.evaluation.benchmark import mean_scores
-
-    records: list[dict[str, Any]] = [
-        {"trial": r.trial.name, "method": r.method, **r.scores} for r in results
-    ]
-    means = mean_scores(results)
-    return records + [{"trial": "mean", "method": m, **scores} for m, scores in means.items()]
-
-
 def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
     """Write records as JSON (with the version) or CSV, by suffix.
 
@@ -131,6 +117,18 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
             table = csv.DictWriter(file, names, lineterminator="\n")
             table.writeheader()
             table.writerows(plain)
+
+
+def write_text(text: str, path: Path) -> None:
+    """Write text to a file, whole or not at all.
+
+    Raises
+    ------
+    WriteError
+        The file cannot be written.
+    """
+    with atomic_write(path) as draft:
+        draft.write_text(f"{text}\n", encoding="utf-8")
 
 
 def _finite(value: Any) -> Any:

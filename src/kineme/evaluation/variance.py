@@ -1,4 +1,4 @@
-"""How alike are the segments of one cluster? (Vögele, Krüger, Klein 2014, section 5.2)
+"""How similar are the segments of one cluster? (Vögele, Krüger, Klein 2014, section 5.2)
 
 Two segments are compared by dynamic time warping; the sum of frame distances
 along the cheapest path is divided by the number of frames of the first

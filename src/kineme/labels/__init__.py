@@ -1,4 +1,4 @@
-"""Segments as files: one module per format, chosen by its name or the file's suffix.
+"""Segments as files: one module per format, chosen by its name, the file's content or suffix.
 
 The package's own hold everything:
 
@@ -9,9 +9,9 @@ The package's own hold everything:
 ``parquet`` ``.parquet``  the table; all else as metadata, ``kineme.segments``
 =========== ============  ====================================================
 
-Reading what was written gives an equal segmentation. A table whose
-provenance file is lost can still be read: the frame rate then follows from
-frames and seconds, and a note says so.
+Reading what was written gives an equal segmentation. A table whose provenance file is lost
+can still be read: the frame rate then follows from frames and seconds, and a note says so.
+Tables of intervals (``start_s``, ``stop_s``, ``label``; comma or tab) are read as ``csv``.
 
 Those of other programs hold labels, see :mod:`kineme.labels.spans`:
 
@@ -20,20 +20,31 @@ Those of other programs hold labels, see :mod:`kineme.labels.spans`:
 ``elan``     ``.eaf``      both levels, frame rate; milliseconds
 ``textgrid`` ``.TextGrid`` both levels
 ``bids``     ``.tsv``      both levels, frame rate, clusters, scores
-``boris``    by name       both levels, frame rate
-``babel``    by name       one level; labels may overlap
-``ms-tcn``   by name       one level, as one label per frame
-``clips``    by name       one level, frame rate
+``boris``    ``.csv``      both levels, frame rate
+``babel``    ``.json``     one level; labels may overlap
+``ms-tcn``   ``.txt``      one level, as one label per frame
+``clips``    ``.csv``      one level, frame rate
 ``c3d``      ``.c3d``      events, read only
 ============ ============= ===================================================
+
+Where several have a suffix, the content tells them apart on reading, and the first listed is
+written unless ``format=`` names another. A format of your own is a `LabelFormat`, made known
+by `register` or by the entry point group ``kineme.label_formats``.
 """
 
-from kineme.labels.registry import (
-    FORMATS,
-    SUFFIXES,
-    LabelFormat,
-    read_segments,
-    write_segments,
-)
+from kineme.labels.files import read_segments, write_segments
+from kineme.labels.label_format import LabelFormat
+from kineme.labels.registry import holds_labels, label_formats, register, written_suffixes
+from kineme.labels.spans import Labels, Span
 
-__all__ = ["FORMATS", "SUFFIXES", "LabelFormat", "read_segments", "write_segments"]
+__all__ = [
+    "LabelFormat",
+    "Labels",
+    "Span",
+    "holds_labels",
+    "label_formats",
+    "read_segments",
+    "register",
+    "write_segments",
+    "written_suffixes",
+]

@@ -15,6 +15,8 @@ from pathlib import Path
 from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.delimited import number
+from kineme.labels.heads import head
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
@@ -41,3 +43,23 @@ def read(path: Path) -> Labels:
             stop = number(cells[1], "the stop", path, line)
             spans.append(Span(start, stop, cells[2] if len(cells) > 2 else ""))
     return Labels(spans)
+
+
+def _recognises(path: Path) -> bool:
+    """Whether the first label has two times with a tab between."""
+    for line in head(path).decode(errors="replace").splitlines():
+        cells = line.split("\t", 2)
+        if cells != [""] and not cells[0].startswith("\\"):
+            return len(cells) > 1
+    return False
+
+
+FORMAT = LabelFormat(
+    name="audacity",
+    help="Audacity label track, one level",
+    suffixes=(".txt",),
+    holds="level",
+    read=read,
+    write=write,
+    recognises=_recognises,
+)

@@ -5,7 +5,7 @@ A file is an object of recordings by their number, as in BABEL's own
 with one label per segment (text as ``raw_label``, ``proc_label`` and only
 member of ``act_cat``) and an empty ``seq_ann``; no frame rate, no scores.
 
-BABEL's labels may overlap (``walk`` and ``wave``). Where they do, the stretch
+BABEL's labels may overlap (``walk`` and ``wave``). Where they do, the span
 that both cover becomes a segment of its own, ``walk + wave``, and a warning
 says so. Where ``frame_ann`` is missing, ``seq_ann`` names the whole recording.
 
@@ -16,20 +16,21 @@ Labels, CVPR 2021; https://github.com/abhinanda-punnakkal/BABEL.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.formats.files import warn
+from kineme.labels.heads import head
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
 AT_ONCE = 4
-"""Labels that may cover a moment; more are a damaged file."""
+"""Labels that may cover a frame; more are a damaged file."""
 
 
 def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
@@ -89,7 +90,9 @@ def labels_of(recording: Mapping[str, Any], path: Path) -> Labels:
         )
         for label in labels
     ]
-    return Labels(list(_apart(spans, path)), "seconds", None, length)
+    apart, shared = _apart(spans, path)
+    note = f"labels overlap; {shared} segments carry the texts of several"
+    return Labels(apart, "seconds", None, length, (note,) if shared else ())
 
 
 def _seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
@@ -103,10 +106,10 @@ def _text(label: Mapping[str, Any]) -> str:
     return str(label.get("proc_label") or label.get("raw_label") or "")
 
 
-def _apart(spans: Sequence[Span], path: Path) -> Iterator[Span]:
-    """The spans cut where another begins or ends; what several cover with all their texts."""
+def _apart(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
+    """The spans cut where another begins or ends, with all their texts; how many have several."""
     solid = [span for span in spans if span.start < span.stop]
-    yield from (span for span in spans if not span.start < span.stop)
+    apart = [span for span in spans if not span.start < span.stop]
     waiting = sorted(solid, key=lambda span: span.start, reverse=True)
     active: list[Span] = []
     shared = 0
@@ -118,7 +121,22 @@ def _apart(spans: Sequence[Span], path: Path) -> Iterator[Span]:
             raise ReadError(path, f"has more than {AT_ONCE} labels at once, at {start} s")
         if active:
             texts = dict.fromkeys(span.text for span in active if span.text)
-            yield Span(start, stop, " + ".join(texts))
+            apart.append(Span(start, stop, " + ".join(texts)))
         shared += len(active) > 1
-    if shared:
-        warn(f"{path}: labels overlap; {shared} segments carry the texts of several")
+    return apart, shared
+
+
+def _recognises(path: Path) -> bool:
+    start = head(path)
+    return any(word in start for word in (b'"seq_ann"', b'"frame_ann"', b'"seg_id"'))
+
+
+FORMAT = LabelFormat(
+    name="babel",
+    help="BABEL, one level",
+    suffixes=(".json",),
+    holds="level",
+    read=read,
+    write=write,
+    recognises=_recognises,
+)

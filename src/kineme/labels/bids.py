@@ -22,6 +22,8 @@ from typing import Any
 from kineme._files import atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.labels.delimited import number, read_rows, whole, write_rows
+from kineme.labels.heads import columns
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
@@ -128,3 +130,15 @@ def _parsed(beside: Path) -> dict[str, Any]:
     if not isinstance(found, dict):
         raise ReadError(beside, "a sidecar must be a JSON object")
     return found
+
+
+FORMAT = LabelFormat(
+    name="bids",
+    help="BIDS events with their sidecar",
+    suffixes=(".tsv",),
+    holds="levels",
+    read=read,
+    write=write,
+    recognises=lambda path: set(NEEDED) <= columns(path),
+    several=True,
+)

@@ -22,6 +22,8 @@ from typing import Any
 from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.delimited import number, read_rows, write_rows
+from kineme.labels.heads import head
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
@@ -64,7 +66,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         "Subject": "No focal subject",
         "Media file name": media,
     }
-    events = sorted((event for row in rows for event in _events(row)), key=_moment)
+    events = sorted((event for row in rows for event in _events(row)), key=_order)
     with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
         lines = ({**facts, **event} for event in events)
         write_rows(file, COLUMNS, ([line.get(name, "") for name in COLUMNS] for line in lines))
@@ -85,7 +87,7 @@ def _events(row: Segment) -> Iterator[dict[str, Any]]:
     yield {**what, "Behavior type": "STOP", "Time": row.stop_s, "Image index": row.stop_frame}
 
 
-def _moment(event: dict[str, Any]) -> tuple[int, bool]:
+def _order(event: dict[str, Any]) -> tuple[int, bool]:
     """What stops at a frame comes before what starts there."""
     return event["Image index"], event["Behavior type"] == "START"
 
@@ -134,3 +136,14 @@ def _fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | None:
         if 0 < value < 1e15:
             return value
     return None
+
+
+FORMAT = LabelFormat(
+    name="boris",
+    help="BORIS events",
+    suffixes=(".csv",),
+    holds="levels",
+    read=read,
+    write=write,
+    recognises=lambda path: b"Behavior," in head(path),
+)

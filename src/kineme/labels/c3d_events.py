@@ -1,12 +1,12 @@
 """Events of C3D files as labels: each lasts until the next one.
 
-An event is a moment, such as ``Right Foot Strike``; a label is a stretch. The
-events wanted (all, or those of some names) cut the recording: a stretch is
+An event is a point in time, such as ``Right Foot Strike``; a label is a span. The
+events wanted (all, or those of some names) cut the recording: a span is
 called after the event that starts it, what comes before the first is called
 nothing. Of events at the same frame the last one counts.
 
 `kineme.read_segments` takes all events; of a gait, `read_events` with ``names=["Right Foot
-Strike"]`` makes each cycle of the right leg one stretch.
+Strike"]`` makes each cycle of the right leg one span.
 """
 
 from __future__ import annotations
@@ -14,36 +14,52 @@ from __future__ import annotations
 from collections.abc import Collection
 from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError
-from kineme.formats.files import load
-from kineme.formats.markers.c3d_file import C3D, parse_c3d
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
 
+if TYPE_CHECKING:
+    from kineme.formats.markers.c3d_file import C3D
+
 
 def read_events(path: str | PathLike[str], *, names: Collection[str] | None = None) -> Segmentation:
-    """The stretches between events of these names (all by default) as activities.
-
-    Raises
-    ------
-    ReadError : as `read` does
-    """
-    return as_segmentation(read(Path(path), names), Path(path), "c3d", fps=None, n_frames=None)
-
-
-def read(path: Path, names: Collection[str] | None = None) -> Labels:
-    """The stretches between the events of a C3D file, in seconds from its first frame.
+    """The spans between events as activities, each called after the event that starts it.
 
     Parameters
     ----------
-    path : the file
-    names : of the events that cut; all by default
+    path : path-like
+        A C3D file.
+    names : collection of str, optional
+        Of the events that cut; all by default.
+
+    Returns
+    -------
+    Segmentation
+        At the rate and length of the recording; what comes before the first event is a
+        transition.
 
     Raises
     ------
-    ReadError : no C3D file, no events in it, or none of these names
+    ReadError
+        No C3D file, no events in it, or none of these names.
+
+    Examples
+    --------
+    The gait cycles of the right leg::
+
+        cycles = read_events("gait.c3d", names=["Right Foot Strike"])
     """
+    return as_segmentation(read(Path(path), names), Path(path), FORMAT.name)[0]
+
+
+def read(path: Path, names: Collection[str] | None = None) -> Labels:
+    """The spans between the events of a C3D file, in seconds from its first frame."""
+    from kineme.formats.files import load
+    from kineme.formats.markers.c3d_file import parse_c3d
+
     file = parse_c3d(load(path))
     length = _seconds(file)
     if not length:
@@ -68,3 +84,13 @@ def read(path: Path, names: Collection[str] | None = None) -> Labels:
 
 def _seconds(file: C3D) -> float:
     return len(file.points) / file.rate if file.rate else 0.0
+
+
+FORMAT = LabelFormat(
+    name="c3d",
+    help="Events of a C3D file, read only",
+    suffixes=(".c3d",),
+    holds="level",
+    read=read,
+    recognises=lambda _: False,  # it is a recording first of all
+)

@@ -21,6 +21,8 @@ from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.csv_table import roundest_rate
 from kineme.labels.delimited import number, read_rows, whole, write_rows
+from kineme.labels.heads import columns
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
@@ -62,3 +64,14 @@ def read(path: Path) -> Labels:
         raise ReadError(path, f"lists clips of {len(sources)} files ({names:.100}): keep one")
     rate = roundest_rate(*seconds) if seconds and min(seconds) > 0 else None
     return Labels(list(spans), "frames", rate)
+
+
+FORMAT = LabelFormat(
+    name="clips",
+    help="Clip list for motion matching, one level",
+    suffixes=(".csv",),
+    holds="level",
+    read=read,
+    write=write,
+    recognises=lambda path: set(NEEDED) <= columns(path),
+)

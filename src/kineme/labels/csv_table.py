@@ -1,4 +1,4 @@
-"""Segments as CSV: a header line, one line per row, UTF-8, comma, dot.
+"""Segments as CSV: a header line, one line per row, UTF-8, comma (or tab), dot.
 
 No comment lines: ``pandas.read_csv`` and spreadsheets take the file as it is.
 What does not fit into a table (frame rate, provenance, timings) goes into
@@ -6,9 +6,11 @@ What does not fit into a table (frame rate, provenance, timings) goes into
 is found again from the last row, and the table keeps all it says.
 An empty score is nan. Columns are found by name; others are ignored.
 
-A list that people keep by hand, without a column ``level``, is read as well:
-``label`` with ``start_s`` and ``stop_s``, or with ``start_frame`` and
-``stop_frame``, in any order; what no row covers is a transition.
+A table of intervals that people keep by hand is read as well: ``label`` with ``start_s``
+and ``stop_s``, or with ``start_frame`` and ``stop_frame``, in any order, with ``level``,
+``kind`` and ``count`` (repetitions) where there are any. What no row covers is a transition.
+A column ``recording`` must name one recording only; tables of many are read by
+`kineme.labels.collections`.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import astuple
 from pathlib import Path
 from typing import Any, Literal
@@ -23,10 +26,13 @@ from typing import Any, Literal
 from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.delimited import number, read_rows
+from kineme.labels.heads import columns as columns_of
+from kineme.labels.heads import separator
 from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment
+from kineme.segments.table import COLUMNS, Level, Segment
 
 NUMBERS: dict[str, type[int | float]] = {
     "start_frame": int,
@@ -37,13 +43,14 @@ NUMBERS: dict[str, type[int | float]] = {
     "activity": int,
     "score": float,
 }
-SPANS: dict[Literal["seconds", "frames"], tuple[str, str]] = {
+Unit = Literal["seconds", "frames"]
+SPANS: dict[Unit, tuple[str, str]] = {
     "seconds": ("start_s", "stop_s"),
     "frames": ("start_frame", "stop_frame"),
 }
 
 
-def write(segmentation: Segmentation, path: Path) -> None:
+def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave the table at ``path`` and the rest beside it."""
     beside = provenance_path(path)
     with atomic_write(beside) as head_draft, atomic_write(path) as draft:
@@ -57,10 +64,12 @@ def write(segmentation: Segmentation, path: Path) -> None:
 def read(path: Path) -> Segmentation | Labels:
     """What is at ``path``, with what lies beside it if it is there."""
     with path.open(encoding="utf-8-sig", newline="") as file:
-        if "level" not in next(csv.reader([file.readline()]), []):
-            return _list(path)
+        first = file.readline()
+        comma = separator(first)
+        if not {"level", "start_frame"} <= set(next(csv.reader([first], delimiter=comma), [])):
+            return _intervals(path)
         file.seek(0)
-        columns = _columns(csv.DictReader(file, strict=True), path)
+        columns = _columns(csv.DictReader(file, strict=True, delimiter=comma), path)
     beside = provenance_path(path)
     if beside.is_file():
         head = parse(beside.read_text(encoding="utf-8-sig"), beside)
@@ -86,16 +95,48 @@ def roundest_rate(n_frames: int, seconds: float) -> float:
     return next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
 
 
-def _list(path: Path) -> Labels:
-    """The labels of a list without levels."""
-    unit: Literal["seconds", "frames"] = "seconds"
-    spans = []
+def intervals(path: Path) -> dict[str, Labels]:
+    """The labels of a table of intervals, by recording; by ``""`` where it has no such column."""
+    unit: Unit = "seconds"
+    spans: dict[str, list[Span]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
-        for line, row in read_rows(file, path, [(*names, "label") for names in SPANS.values()]):
+        comma = separator(file.readline())
+        file.seek(0)
+        wanted = [(*names, "label") for names in SPANS.values()]
+        for line, row in read_rows(file, path, wanted, delimiter=comma):
             unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
             start, stop = (number(row[name], name, path, line) for name in SPANS[unit])
-            spans.append(Span(start, stop, row["label"]))
-    return Labels(spans, unit)
+            span = Span(start, stop, _text(row), _level(row), repetitions=_count(row, path, line))
+            spans.setdefault(row.get("recording", ""), []).append(span)
+    return {recording: Labels(own, unit) for recording, own in spans.items()}
+
+
+def _intervals(path: Path) -> Labels:
+    """The labels of a table of intervals of one recording."""
+    found = intervals(path)
+    if len(found) > 1:
+        names = ", ".join(found)
+        raise ReadError(
+            path,
+            f"has labels of {len(found)} recordings ({names:.60}): keep one, or evaluate the "
+            "folder of them: kineme evaluate FOLDER --labels TABLE",
+        )
+    return next(iter(found.values()), Labels([]))
+
+
+def _text(row: dict[str, str]) -> str:
+    return "transition" if row.get("kind") == "transition" else row["label"]
+
+
+def _level(row: dict[str, str]) -> Level:
+    return "primitive" if row.get("level") == "primitive" else "activity"
+
+
+def _count(row: dict[str, str], path: Path, line: int) -> int | None:
+    text = row.get("count", "").strip()
+    if text and not text.isdecimal():
+        raise ReadError(path, f"count must be a whole number, not {text!r:.60}", line=line)
+    return int(text) if text else None
 
 
 def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
@@ -141,3 +182,20 @@ def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
 def _cells(row: Segment) -> list[Any]:
     *cells, score = astuple(row)
     return [*cells, "" if math.isnan(score) else score]
+
+
+def _recognises(path: Path) -> bool:
+    """Whether the first line has the columns of a segment table or of intervals."""
+    found = columns_of(path)
+    return any({*names, "label"} <= found for names in SPANS.values())
+
+
+FORMAT = LabelFormat(
+    name="csv",
+    help="The table, for spreadsheets",
+    suffixes=(".csv", ".tsv"),
+    holds="all",
+    read=read,
+    write=write,
+    recognises=_recognises,
+)

@@ -25,6 +25,7 @@ from xml.etree import ElementTree as ET
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError, WriteError
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
@@ -166,3 +167,13 @@ def _milliseconds(row: Segment) -> tuple[int, int]:
 def _allowed(text: str) -> str:
     """The text without the two characters that XML cannot hold and labels can."""
     return text.replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
+
+
+FORMAT = LabelFormat(
+    name="elan",
+    help="ELAN, both levels",
+    suffixes=(".eaf",),
+    holds="levels",
+    read=read,
+    write=write,
+)

@@ -23,19 +23,22 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError
+from kineme.labels.heads import head
+from kineme.labels.label_format import LabelFormat
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, Segment
 
 SCHEMA = "kineme.segments/1"
 
 
-def write(segmentation: Segmentation, path: Path) -> None:
+def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave everything at ``path``."""
     with atomic_write(path) as draft:
         draft.write_text(dumps(segmentation), encoding="utf-8")
@@ -113,3 +116,14 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
 def _cells(row: Segment) -> dict[str, Any]:
     cells = asdict(row)
     return cells | {"score": None if math.isnan(row.score) else row.score}
+
+
+FORMAT = LabelFormat(
+    name="json",
+    help="Everything in one file",
+    suffixes=(".json",),
+    holds="all",
+    read=read,
+    write=write,
+    recognises=lambda path: b'"kineme.segments/' in head(path),
+)

@@ -25,6 +25,8 @@ from pathlib import Path
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError, WriteError
+from kineme.labels.heads import head
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
@@ -86,3 +88,22 @@ def _classes(mapping: Path) -> dict[str, int]:
 
 def _without_blanks(text: str) -> str:
     return "".join("_" if letter.isspace() else letter for letter in text)
+
+
+def _recognises(path: Path) -> bool:
+    """Whether the first line is one word or more, and no row of a table."""
+    first = next(iter(head(path).decode(errors="replace").split("\n", 1)), "").strip()
+    return bool(first) and "\t" not in first and not first[0].isdigit() and first[0] not in "-+."
+
+
+FORMAT = LabelFormat(
+    name="ms-tcn",
+    help="One label per frame, with the mapping",
+    suffixes=(".txt",),
+    holds="level",
+    read=read,
+    write=write,
+    recognises=_recognises,
+    several=True,
+    folder=FOLDER,
+)

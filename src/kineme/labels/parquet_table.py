@@ -7,19 +7,22 @@ key ``kineme.segments``, with the schema of :mod:`kineme.labels.json_table`.
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ReadError
+from kineme.labels.heads import tail
 from kineme.labels.json_table import head_of, parse, with_head
+from kineme.labels.label_format import LabelFormat
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS
+from kineme.segments.table import COLUMNS, Segment
 
 KEY = b"kineme.segments"
 
 
-def write(segmentation: Segmentation, path: Path) -> None:
+def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave everything at ``path``."""
     arrow, parquet = _pyarrow()
     table = arrow.table(segmentation.table.columns())
@@ -52,3 +55,14 @@ def _pyarrow() -> tuple[Any, Any]:
     except ImportError as error:
         raise MissingDependencyError("pyarrow", "tables") from error
     return pa, parquet
+
+
+FORMAT = LabelFormat(
+    name="parquet",
+    help="Everything, for pandas and others",
+    suffixes=(".parquet",),
+    holds="all",
+    read=read,
+    write=write,
+    recognises=lambda path: KEY in tail(path),
+)

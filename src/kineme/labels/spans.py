@@ -21,10 +21,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
-from kineme.errors import ReadError
-from kineme.formats.files import warn
+from kineme.errors import ParameterError, ReadError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
 
@@ -44,6 +43,7 @@ class Span(NamedTuple):
     level: Level = "activity"
     cluster: int = -1
     score: float = math.nan
+    repetitions: int | None = None
 
 
 @dataclass(frozen=True)
@@ -52,16 +52,23 @@ class Labels:
 
     Parameters
     ----------
-    spans : in any order; a stop is where the next span may start
-    unit : of starts, stops and length
-    fps : frames per second of the recording
-    length : of the recording
+    spans : sequence of Span
+        In any order; a stop is where the next span may start.
+    unit : {"seconds", "frames"}
+        Of starts, stops and length.
+    fps : float, optional
+        Frames per second of the recording.
+    length : float, optional
+        Of the recording.
+    notes : tuple of str
+        What is worth a warning, such as labels that had to be joined.
     """
 
     spans: Sequence[Span]
     unit: Literal["seconds", "frames"] = "seconds"
     fps: float | None = None
     length: float | None = None
+    notes: tuple[str, ...] = ()
 
 
 def text_of(row: Segment) -> str:
@@ -82,16 +89,36 @@ def meaning(text: str) -> tuple[Kind, int, str]:
 
 
 def as_segmentation(
-    labels: Labels, path: Path, name: str, *, fps: float | None, n_frames: int | None
-) -> Segmentation:
-    """The segmentation that labels speak of; ``fps`` and ``n_frames`` add what they leave out.
+    labels: Labels, path: Path, name: str, *, fps: float | None = None, n_frames: int | None = None
+) -> tuple[Segmentation, tuple[str, ...]]:
+    """The segmentation that labels speak of, and what of it is worth a warning.
 
-    Where all spans are of the primitive level they become activities, which
-    every segmentation has.
+    Where all spans are of the primitive level they become activities, which every
+    segmentation has. Counts of repetitions, where the labels have some, are kept in the
+    provenance, ``["labels"]["counts"]``: one per row of the activity level, or None.
+
+    Parameters
+    ----------
+    labels : Labels
+        What a file holds.
+    path : Path
+        Where it was read, for messages and the provenance.
+    name : str
+        Of the format.
+    fps, n_frames : float and int, optional
+        Of the recording, where the labels leave them out.
+
+    Returns
+    -------
+    Segmentation
+        Tiled: what no label covers is a transition.
+    tuple of str
+        Sentences for a `KinemeWarning`; they are in the provenance's notes, too.
 
     Raises
     ------
-    ReadError : no spans, an unknown frame rate, spans that overlap or lie outside
+    ReadError
+        No spans, an unknown frame rate, or spans that overlap or lie outside.
     """
     if not labels.spans:
         raise ReadError(path, "has no labels")
@@ -112,16 +139,32 @@ def as_segmentation(
         n_frames = last
         notes.append(f"length of {last} frames taken from the end of the last label")
     elif last > n_frames + 1:  # 1: some programs close with the frame after the last
-        raise ReadError(path, f"has labels up to frame {last}, but the recording has {n_frames}")
+        raise ReadError(
+            path,
+            f"has labels up to frame {last}, {last / rate:.3f} s, but the recording has "
+            f"{n_frames}, {n_frames / rate:.3f} s",
+        )
     if n_frames < 1:
         raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
-    tiled = _both_levels(rows, n_frames, path)
-    return Segmentation.from_columns(
-        dict(zip(COLUMNS, zip(*tiled, strict=True), strict=True)),
-        n_frames=n_frames,
-        fps=rate,
-        provenance={"labels": {"path": str(path), "format": name}, "notes": notes},
-    )
+    unusual = list(labels.notes)
+    full = _as_long_as_a_frame(rows, n_frames)
+    if len(full) < len(rows):
+        unusual.append(f"{len(rows) - len(full)} labels shorter than a frame are left out")
+    tiled = _both_levels(full, n_frames, path)
+    source: dict[str, Any] = {"path": str(path), "format": name}
+    counts = {row[2]: s.repetitions for row, s in zip(rows, labels.spans, strict=True)}
+    if any(count is not None for count in counts.values()):
+        source["counts"] = [counts.get(row[2]) for row in tiled if row[0] == "activity"]
+    try:
+        segmentation = Segmentation.from_columns(
+            dict(zip(COLUMNS, zip(*tiled, strict=True), strict=True)),
+            n_frames=n_frames,
+            fps=rate,
+            provenance={"labels": source, "notes": [*notes, *unusual]},
+        )
+    except ParameterError as error:
+        raise ReadError(path, str(error)) from error
+    return segmentation, tuple(unusual)
 
 
 def one_line(text: str) -> str:
@@ -148,12 +191,14 @@ def _frame(value: float, per_unit: float, path: Path) -> int:
     return math.floor(frame + 0.5)
 
 
-def _both_levels(rows: list[Row], n_frames: int, path: Path) -> list[Row]:
+def _as_long_as_a_frame(rows: list[Row], n_frames: int) -> list[Row]:
+    """The rows cut off at the end of the recording, without those of which nothing is left."""
+    inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
+    return [row for row in inside if row[2] < row[3]]
+
+
+def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
     """The rows of each level with the gaps between them filled, no gap across an activity's end."""
-    full = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
-    full = [row for row in full if row[2] < row[3]]
-    if len(full) < len(rows):
-        warn(f"{path}: {len(rows) - len(full)} labels shorter than a frame are left out")
     if all(row[0] == "primitive" for row in full):
         full = [("activity", *row[1:]) for row in full]
     inner = [row for row in full if row[0] == "primitive"]

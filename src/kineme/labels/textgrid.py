@@ -25,6 +25,7 @@ from pathlib import Path
 from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.elan import chosen_tiers
+from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span, text_of
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
@@ -119,3 +120,14 @@ def _count(tokens: Iterator[str | float], path: Path) -> int:
 
 def _shown(token: object) -> str:
     return "its end" if token is None else f"{token!r:.60}"
+
+
+FORMAT = LabelFormat(
+    name="textgrid",
+    help="Praat, both levels",
+    suffixes=(".textgrid",),
+    holds="levels",
+    read=read,
+    write=write,
+    written_suffix=".TextGrid",
+)

@@ -12,35 +12,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from kineme.errors import ParameterError
-from kineme.labels import FORMATS
+from kineme.labels import label_formats
 from kineme.methods import PRESETS, Constant, resolve_preset
 from kineme.methods.constants import Slider
 from kineme.web.messages import ExportFormat, Parameter, PresetChoice
 
 CLIPS, REPORT = "motions", "report"
 """What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""
-FORMAT_HELP = {
-    "csv": "The table, for spreadsheets",
-    "json": "Everything in one file",
-    "parquet": "Everything, for pandas and others",
-    "audacity": "Audacity label track, one level",
-    "elan": "ELAN, both levels",
-    "textgrid": "Praat, both levels",
-    "bids": "BIDS events with their sidecar",
-    "boris": "BORIS events",
-    "babel": "BABEL, one level",
-    "ms-tcn": "One label per frame, with the mapping",
-    "clips": "Clip list for motion matching, one level",
-}
-SUFFIXES = {
-    "textgrid": ".TextGrid",
-    "boris": ".csv",
-    "babel": ".json",
-    "ms-tcn": ".zip",
-    "clips": ".csv",
-    "bids": ".zip",
-}
-"""Of what is downloaded, where the format has none of its own or it is several files."""
 
 
 def presets() -> list[PresetChoice]:
@@ -97,20 +75,15 @@ def export_formats() -> list[ExportFormat]:
     """
     return [
         *(
-            ExportFormat(name=name, suffix=download_suffix(name), help=FORMAT_HELP.get(name, name))
-            for name, known in FORMATS.items()
-            if known.writes
+            ExportFormat(name=known.name, suffix=known.download_suffix, help=known.help)
+            for known in label_formats().values()
+            if known.write
         ),
         ExportFormat(name=CLIPS, suffix=".zip", help="A motion file per segment"),
         ExportFormat(
             name=REPORT, suffix=".html", help="A page that shows it all, without a server"
         ),
     ]
-
-
-def download_suffix(name: str) -> str:
-    """The suffix of what is downloaded in a format."""
-    return SUFFIXES.get(name) or FORMATS[name].suffixes[0]
 
 
 def _parameters(preset: str, *, signals: bool) -> list[Parameter]:

@@ -10,16 +10,12 @@ from pathlib import Path
 from kineme.clips.split import split
 from kineme.errors import ParameterError
 from kineme.features import Names
-from kineme.labels import FORMATS, write_segments
+from kineme.labels import label_formats, write_segments
 from kineme.recordings import Motion
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
-from kineme.studio.choices import download_suffix
 from kineme.web.page_data import Shown
-
-MAIN_SUFFIX = {"bids": ".tsv", "ms-tcn": ".txt"}
-"""Of the main file, where what is downloaded is several."""
 
 
 def table_file(
@@ -49,17 +45,18 @@ def table_file(
     ParameterError
         No such format.
     """
-    if name not in FORMATS or not FORMATS[name].writes:
+    known = label_formats().get(name)
+    if known is None or known.write is None:
         raise ParameterError(f"there is no format {name!r:.40}")
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        # MS-TCN writes a mapping one folder up, the others stay in their own.
-        place = Path(folder) / "groundTruth" if name == "ms-tcn" else Path(folder)
+        place = Path(folder) / known.folder
         place.mkdir(exist_ok=True)
-        path = place / f"{stem}{MAIN_SUFFIX.get(name) or download_suffix(name)}"
-        chosen = None if FORMATS[name].holds == "all" else level
-        write_segments(segmentation, path, format=name, level=chosen)
-        if name == "csv":  # spreadsheets read one file; JSON and Parquet hold the rest
-            path.with_suffix(".provenance.json").unlink(missing_ok=True)
+        path = place / f"{stem}{known.written_suffix}"
+        write_segments(
+            segmentation, path, format=name, level=None if known.holds == "all" else level
+        )
+        if not known.several:  # what else lies there, as a CSV's provenance, other formats hold
+            return path.name, path.read_bytes()
         return _one_file(Path(folder), stem)
 
 

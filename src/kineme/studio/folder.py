@@ -11,7 +11,7 @@ from hashlib import blake2b
 from pathlib import Path
 
 from kineme.formats.listing import files_in, holds_recording
-from kineme.labels.listing import holds_labels
+from kineme.labels import holds_labels
 from kineme.studio.storage import usual_tables
 
 

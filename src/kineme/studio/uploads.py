@@ -19,7 +19,7 @@ from typing import Self
 
 from kineme.errors import ParameterError, WriteError
 from kineme.formats import supported_formats
-from kineme.labels.listing import LABELS
+from kineme.labels import label_formats
 
 LIMIT = 10**9
 """Bytes; an hour of motion takes a quarter of that as text."""
@@ -141,7 +141,8 @@ def recording_suffixes() -> list[str]:
 
 def _suffixes() -> set[str]:
     """Of all that may be sent: recordings and their skeletons, labels, knowledge bases."""
-    return {*recording_suffixes(), ".asf", ".npz", *LABELS}
+    labels = {suffix for known in label_formats().values() for suffix in known.suffixes}
+    return {*recording_suffixes(), ".asf", ".npz", *labels}
 
 
 def _free_names(path: Path) -> list[Path]:

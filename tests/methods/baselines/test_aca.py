@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 import kineme
 import naive
 from kineme.errors import MotionError, ParameterError
-from kineme.evaluation import Labelling, read_trials
-from kineme.evaluation.aca_protocol import aca_accuracy
+from kineme.evaluation import Labelling
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.baselines._kernels import (
     cheapest_lengths,
@@ -25,6 +24,8 @@ from kineme.methods.baselines.aca import State, aca, improve, majority_pieces
 from kineme.methods.baselines.haca import haca, haca_levels
 from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
+from kineme.reproduction import read_trials
+from kineme.reproduction.aca_protocol import aca_accuracy
 
 SEEDS = st.integers(0, 2**32 - 1)
 

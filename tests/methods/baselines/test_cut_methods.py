@@ -13,11 +13,12 @@ from threadpoolctl import threadpool_limits
 import kineme
 import naive
 from kineme.errors import ParameterError
-from kineme.evaluation import Labelling, border_score, read_trials
+from kineme.evaluation import Labelling, border_score
 from kineme.features.rotations import joint_quaternions
 from kineme.methods.baselines.gmm import gmm
 from kineme.methods.baselines.pca import pca, ppca
 from kineme.methods.baselines.uniform import uniform
+from kineme.reproduction import read_trials
 
 SEEDS = st.integers(0, 2**32 - 1)
 

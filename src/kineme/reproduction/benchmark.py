@@ -17,13 +17,13 @@ from typing import Any
 import numpy as np
 
 from kineme.errors import ReadError
+from kineme.evaluation.annotated_scores import evaluate_segmentation
 from kineme.evaluation.frames import one_to_one_accuracy
 from kineme.evaluation.labelling import Annotation, Labelling
-from kineme.evaluation.methods import Method
 from kineme.evaluation.paper import strict_and_tolerant
-from kineme.evaluation.published import published
-from kineme.evaluation.scores import evaluate_segmentation
-from kineme.evaluation.trials import Trial, read_truths
+from kineme.reproduction.methods import Method
+from kineme.reproduction.published import published
+from kineme.reproduction.trials import Trial, read_truths
 from kineme.segments.segmentation import Segmentation
 
 Scores = dict[str, float]
@@ -85,6 +85,15 @@ def mean(rows: Sequence[Scores]) -> Scores:
     names = dict.fromkeys(name for row in rows for name in row)
     columns = {n: [row[n] for row in rows if np.isfinite(row.get(n, np.nan))] for n in names}
     return {n: float(np.mean(values)) if values else float("nan") for n, values in columns.items()}
+
+
+def as_records(results: Sequence[Result]) -> list[dict[str, Any]]:
+    """One record per trial and method, then one per method with the means (trial ``mean``)."""
+    records: list[dict[str, Any]] = [
+        {"trial": r.trial.name, "method": r.method, **r.scores} for r in results
+    ]
+    means = mean_scores(results)
+    return records + [{"trial": "mean", "method": m, **scores} for m, scores in means.items()]
 
 
 @dataclass(frozen=True)

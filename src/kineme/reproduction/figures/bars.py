@@ -20,11 +20,11 @@ from scipy.optimize import linear_sum_assignment
 from sklearn.metrics.cluster import contingency_matrix
 
 from kineme._colors import PALETTE
-from kineme.evaluation.benchmark import Result
-from kineme.evaluation.figures.style import BETWEEN, INK, heading, new_figure, save
+from kineme.evaluation.annotated_scores import labelling_of
 from kineme.evaluation.labelling import TRANSITION, Labelling
-from kineme.evaluation.scores import labelling_of
-from kineme.evaluation.trials import Trial
+from kineme.reproduction.benchmark import Result
+from kineme.reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
+from kineme.reproduction.trials import Trial
 
 LIGHTER = 0.55
 ROW_INCHES = 0.17

@@ -1,4 +1,4 @@
-"""How alike are the segments of one cluster, by class and by method.
+"""How similar are the segments of one cluster, by class and by method.
 
 `plot_by_class` is figure 5 of Vögele, Krüger, Klein 2014: mean (bars) and
 variance (glyphs) of the dynamic-time-warping distance on point clouds and on
@@ -19,9 +19,10 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from kineme.evaluation.benchmark import Result
-from kineme.evaluation.figures.bars import classes_of, units
-from kineme.evaluation.figures.style import (
+from kineme.evaluation.variance import ClusterVariance, feature_variance, point_cloud_variance
+from kineme.reproduction.benchmark import Result
+from kineme.reproduction.figures.bars import classes_of, units
+from kineme.reproduction.figures.style import (
     FAINT,
     INK,
     grouped,
@@ -31,7 +32,6 @@ from kineme.evaluation.figures.style import (
     save,
     tidy,
 )
-from kineme.evaluation.variance import ClusterVariance, feature_variance, point_cloud_variance
 
 METHODS = ("kineme", "voegele2014", "krueger2017", "aca", "haca")
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kineme.errors import KinemeWarning, ReadError
-from kineme.evaluation import TRANSITION, read_frame_labels, read_intervals, read_trials
+from kineme.reproduction import read_trials
 
 TEXT = """86_01 two actions
 walk 500 550 600
@@ -92,66 +92,3 @@ def test_broken_texts_are_one_clear_error(tmp_path, text, words):
 def test_other_json_is_one_clear_error(tmp_path, text):
     with pytest.raises(ReadError, match="no annotations.json of the benchmark"):
         read_trials(write(tmp_path, text, "a.json"))
-
-
-@pytest.mark.parametrize("separator", [",", "\t"])
-def test_a_table_of_ones_own_with_gap_transition_and_counts(tmp_path, separator):
-    rows = ["start_s,stop_s,label,count", "0,2,walk,4", "2.5,4,jump,", "4,4.4,transition,",
-            "4.4,6,walk,3"]  # fmt: skip
-    path = write(tmp_path, "\n".join(rows).replace(",", separator))
-    truth = read_intervals(path, frames=60, fps=10)
-    assert truth.labels == ("walk", "jump", "walk")
-    assert truth.earliest.tolist() == [20, 40]
-    assert truth.mean.tolist() == [23, 42]
-    assert truth.latest.tolist() == [25, 44]
-    assert truth.counts == (4, None, 3)
-    assert truth.labelling().labels == ("walk", TRANSITION, "jump", TRANSITION, "walk")
-
-
-def test_the_activities_of_a_segment_table_are_a_truth(tmp_path):
-    text = (
-        "level,kind,start_s,stop_s,label\nactivity,activity,0,2,walk\n"
-        "activity,transition,2,3,\nactivity,activity,3,6,run\nprimitive,activity,0,1,x\n"
-    )
-    truth = read_intervals(write(tmp_path, text), frames=60, fps=10)
-    assert (truth.labels, truth.latest.tolist()) == (("walk", "run"), [30])
-
-
-@pytest.mark.parametrize(
-    ("rows", "words"),
-    [
-        ("0,3,a\n2,6,b", "line 3: starts at 2 s, while the row before stops at 3 s"),
-        ("3,1,a", "line 2: runs backwards, from 3 s to 1 s"),
-        ("0,9,a", "stops at 9.000 s, the recording lasts 6.000 s"),
-        ("0,3,a", "stops at 3.000 s, the recording lasts 6.000 s"),
-        ("0,x,a", "line 2: stop_s must be a number from 0 on, not 'x'"),
-        ("0,nan,a", "not 'nan'"),
-        ("0", "not ''"),
-        ("", "holds no interval"),
-    ],
-)
-def test_broken_tables_are_one_clear_error(tmp_path, rows, words):
-    with pytest.raises(ReadError, match=words):
-        read_intervals(write(tmp_path, f"start_s,stop_s,label\n{rows}\n"), frames=60, fps=10)
-
-
-def test_a_table_without_labels_or_with_odd_counts_is_refused(tmp_path):
-    with pytest.raises(ReadError, match="a column 'label' is needed"):
-        read_intervals(write(tmp_path, "start_s,stop_s\n0,6\n"), frames=60, fps=10)
-    path = write(tmp_path, "start_s,stop_s,label,count\n0,6,a,many\n")
-    with pytest.raises(ReadError, match="line 2: count must be a whole number, not 'many'"):
-        read_intervals(path, frames=60, fps=10)
-    with pytest.raises(ReadError, match="cannot be read"):
-        read_intervals(tmp_path / "none.csv", frames=60, fps=10)
-
-
-def test_one_label_per_frame(tmp_path):
-    path = write(tmp_path, "walk\n" * 30 + "transition\n" * 10 + "run\n" * 20, "l.txt")
-    truth = read_frame_labels(path, frames=60, fps=10)
-    assert (truth.labels, truth.mean.tolist()) == (("walk", "run"), [35])
-    half = read_frame_labels(path, frames=30, fps=5, labels_fps=10)
-    assert (half.earliest.tolist(), half.latest.tolist()) == ([15], [20])
-    with pytest.raises(ReadError, match="cover 6.000 s .* the recording lasts 9.000 s"):
-        read_frame_labels(path, frames=90, fps=10)
-    with pytest.raises(ReadError, match="line 2: no label"):
-        read_frame_labels(write(tmp_path, "a\n\nb\n", "l.txt"), frames=3, fps=10)

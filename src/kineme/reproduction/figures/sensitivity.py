@@ -13,12 +13,12 @@ from pathlib import Path
 from matplotlib.axes import Axes
 
 from kineme._colors import PALETTE
-from kineme.evaluation.benchmark import Scores, mean
-from kineme.evaluation.figures.style import FAINT, heading, new_figure, save, tidy
-from kineme.evaluation.scores import evaluate_segmentation
-from kineme.evaluation.trials import Trial
+from kineme.evaluation.annotated_scores import evaluate_segmentation
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.preset import RegionGrowingPreset
+from kineme.reproduction.benchmark import Scores, mean
+from kineme.reproduction.figures.style import FAINT, heading, new_figure, save, tidy
+from kineme.reproduction.trials import Trial
 from kineme.segmentation.segmenter import segment
 
 SHARES = (0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4)

@@ -2,7 +2,7 @@
 
 Above the two published protocols, below two fair scores. Diamonds are the
 values printed in the paper. Sources: Vögele, Krüger, Klein 2014, figure 6, and
-`kineme.evaluation.published`.
+`kineme.reproduction.published`.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from kineme.evaluation.benchmark import PublishedCuts, Result, mean
-from kineme.evaluation.figures.style import (
+from kineme.reproduction.benchmark import PublishedCuts, Result, mean
+from kineme.reproduction.figures.style import (
     FAINT,
     INK,
     grouped,
@@ -26,7 +26,7 @@ from kineme.evaluation.figures.style import (
     save,
     tidy,
 )
-from kineme.evaluation.published import published
+from kineme.reproduction.published import published
 
 PANELS = {
     "tolerant": "tolerant accuracy (published protocol)",

@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
-from kineme.evaluation.annotations import read_trials
 from kineme.evaluation.labelling import Annotation
 from kineme.recordings import Motion
+from kineme.reproduction.annotations import read_trials
 
 Floats = NDArray[np.float64]
 

@@ -14,11 +14,11 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from kineme._colors import PALETTE
-from kineme.evaluation.figures.style import INK, heading, new_figure, save, tidy
-from kineme.evaluation.trials import Trial
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.preset import RegionGrowingPreset
+from kineme.reproduction.figures.style import INK, heading, new_figure, save, tidy
+from kineme.reproduction.trials import Trial
 from kineme.segmentation.bodies import motion_features
 from kineme.segmentation.segmenter import segment
 

@@ -20,15 +20,15 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from kineme._colors import PALETTE
-from kineme.evaluation.figures.style import BETWEEN, heading, new_figure, save
 from kineme.evaluation.labelling import TRANSITION, Annotation
-from kineme.evaluation.trials import Trial
 from kineme.graph import NeighborGraph, component_labels
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import primitive_cuts
 from kineme.plot.segmentation import SHADES, similarity_image
+from kineme.reproduction.figures.style import BETWEEN, heading, new_figure, save
+from kineme.reproduction.trials import Trial
 from kineme.segmentation.bodies import motion_features
 
 FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]

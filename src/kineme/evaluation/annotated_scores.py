@@ -54,32 +54,43 @@ def evaluate(
 
     Parameters
     ----------
-    truth : what the annotators say; its frame rate is the one of the comparison
-    clusters : which frames are the same thing
-    activities : which stretches are one activity; default ``clusters``
-    primitives : single repetitions; default ``clusters``
-    positions : (frames, joints, 3), metres, y up, at the truth's frame rate
-    features : (frames, dims), stacked, at the truth's frame rate
+    truth : Annotation
+        What the annotators say; its frame rate is the one of the comparison.
+    clusters : Labelling
+        Which frames are the same thing.
+    activities : Labelling, optional
+        Which spans are one activity; by default ``clusters``.
+    primitives : Labelling, optional
+        Single repetitions; by default ``clusters``.
+    positions : array_like, (frames, joints, 3), optional
+        Metres, y up, at the truth's frame rate.
+    features : array_like, (frames, dims), optional
+        Stacked, at the truth's frame rate.
+
+    Returns
+    -------
+    dict of str to float
 
     Raises
     ------
-    ParameterError : labels or data of another length than the truth
+    ParameterError
+        Labels or data of another length than the truth.
     """
-    clusters, stretches, units = (
+    clusters, spans, units = (
         (level or clusters).at(frames=truth.frames, fps=truth.fps)
         for level in (clusters, activities, primitives)
     )
     scores: dict[str, float] = {}
-    scores["strict"], scores["tolerant"] = strict_and_tolerant(truth, stretches)
+    scores["strict"], scores["tolerant"] = strict_and_tolerant(truth, spans)
     scores["majority"], scores["majority_agreed"] = majority_accuracy(truth, clusters)
     scores["one_to_one"], scores["one_to_one_agreed"] = one_to_one_accuracy(truth, clusters)
     scores["rand_index"] = rand_index(truth, clusters)
     scores["mutual_information"] = mutual_information(truth, clusters)
-    for name, value in border_score(truth, stretches)._asdict().items():
+    for name, value in border_score(truth, spans)._asdict().items():
         scores[f"border_{name}"] = value
-    scores["covering"] = covering(truth, stretches)
-    scores["border_ratio"] = border_ratio(truth, stretches)
-    scores["cut_ratio"] = cut_ratio(truth, stretches)
+    scores["covering"] = covering(truth, spans)
+    scores["border_ratio"] = border_ratio(truth, spans)
+    scores["cut_ratio"] = cut_ratio(truth, spans)
     scores["cluster_ratio"] = cluster_ratio(truth, clusters)
     if any(count is not None for count in truth.counts):
         scores["count_error"], scores["count_exact"] = count_errors(truth, units)
@@ -102,13 +113,14 @@ def evaluate_segmentation(
 ) -> dict[str, float]:
     """All scores of a segmentation; see :func:`evaluate`.
 
-    Its clusters are those of its activities where they have any, else those
-    of its primitives. A segment in no cluster is a cluster of its own.
+    Its clusters are those of its activities where they have any (or labels), else those
+    of its primitives. A segment in no cluster goes by its label, and without one is a cluster
+    of its own.
     """
     rows = found.activities
     activities = labelling_of(rows, fps=found.fps)
     primitives = labelling_of(found.primitives, fps=found.fps) if len(found.primitives) else None
-    grouped = bool(np.any(rows.cluster >= 0))
+    grouped = bool(np.any((rows.cluster >= 0) | (rows.label != "")))
     return evaluate(
         truth,
         activities if grouped or primitives is None else primitives,
@@ -122,14 +134,15 @@ def evaluate_segmentation(
 def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
     """The clusters of one level of a segmentation, as labels.
 
-    Transitions are :data:`TRANSITION`; what is in no cluster gets a label of its own.
+    Transitions are :data:`TRANSITION`; what is in no cluster goes by its label, and without one
+    gets a name of its own.
     """
     labels = [
         TRANSITION
         if row.kind == "transition"
         else f"{row.cluster}"
         if row.cluster >= 0
-        else f"~{i}"
+        else row.label or f"~{i}"
         for i, row in enumerate(rows)
     ]
     return Labelling(np.append(rows.start_frame, rows.stop_frame[-1]), tuple(labels), fps)

@@ -7,18 +7,18 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme.evaluation.benchmark import (
+from kineme.evaluation.labelling import Labelling
+from kineme.evaluation.paper import strict_and_tolerant
+from kineme.evaluation.tables import markdown, markdown_scores, shown
+from kineme.reproduction.benchmark import (
     PublishedCuts,
     Result,
     mean,
     mean_scores,
     score_published_cuts,
 )
-from kineme.evaluation.labelling import Labelling
-from kineme.evaluation.paper import strict_and_tolerant
-from kineme.evaluation.reoccurrence import Recording, share_of_poses, survey
-from kineme.evaluation.tables import markdown, markdown_scores, shown
-from kineme.evaluation.trials import FPS, Trial
+from kineme.reproduction.reoccurrence import Recording, share_of_poses, survey
+from kineme.reproduction.trials import FPS, Trial
 
 UNIFORM_FRAMES = (36, 15, 5)
 
@@ -43,7 +43,7 @@ def make_figures(
     ------
     WriteError : the folder cannot be written to
     """
-    from kineme.evaluation.figures import (
+    from kineme.reproduction.figures import (
         accuracy,
         bars,
         matrix,

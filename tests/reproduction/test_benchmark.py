@@ -14,13 +14,13 @@ import kineme
 from agreement import CONFIGURATIONS
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError, ReadError, WriteError
-from kineme.evaluation import Annotation, Labelling, evaluate_segmentation
-from kineme.evaluation.benchmark import mean, mean_scores, run, score_published_cuts
-from kineme.evaluation.methods import METHODS, method, preset_method
-from kineme.evaluation.reoccurrence import reoccurring
-from kineme.evaluation.tables import as_records, markdown_scores, write_records
-from kineme.evaluation.trials import Trial, find_folder, load_trials
+from kineme.evaluation import Labelling, evaluate_segmentation
+from kineme.evaluation.tables import markdown_scores, write_records
 from kineme.methods.region_growing.preset import VOEGELE2014
+from kineme.reproduction.benchmark import as_records, mean, mean_scores, run, score_published_cuts
+from kineme.reproduction.methods import METHODS, method, preset_method
+from kineme.reproduction.reoccurrence import reoccurring
+from kineme.reproduction.trials import Trial, find_folder, load_trials
 
 
 @pytest.fixture(scope="module")
@@ -187,8 +187,8 @@ def test_poses_reoccur_in_repetitions_and_not_in_a_single_motion():
 
 
 def test_the_papers_figures_and_tables_are_made_anew(results, folder, tmp_path, monkeypatch):
-    from kineme.evaluation import figures
-    from kineme.evaluation.figures import sensitivity, timing
+    from kineme.reproduction import figures
+    from kineme.reproduction.figures import sensitivity, timing
 
     (tmp_path / "data" / "cmu86").mkdir(parents=True)
     for name in ("86.asf", "86_11.amc", "annotations.json", "published.json"):
@@ -211,7 +211,7 @@ def test_the_papers_figures_and_tables_are_made_anew(results, folder, tmp_path, 
 
 
 def test_a_cluster_has_the_colour_of_the_class_it_is_assigned_to():
-    from kineme.evaluation.figures.bars import _colors
+    from kineme.reproduction.figures.bars import _colors
 
     truth = Labelling.from_cuts([10], ["walk", "run"], frames=20, fps=10.0)
     found = Labelling.from_cuts([8, 10], ["a", "b", "c"], frames=20, fps=10.0)
@@ -224,14 +224,14 @@ def test_a_cluster_has_the_colour_of_the_class_it_is_assigned_to():
 
 
 def test_a_preset_segmentation_scores_the_same_read_back_from_its_table(trial, tmp_path):
-    from kineme.evaluation.inputs import read_result, read_truth, score
+    from kineme.evaluation.inputs import comparison, read_result, score
+    from kineme.reproduction.annotations import read_trial
 
     found = kineme.segment(trial.motion, preset="voegele2014")
     kineme.write_segments(found, tmp_path / "found.csv")
     read = read_result(tmp_path / "found.csv")
     annotations = Path(trial.motion.provenance.path).parent / "annotations.json"
-    truth = read_truth(annotations, read)
-    assert isinstance(truth, Annotation)
+    truth = read_trial(annotations, trial.name, fps=comparison(read)[1])
     scores = score(truth, read, trial.motion)
     expected = run([trial], {"voegele2014": METHODS["voegele2014"]})[0].scores
     assert scores == pytest.approx({n: v for n, v in expected.items() if n != "seconds"})

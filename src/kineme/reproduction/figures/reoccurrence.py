@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from kineme._colors import PALETTE
-from kineme.evaluation.figures.style import INK, heading, new_figure, save, tidy
-from kineme.evaluation.reoccurrence import PUBLISHED, Recording, share_of_poses
+from kineme.reproduction.figures.style import INK, heading, new_figure, save, tidy
+from kineme.reproduction.reoccurrence import PUBLISHED, Recording, share_of_poses
 
 
 def plot_reoccurrence(recordings: Sequence[Recording], path: Path) -> Path:

@@ -1,0 +1,113 @@
+"""``kineme evaluate FOLDER``: methods side by side on recordings that people have labelled."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from kineme.cli.messages import progress
+from kineme.errors import ParameterError
+from kineme.evaluation.folder import FolderScores, Mapped, evaluate_folder
+from kineme.evaluation.methods import check_method
+from kineme.evaluation.recordings import Reading, recordings_below
+from kineme.evaluation.score import scores
+from kineme.evaluation.tables import write_records, write_text
+from kineme.labels.collections import labels_of
+
+NAMED = 5
+"""Names that a list of files shows before it only counts."""
+
+
+def run_folder(
+    folder: Path,
+    labels: Path,
+    methods: Sequence[str],
+    *,
+    mapping: Mapped,
+    reading: Reading,
+    output: Path | None,
+    as_json: bool,
+    quiet: bool,
+) -> bool:
+    """Print and write the scores of the methods; whether any recording could be scored."""
+    try:
+        for name in methods:
+            check_method(name)
+    except ParameterError as error:
+        raise typer.BadParameter(str(error)) from error
+    with progress(folder, quiet=quiet or as_json) as stage:
+        stage("looking for recordings")
+        recordings = recordings_below(folder)
+        found = labels_of(recordings, labels)
+        result = evaluate_folder(found, methods, mapping=mapping, reading=reading, progress=stage)
+    if not quiet:
+        _tell("without labels, left out", [path.name for path in recordings if path not in found])
+    _tell_of_recordings(result, quiet=quiet)
+    if as_json:
+        typer.echo(result.to_json())
+    elif not quiet:
+        _show(result)
+    if output is not None and output.suffix.lower() == ".json":
+        write_text(result.to_json(), output)
+    elif output is not None:
+        write_records(result.records(), output)
+    return any(not one.error for ones in result.methods.values() for one in ones)
+
+
+def _tell(what: str, names: Sequence[str]) -> None:
+    if names:
+        more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
+        typer.echo(f"{what}: {', '.join(names[:NAMED])}{more}", err=True)
+
+
+def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:
+    """Say which recordings failed and why, and what is unusual about the labels of others."""
+    for name, ones in result.methods.items():
+        for one in ones:
+            if one.error:
+                typer.echo(f"{one.recording}, {name}: {one.error}", err=True)
+    for one in next(iter(result.methods.values())):
+        if one.notes and not quiet:
+            typer.echo(f"{one.recording}: {'; '.join(one.notes)}", err=True)
+
+
+def _show(result: FolderScores) -> None:
+    """Print the scores of each recording by the methods, then those over all of them."""
+    from kineme.cli.scores import show_table
+
+    columns: dict[str, Any] = {method: result.over_all(method) for method in result.methods}
+    first, *_ = result.methods.values()
+    short = ("mof", "edit", "f1@50", "border_f1")
+    header = [f"{method} {scores()[name].title}" for method in columns for name in short]
+    rows = [
+        (
+            one.recording,
+            [
+                _shown(ones[i].scores.get(name)) if not ones[i].error else "failed"
+                for ones in result.methods.values()
+                for name in short
+            ],
+        )
+        for i, one in enumerate(first)
+    ]
+    show_table("by recording", header, [("", rows)])
+    groups: dict[str, list[tuple[str, list[str]]]] = {}
+    for name, score in scores().items():
+        cells = [_shown(overall.get(name)) for overall in columns.values()]
+        groups.setdefault(score.level, []).append((score.title, cells))
+    counted = [
+        f"{sum(not one.error for one in ones)} of {len(ones)}" for ones in result.methods.values()
+    ]
+    seconds = [_shown(overall.get("seconds_per_hour")) for overall in columns.values()]
+    groups["cost"] = [("recordings scored", counted), ("seconds per hour", seconds)]
+    title = f"over all recordings, one mapping for each {result.mapping}"
+    show_table(title, list(columns), list(groups.items()))
+
+
+def _shown(value: float | None) -> str:
+    from kineme.evaluation.tables import shown
+
+    return "" if value is None else shown(value)

@@ -1,0 +1,118 @@
+"""What people said of CMU subject 86, as published: per trial its actions and where each ends.
+
+The benchmark (fourteen trials, three annotators) comes as ``annotations.json`` or as its
+authors' text (``mocap.txt``: per trial a head line with its name, then ``label earliest mean
+latest`` per action). Marks are frames at 120 Hz, counted from 1.
+
+Known errors are mended: a mean outside its span widens it, and trial 86_04 gets its authors'
+correction.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import warnings
+from os import PathLike
+from pathlib import Path
+from typing import NamedTuple
+
+from kineme.errors import KinemeWarning, ReadError
+
+MARKS_FPS = 120.0
+
+# As first published, trial 86_04, row 5 ends before it begins; the authors' correction.
+CORRECTIONS = {("86_04", 5, (4060, 5050, 5090)): (5052, 5052, 5092)}
+
+
+class Action(NamedTuple):
+    """One row as published: marks at 120 Hz, from 1."""
+
+    label: str
+    earliest: int
+    mean: int
+    latest: int
+
+
+def read_actions(path: str | PathLike[str]) -> dict[str, list[Action]]:
+    """The actions of each trial by its name, known errors mended.
+
+    Parameters
+    ----------
+    path : path-like
+        ``annotations.json``, or the authors' text.
+
+    Returns
+    -------
+    dict of str to list of Action
+
+    Raises
+    ------
+    ReadError
+        Not such a file.
+
+    Warns
+    -----
+    KinemeWarning
+        For every row that was mended.
+    """
+    trials = _json_trials(path) if Path(path).suffix.lower() == ".json" else _text_trials(path)
+    return {name: _mended(name, rows) for name, rows in trials.items()}
+
+
+def _json_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
+    try:
+        trials = json.loads(_text(path))["trials"]
+        return {
+            name: [
+                Action(
+                    row["label"], *(int(row[f"end_{m}"]) for m in ("earliest", "mean", "latest"))
+                )
+                for row in rows
+            ]
+            for name, rows in trials.items()
+        }
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ReadError(path, f"no annotations.json of the benchmark: {error}") from error
+
+
+def _text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
+    """Head lines hold a trial's name; what follows a label and three numbers is a row."""
+    trials: dict[str, list[Action]] = {}
+    rows: list[Action] | None = None
+    for number, line in enumerate(_text(path).splitlines(), 1):
+        row = re.fullmatch(r"\s*(\S.*?)\s+(\d+)\s+(\d+)\s+(\d+)\s*", line)
+        head = re.search(r"\b\d+_\d+\b", line)
+        if head:
+            rows = trials.setdefault(head[0], [])
+        elif row and rows is not None:
+            rows.append(Action(row[1], *map(int, row.groups()[1:])))
+        elif line.strip():
+            reason = f"neither a trial's name nor 'label earliest mean latest': {line.strip()!r}"
+            raise ReadError(path, reason, line=number)
+    if not trials or not all(trials.values()):
+        empty = next((name for name, actions in trials.items() if not actions), None)
+        raise ReadError(path, f"trial {empty} has no rows" if empty else "holds no trial")
+    return trials
+
+
+def _mended(trial: str, rows: list[Action]) -> list[Action]:
+    mended = []
+    for number, row in enumerate(rows, 1):
+        marks = CORRECTIONS.get((trial, number, row[1:]), row[1:])
+        fixed = Action(row.label, min(marks), marks[1], max(marks))
+        if fixed != row:
+            warnings.warn(
+                f"trial {trial}, row {number} ({row.label}): marks {row[1:]} mended to {fixed[1:]}",
+                KinemeWarning,
+                stacklevel=4,
+            )
+        mended.append(fixed)
+    return mended
+
+
+def _text(path: str | PathLike[str]) -> str:
+    try:
+        return Path(path).read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ReadError(path, f"cannot be read: {error}") from error

@@ -1,0 +1,288 @@
+"""Methods on a folder of recordings with labels: every score of each, and over all of them.
+
+Clusters stand for classes by one mapping a recording, or by one for the whole folder; the
+latter asks that clusters mean the same in all recordings, which no method promises that looks
+at one recording at a time. A recording that cannot be read, segmented or compared costs itself
+only, and says why.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from dataclasses import dataclass, field
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from kineme._version import __version__
+from kineme.errors import KinemeError, KinemeWarning
+from kineme.evaluation.comparison import Comparison, best_mapping, compare
+from kineme.evaluation.methods import check_method, segment_by
+from kineme.evaluation.recordings import Reading
+from kineme.evaluation.score import Ratio, over_all, scores, value_of
+from kineme.labels.collections import LabelSource
+
+Mapped = Literal["recording", "folder"]
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """One method on one recording: its scores, or why there are none.
+
+    Parameters
+    ----------
+    recording : str
+        Name of the file.
+    seconds : float
+        What segmenting took.
+    length_s : float
+        Of the recording.
+    results : Mapping of str to float or Ratio
+        By the names of the scores.
+    notes : tuple of str
+        What is unusual about the labels, such as spans that overlap.
+    error : str
+        Why there are none; else empty.
+    """
+
+    recording: str
+    seconds: float = 0.0
+    length_s: float = 0.0
+    results: Mapping[str, float | Ratio] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    error: str = ""
+
+    @property
+    def scores(self) -> dict[str, float]:
+        """The scores of this recording by name."""
+        return {name: value_of(result) for name, result in self.results.items()}
+
+
+@dataclass(frozen=True)
+class FolderScores:
+    """What the methods scored on a folder.
+
+    Parameters
+    ----------
+    methods : Mapping of str to sequence of Evaluated
+        Per method one for each recording, in the order of the files.
+    mapping : {"recording", "folder"}
+        Whose mapping of clusters to classes it is.
+    """
+
+    methods: Mapping[str, Sequence[Evaluated]]
+    mapping: Mapped
+
+    def over_all(self, method: str) -> dict[str, float]:
+        """The scores of a method over the recordings that it has scores of.
+
+        Parameters
+        ----------
+        method : str
+
+        Returns
+        -------
+        dict of str to float
+            By the names of the scores, and ``seconds_per_hour`` of recording.
+        """
+        good = [one for one in self.methods[method] if not one.error]
+        found = {name: over_all([one.results[name] for one in good]) for name in scores() if good}
+        length = sum(one.length_s for one in good)
+        if length:
+            found["seconds_per_hour"] = 3600 * sum(one.seconds for one in good) / length
+        return found
+
+    def records(self) -> list[dict[str, Any]]:
+        """One record per method and recording, then one per method over all (``*``)."""
+        records: list[dict[str, Any]] = []
+        for method, ones in self.methods.items():
+            for one in ones:
+                head = {"recording": one.recording, "method": method}
+                seconds = {} if one.error else {"seconds": one.seconds}
+                records.append({**head, **one.scores, **seconds, "error": one.error})
+        overall = [{"recording": "*", "method": m, **self.over_all(m)} for m in self.methods]
+        return records + overall
+
+    def to_json(self) -> str:
+        """Everything as one JSON object; scores that are not defined are null."""
+        methods = {
+            method: {
+                "scores": _plain(self.over_all(method)),
+                "recordings": [
+                    {"recording": one.recording, "error": one.error}
+                    if one.error
+                    else {
+                        "recording": one.recording,
+                        "scores": _plain(one.scores),
+                        "seconds": one.seconds,
+                        "notes": list(one.notes),
+                    }
+                    for one in ones
+                ],
+            }
+            for method, ones in self.methods.items()
+        }
+        return json.dumps({"kineme": __version__, "mapping": self.mapping, "methods": methods})
+
+
+def evaluate_folder(
+    labels: Mapping[Path, LabelSource],
+    methods: Sequence[str],
+    *,
+    mapping: Mapped = "recording",
+    reading: Reading | None = None,
+    processes: int = 2,
+    progress: Progress | None = None,
+) -> FolderScores:
+    """Every score of every method on every recording that has labels.
+
+    Parameters
+    ----------
+    labels : Mapping of Path to LabelSource
+        The recordings and where their labels are, see `kineme.labels.collections.labels_of`.
+    methods : sequence of str
+        Names of methods, in the order of the tables.
+    mapping : {"recording", "folder"}
+        Whether clusters stand for classes of their recording alone, or for the same in all.
+    reading : Reading, optional
+        How the recordings are read.
+    processes : int
+        How many at once; 1 stays in this process.
+    progress : callable, optional
+        Called with a sentence on each recording that is done.
+
+    Returns
+    -------
+    FolderScores
+
+    Raises
+    ------
+    ParameterError
+        There is no such method.
+    """
+    for name in methods:
+        check_method(name)
+    jobs = [
+        Job(path, source, name, reading or Reading())
+        for path, source in labels.items()
+        for name in methods
+    ]
+    answers: dict[Job, Answer] = {}
+    for done, (job, answer) in enumerate(_answers(jobs, processes), 1):
+        answers[job] = answer
+        if progress is not None:
+            progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
+    return FolderScores(
+        {
+            name: _scored([(j, answers[j]) for j in jobs if j.method == name], mapping)
+            for name in methods
+        },
+        mapping,
+    )
+
+
+@dataclass(frozen=True)
+class Job:
+    """A method on a recording."""
+
+    path: Path
+    source: LabelSource
+    method: str
+    reading: Reading
+
+    def __hash__(self) -> int:
+        return hash((self.path, self.method))
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What came out of a job: something to compare, or an error."""
+
+    compared: Comparison | None = None
+    classes: Mapping[str, int] = field(default_factory=dict)
+    seconds: float = 0.0
+    length_s: float = 0.0
+    notes: tuple[str, ...] = ()
+    error: str = ""
+
+
+def _answers(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
+    """Each job and its answer, as they come."""
+    if processes == 1:
+        for job in jobs:
+            yield job, _answer(job)
+        return
+    # Started anew, for a copy of this process could wait forever for threads that it lacks.
+    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+        waiting: dict[Future[Answer], Job] = {pool.submit(_answer, job): job for job in jobs}
+        for future in as_completed(waiting):
+            failure = future.exception()
+            yield waiting[future], future.result() if failure is None else _failed(failure)
+
+
+def _answer(job: Job) -> Answer:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", KinemeWarning)
+            recording = job.reading.read(job.path)
+            truth = job.source.of(n_frames=recording.n_frames, fps=recording.fps)
+            classes: dict[str, int] = {}
+            compare(truth, truth, classes=classes)
+            start = time.perf_counter()
+            found = segment_by(job.method, recording, n_classes=len(classes))
+            seconds = time.perf_counter() - start
+            compared = compare(truth, found, classes=classes)
+    except (KinemeError, ValueError, ArithmeticError, MemoryError) as error:
+        return _failed(error)
+    notes = tuple(truth.provenance.get("notes", ()))
+    return Answer(compared, classes, seconds, recording.n_frames / recording.fps, notes)
+
+
+def _failed(error: BaseException) -> Answer:
+    text = " ".join(str(error).split())
+    return Answer(
+        error=text if isinstance(error, KinemeError) else f"{type(error).__name__}: {text}"
+    )
+
+
+def _scored(answers: Sequence[tuple[Job, Answer]], mapping: Mapped) -> list[Evaluated]:
+    """The scores of one method, clusters mapped to classes."""
+    numbers: dict[str, int] = {}
+    shared: dict[int, Comparison] = {}
+    for i, (_, answer) in enumerate(answers):
+        if answer.compared is not None:
+            shared[i] = _renumbered(answer.compared, answer.classes, numbers)
+    pooled = best_mapping(list(shared.values())) if mapping == "folder" and shared else None
+    found = []
+    for i, (job, answer) in enumerate(answers):
+        if i not in shared:
+            found.append(Evaluated(job.path.name, error=answer.error))
+            continue
+        one = shared[i]
+        compared = Comparison(one.truth, one.found, one.fps, pooled)
+        results = {name: score.function(compared) for name, score in scores().items()}
+        found.append(
+            Evaluated(job.path.name, answer.seconds, answer.length_s, results, answer.notes)
+        )
+    return found
+
+
+def _renumbered(
+    compared: Comparison, classes: Mapping[str, int], numbers: dict[str, int]
+) -> Comparison:
+    """The comparison with the numbers that classes have in the whole folder."""
+    new = {number: numbers.setdefault(name, len(numbers)) for name, number in classes.items()}
+    table = np.array([new[number] for number in range(len(classes))], np.int64)
+    return Comparison(table[compared.truth], compared.found, compared.fps)
+
+
+def _plain(values: Mapping[str, float]) -> dict[str, float | None]:
+    return {name: value if math.isfinite(value) else None for name, value in values.items()}

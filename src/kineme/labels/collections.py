@@ -1,0 +1,194 @@
+"""Labels of many recordings: one table of all, or a folder with a file for each.
+
+A table has the columns ``recording``, ``start_s``, ``stop_s`` and ``label`` (or
+``start_frame``, ``stop_frame``); a recording is named with or without its suffix. In a folder,
+the labels of ``walk.bvh`` are in a file called ``walk`` in any label format (``walk.eaf``,
+``walk.labels.csv``).
+
+A frame has the label in whose span ``[start, stop)`` its time lies. Labels of public sets overlap
+here and there, run backwards or beyond the end: of two that overlap the one further down in the
+file holds, one that runs backwards is left out, and a note in the provenance says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from math import ceil
+from os import PathLike
+from pathlib import Path
+
+from kineme.errors import ReadError
+from kineme.labels import csv_table
+from kineme.labels.files import read_content
+from kineme.labels.registry import holds_labels
+from kineme.labels.spans import Labels, Span, as_segmentation
+from kineme.segments.segmentation import Segmentation
+
+SLACK = 1e-6
+"""Frames by which a time may miss a frame and still be its own: seconds have few digits."""
+
+
+@dataclass(frozen=True)
+class LabelSource:
+    """Where the labels of one recording are.
+
+    Parameters
+    ----------
+    path : Path
+        The file that holds them.
+    labels : Labels, optional
+        Those of the recording, where the file is a table of many.
+    """
+
+    path: Path
+    labels: Labels | None = None
+
+    def of(self, *, n_frames: int, fps: float) -> Segmentation:
+        """The labels in frames of their recording.
+
+        Parameters
+        ----------
+        n_frames, fps : int and float
+            Of the recording.
+
+        Returns
+        -------
+        Segmentation
+            What no label covers is a transition.
+
+        Raises
+        ------
+        ReadError
+            The file is damaged, or its labels are not of such a recording.
+        """
+        content: Labels | Segmentation | None = self.labels
+        name = csv_table.FORMAT.name
+        if content is None:
+            known, content = read_content(self.path)
+            name = known.name
+        if isinstance(content, Labels):
+            told = content.fps or fps
+            labels = in_frames(content, told, n_frames=n_frames)
+            return as_segmentation(labels, self.path, name, fps=told, n_frames=n_frames)[0]
+        if content.n_frames != n_frames:
+            raise ReadError(
+                self.path, f"is of {content.n_frames} frames, but the recording has {n_frames}"
+            )
+        return content
+
+
+def labels_of(
+    recordings: Iterable[Path], labels: str | PathLike[str]
+) -> Mapping[Path, LabelSource]:
+    """Where the labels of each recording are; recordings that have none are left out.
+
+    Parameters
+    ----------
+    recordings : iterable of Path
+        Their files.
+    labels : path-like
+        A table with a column ``recording``, or a folder with a file for each.
+
+    Returns
+    -------
+    Mapping of Path to LabelSource
+        In the order of the recordings.
+
+    Raises
+    ------
+    ReadError
+        There is no such file or folder, the table cannot be understood, or nothing in it is
+        of any of the recordings.
+    """
+    files, home = list(recordings), Path(labels)
+    named = _in_folder(home) if home.is_dir() else _in_table(home)
+    pairs = ((path, named.get(path.name) or named.get(path.stem)) for path in files)
+    found = {path: source for path, source in pairs if source is not None}
+    if not found:
+        first = files[0].stem if files else "none"
+        raise ReadError(
+            labels, f"has no labels of any of the {len(files)} recordings, such as {first!r}"
+        )
+    return found
+
+
+def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
+    """The labels as spans of a recording's frames that neither overlap nor run backwards.
+
+    Parameters
+    ----------
+    labels : Labels
+        In seconds or frames.
+    fps : float
+        Of the recording, whose frame i is at i / fps seconds.
+    n_frames : int
+        Its length; labels that reach beyond are cut off there.
+
+    Returns
+    -------
+    Labels
+        In frames, with a note where labels were cut or left out.
+
+    Examples
+    --------
+    >>> found = in_frames(Labels([Span(0, 9, "walk"), Span(4, 6, "wave")]), 10, n_frames=90)
+    >>> [span[:3] for span in found.spans]
+    [(0, 40, 'walk'), (60, 90, 'walk'), (40, 60, 'wave')]
+    >>> found.notes
+    ('1 labels overlap others',)
+    """
+    rate = fps if labels.unit == "seconds" else 1.0
+    backward = sum(span.stop < span.start for span in labels.spans)
+    beyond = sum(span.stop * rate > n_frames + 1 for span in labels.spans)
+    whole = [
+        span._replace(
+            start=ceil(span.start * rate - SLACK),
+            stop=min(n_frames, ceil(span.stop * rate - SLACK)),
+        )
+        for span in labels.spans
+    ]
+    forward = [span for span in whole if span.start < span.stop]
+    kept: list[Span] = []
+    overlaps = 0
+    for new in forward:
+        apart = [cut for old in kept for cut in _cut(old, new)]
+        overlaps += apart != kept
+        kept = [*apart, new]
+    told = {
+        "labels overlap others": overlaps,
+        "labels run backwards: left out": backward,
+        "labels reach beyond the end: cut off there": beyond,
+    }
+    notes = [f"{count} {what}" for what, count in told.items() if count]
+    return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes))
+
+
+def _cut(old: Span, new: Span) -> list[Span]:
+    """What is left of a span where a later one of its level covers it."""
+    if old.level != new.level or old.stop <= new.start or new.stop <= old.start:
+        return [old]
+    before, after = old._replace(stop=new.start), old._replace(start=new.stop)
+    return [span for span in (before, after) if span.start < span.stop]
+
+
+def _in_table(path: Path) -> dict[str, LabelSource]:
+    try:
+        tables = csv_table.intervals(path)
+    except OSError as error:
+        raise ReadError(path, f"cannot be read: {error.strerror or error}") from error
+    except UnicodeDecodeError as error:
+        raise ReadError(path, f"is not UTF-8 text (byte {error.start})") from error
+    if "" in tables:
+        raise ReadError(path, "names no recording in the column 'recording', which is needed")
+    return {name: LabelSource(path, labels) for name, labels in tables.items()}
+
+
+def _in_folder(folder: Path) -> dict[str, LabelSource]:
+    """The label files by every name that a recording of theirs may have."""
+    found: dict[str, LabelSource] = {}
+    for path in sorted(folder.iterdir()):
+        if path.is_file() and holds_labels(path):
+            found.setdefault(path.stem, LabelSource(path))
+            found.setdefault(path.name.split(".")[0], LabelSource(path))
+    return found

@@ -1,0 +1,160 @@
+"""write_segments() and read_segments(): any format, by its name, content or suffix."""
+
+from __future__ import annotations
+
+import warnings
+from math import isclose
+from os import PathLike
+from pathlib import Path
+
+from kineme._checks import check_path, check_type, is_number
+from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
+from kineme.labels.label_format import LabelFormat
+from kineme.labels.registry import format_to_read, format_to_write
+from kineme.labels.spans import Labels, as_segmentation
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level
+
+
+def write_segments(
+    segmentation: Segmentation,
+    path: str | PathLike[str],
+    *,
+    format: str | None = None,  # noqa: A002 (what everybody calls it)
+    level: Level | None = None,
+) -> None:
+    """Write a segmentation in a format; all of it, or nothing.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+        What to write.
+    path : path-like
+        The file; its suffix tells the format where ``format`` does not.
+    format : str, optional
+        A name in `kineme.labels.label_formats`.
+    level : {"activity", "primitive"}, optional
+        Of the segments to write; by default both in formats that hold both, else
+        ``activity``. The package's own formats always hold both.
+
+    Raises
+    ------
+    ParameterError
+        No such format or level.
+    WriteError
+        Unknown suffix, something the format cannot hold, or the file cannot be written.
+    MissingDependencyError
+        Parquet without pyarrow.
+
+    Examples
+    --------
+    >>> import kineme, tempfile
+    >>> from kineme.datasets import bundled_truth
+    >>> segments = kineme.read_segments(bundled_truth())
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     kineme.write_segments(segments, f"{folder}/take.eaf")
+    ...     kineme.read_segments(f"{folder}/take.eaf").n_frames
+    2898
+    """
+    check_type(segmentation, Segmentation, "write_segments", "kineme.segment(motion) gives one")
+    check_path(path, "write_segments")
+    known = format_to_write(path, format)
+    if known.holds == "all" and level is not None:
+        raise ParameterError(f"{known.name} always holds both levels: leave out level={level!r}")
+    if level is None and known.holds == "level":
+        level = "activity"
+    rows = list(segmentation if level is None else segmentation.level(level))
+    if not rows:
+        raise WriteError(path, f"there are no segments of level {level!r}")
+    if known.write is not None:
+        known.write(rows, segmentation, Path(path))
+
+
+def read_segments(
+    path: str | PathLike[str],
+    *,
+    format: str | None = None,  # noqa: A002
+    fps: float | None = None,
+    n_frames: int | None = None,
+) -> Segmentation:
+    """The segmentation in a file of any label format.
+
+    Parameters
+    ----------
+    path : path-like
+        The file. Where ``format`` is not given, its suffix tells the format; where several
+        share one (a ``.txt`` is Audacity's, or one label per frame), what it holds does.
+    format : str, optional
+        A name in `kineme.labels.label_formats`.
+    fps : float, optional
+        Frame rate of the recording, for formats that do not tell it.
+    n_frames : int, optional
+        Length of the recording, where the last label may end before it.
+
+    Returns
+    -------
+    Segmentation
+        What no label covers is a transition.
+
+    Raises
+    ------
+    ParameterError
+        No such format, or a frame rate or length that is not positive.
+    ReadError
+        Missing, damaged, of another format, of a newer version; or at odds with ``fps`` or
+        ``n_frames``.
+    MissingDependencyError
+        Parquet without pyarrow.
+
+    Warns
+    -----
+    KinemeWarning
+        Labels were left out or joined; once a file, with everything worth knowing.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> kineme.read_segments(bundled_truth()).activities.label[:3].tolist()
+    ['walk', '', 'squat']
+    """
+    check_path(path, "read_segments")
+    if fps is not None and not (is_number(fps) and fps > 0):
+        raise ParameterError(f"fps is {fps!r:.60}: give frames per second, above 0")
+    if n_frames is not None and not (is_number(n_frames) and n_frames >= 1):
+        raise ParameterError(f"n_frames is {n_frames!r:.60}: a recording has at least 1 frame")
+    known, content = read_content(path, format)
+    told = content.fps
+    if isinstance(content, Labels):
+        content, unusual = as_segmentation(
+            content, Path(path), known.name, fps=fps, n_frames=n_frames
+        )
+        if unusual:
+            warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
+    if fps is not None and told is not None and not isclose(told, fps, rel_tol=1e-6):
+        raise ReadError(path, f"says {told:g} frames per second, but fps is {fps:g}")
+    if n_frames is not None and content.n_frames != n_frames:
+        raise ReadError(path, f"is of {content.n_frames} frames, but n_frames is {n_frames}")
+    return content
+
+
+def read_content(
+    path: str | PathLike[str], name: str | None = None
+) -> tuple[LabelFormat, Segmentation | Labels]:
+    """The format of a file and what it holds by itself, before anything is filled in.
+
+    Raises
+    ------
+    ReadError
+        Missing, damaged, or of another format.
+    """
+    known = format_to_read(path, name)
+    try:
+        return known, known.read(Path(path))
+    except OSError as error:
+        raise ReadError(path, f"cannot be read: {error.strerror or error}") from error
+    except UnicodeDecodeError as error:
+        encoding = error.encoding.upper()
+        raise ReadError(path, f"is not {encoding} text (byte {error.start})") from error
+    except ParameterError as error:
+        raise ReadError(path, str(error)) from error

@@ -1,0 +1,65 @@
+"""``kineme evaluate FOLDER`` as people run it."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from kineme.evaluation.score import scores
+from labelled_corpus import make_corpus
+
+
+@pytest.fixture(scope="module")
+def corpus(tmp_path_factory) -> Path:
+    return make_corpus(tmp_path_factory.mktemp("corpus"))
+
+
+def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> None:
+    ran = kineme(
+        *("evaluate", corpus, "--labels", corpus / "labels.csv", "--methods", "kineme,uniform,gmm"),
+        *("--without-columns", "emg*", "-o", "scores.csv"),
+    )
+    assert ran.returncode == 0, ran.stderr
+    assert "without labels, left out: unlabelled.csv" in ran.stderr
+    assert "broken.csv, kineme: " in ran.stderr
+    assert "b.csv: 1 labels overlap others" in ran.stderr
+    for text in ("MoF", "Edit", "F1@50", "ARI", "NMI", "recordings scored", "2 of 3"):
+        assert text in ran.stdout
+    rows = list(csv.DictReader((tmp_path / "scores.csv").read_text().splitlines()))
+    overall = {row["method"]: float(row["mof"]) for row in rows if row["recording"] == "*"}
+    assert overall["kineme"] > 0.8 > overall["uniform"]
+    assert [row["recording"] for row in rows if row["method"] == "gmm"] == [
+        "a.csv", "b.csv", "broken.csv", "*",
+    ]  # fmt: skip
+
+
+def test_json_goes_to_standard_output_alone(kineme, corpus) -> None:
+    ran = kineme(
+        *("evaluate", corpus, "--labels", corpus / "labels.csv", "--json"),
+        *("--method", "uniform", "--columns", "gyro*", "--mapping", "folder"),
+    )
+    content = json.loads(ran.stdout)
+    assert content["mapping"] == "folder"
+    recordings = content["methods"]["uniform"]["recordings"]
+    assert [one["recording"] for one in recordings] == ["a.csv", "b.csv", "broken.csv"]
+    assert recordings[2]["error"]
+    assert set(content["methods"]["uniform"]["scores"]) >= set(scores())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--labels", "labels.csv", "--method", "kmeans"), "no method 'kmeans'"),
+        ((), "--labels FILE or FOLDER is needed"),
+        (("--labels", "nowhere.csv"), "cannot be read"),
+    ],
+)
+def test_a_call_that_cannot_work_is_one_sentence(kineme_here, corpus, arguments, message) -> None:
+    given = [corpus / a if str(a) == "labels.csv" else a for a in arguments]
+    ran = kineme_here("evaluate", corpus, *given)
+    assert ran.returncode != 0
+    assert message in " ".join(ran.stderr.split())
+    assert "Traceback" not in ran.stderr

@@ -1,0 +1,205 @@
+"""Folders of recordings with labels: scores as others define them, and the command's table."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kineme.errors import ParameterError, ReadError
+from kineme.evaluation.comparison import Comparison, best_mapping, compare
+from kineme.evaluation.folder import evaluate_folder
+from kineme.evaluation.recordings import Reading, recordings_below
+from kineme.evaluation.score import Ratio, Score, _known, over_all, register, scores, value_of
+from kineme.evaluation.segmental_scores import edit_distance
+from kineme.labels.collections import labels_of
+from kineme.segments.segmentation import Segmentation
+from labelled_corpus import make_corpus
+
+per_frame = st.lists(st.integers(0, 3), min_size=1, max_size=40)
+
+
+def both(draw) -> Comparison:
+    """Labels of as many frames."""
+    truth = draw(per_frame)
+    found = draw(st.lists(st.integers(0, 5), min_size=len(truth), max_size=len(truth)))
+    return Comparison(truth, found, fps=4)
+
+
+comparisons = st.composite(both)()
+
+
+def runs_of(labels) -> list[list[int]]:
+    runs: list[list[int]] = []
+    for frame, label in enumerate(labels.tolist()):
+        if runs and runs[-1][0] == label:
+            runs[-1][2] = frame + 1
+        else:
+            runs.append([label, frame, frame + 1])
+    return runs
+
+
+def iou(a: list[int], b: list[int]) -> float:
+    frames_a, frames_b = set(range(a[1], a[2])), set(range(b[1], b[2]))
+    return len(frames_a & frames_b) / len(frames_a | frames_b)
+
+
+@given(a=per_frame, b=per_frame)
+def test_edit_distance_is_levenshteins(a: list[int], b: list[int]) -> None:
+    table = {(i, 0): i for i in range(len(a) + 1)} | {(0, j): j for j in range(len(b) + 1)}
+    for i in range(1, len(a) + 1):
+        for j in range(1, len(b) + 1):
+            exchange = table[i - 1, j - 1] + (a[i - 1] != b[j - 1])
+            table[i, j] = min(table[i - 1, j] + 1, table[i, j - 1] + 1, exchange)
+    assert edit_distance(a, b) == table[len(a), len(b)]
+
+
+@given(compared=comparisons, percent=st.sampled_from([10, 25, 50]))
+def test_f1_counts_segments_that_overlap_one_of_their_class(compared, percent) -> None:
+    true, found = runs_of(compared.truth), runs_of(compared.mapped)
+    taken: list[int] = []
+    for run in found:
+        overlaps = [iou(run, other) if other[0] == run[0] else 0 for other in true]
+        best = overlaps.index(max(overlaps))
+        if overlaps[best] >= percent / 100 and best not in taken:
+            taken.append(best)
+    expected = 2 * len(taken) / (len(true) + len(found))
+    assert value_of(scores()[f"f1@{percent}"].function(compared)) == pytest.approx(expected)
+
+
+@given(compared=comparisons)
+def test_covering_is_the_best_overlap_weighted_by_length(compared) -> None:
+    found = runs_of(compared.found)
+    covered = sum((t[2] - t[1]) * max(iou(t, f) for f in found) for t in runs_of(compared.truth))
+    expected = covered / compared.truth.size
+    assert scores()["covering"].function(compared) == pytest.approx(expected)
+
+
+@given(compared=comparisons)
+def test_a_mapping_is_one_to_one_and_no_single_exchange_betters_it(compared) -> None:
+    mapping = best_mapping([compared])
+    assert len(set(mapping.values())) == len(mapping)
+    right = int((compared.mapped == compared.truth).sum())
+    for one in mapping:
+        for other in mapping:
+            swapped = {**mapping, one: mapping[other], other: mapping[one]}
+            again = Comparison(compared.truth, compared.found, compared.fps, swapped)
+            assert int((again.mapped == again.truth).sum()) <= right
+
+
+@given(compared=comparisons)
+def test_scores_do_not_depend_on_the_numbers_of_clusters(compared) -> None:
+    renamed = Comparison(compared.truth, 17 - 3 * compared.found, compared.fps)
+    for name, score in scores().items():
+        if name in ("edit", "f1@10", "f1@25", "f1@50"):
+            continue  # of two equally good mappings either may be taken
+        mine, theirs = value_of(score.function(compared)), value_of(score.function(renamed))
+        assert mine == pytest.approx(theirs, nan_ok=True), name
+
+
+def test_each_score_of_a_small_example_by_hand() -> None:
+    compared = Comparison([0, 0, 0, 0, 1, 1, 1, 1, 2, 2], [7, 7, 7, 7, 7, 3, 3, 3, 3, 3], fps=1)
+    values = {name: value_of(score.function(compared)) for name, score in scores().items()}
+    assert values["mof"] == values["one_to_one"] == pytest.approx(0.7)
+    assert values["edit"] == pytest.approx(2 / 3)
+    assert values["f1@50"] == pytest.approx(2 * 2 / 5)
+    assert values["border_f1"] == 0.0
+    assert values["covering"] == pytest.approx((4 * 4 / 5 + 4 * 3 / 6 + 2 * 2 / 5) / 10)
+    assert values["cut_ratio"] == 0.5
+    assert values["cluster_ratio"] == pytest.approx(2 / 3)
+
+
+def test_over_a_folder_ratios_add_up_and_numbers_are_averaged() -> None:
+    assert over_all([Ratio(9, 10), Ratio(0, 90)]) == pytest.approx(0.09)
+    assert over_all([0.2, math.nan, 0.4]) == pytest.approx(0.3)
+    assert math.isnan(over_all([]))
+
+
+def test_frames_without_a_label_count_in_nothing() -> None:
+    truth = segments([("activity", 0, 4, "walk", -1), ("transition", 4, 8, "", -1),
+                      ("activity", 8, 10, "run", -1)])  # fmt: skip
+    found = segments([("activity", 0, 5, "", 2), ("transition", 5, 6, "", -1),
+                      ("activity", 6, 10, "", 0)])  # fmt: skip
+    compared = compare(truth, found)
+    assert compared.truth.tolist() == [0, 0, 0, 0, 1, 1]
+    assert compared.found.tolist() == [2, 2, 2, 2, 0, 0]
+    nothing = segments([("transition", 0, 10, "", -1)])
+    with pytest.raises(ParameterError, match="every frame is unlabelled"):
+        compare(nothing, found)
+
+
+def test_one_mapping_for_the_folder_asks_for_clusters_that_mean_the_same() -> None:
+    first = Comparison([0, 0, 1], [5, 5, 6], fps=1)
+    second = Comparison([0, 1, 1, 1], [6, 5, 5, 5], fps=1)
+    mapping = best_mapping([first, second])
+    assert mapping == {5: 1, 6: 0}
+    assert Comparison(first.truth, first.found, 1, mapping).mapped.tolist() == [1, 1, 0]
+
+
+def segments(rows: list[tuple]) -> Segmentation:
+    kinds, starts, stops, labels, clusters = zip(*rows, strict=True)
+    columns = {"level": ["activity"] * len(rows), "kind": kinds, "start_frame": starts,
+               "stop_frame": stops, "label": labels, "cluster": clusters}  # fmt: skip
+    return Segmentation.from_columns(columns, n_frames=stops[-1], fps=10)
+
+
+@pytest.fixture(scope="module")
+def corpus(tmp_path_factory) -> Path:
+    return make_corpus(tmp_path_factory.mktemp("corpus"))
+
+
+def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> None:
+    labels = tmp_path / "labels"
+    labels.mkdir()
+    (labels / "a.txt").write_text("0\t20\tslow\n20\t40\tfast\n")
+    (labels / "b.labels.csv").write_text("start_s,stop_s,label\n0,20,slow\n20,40,fast\n")
+    sources = labels_of(recordings_below(corpus), labels)
+    assert [path.name for path in sources] == ["a.csv", "b.csv"]
+    result = evaluate_folder(sources, ["uniform"], processes=1)
+    assert [one.error for one in result.methods["uniform"]] == ["", ""]
+    assert result.over_all("uniform")["cut_ratio"] == 79.0
+
+
+def test_labels_that_belong_to_nothing_here_are_refused(corpus, tmp_path) -> None:
+    (tmp_path / "labels.csv").write_text("recording,start_s,stop_s,label\nwalk,0,1,step\n")
+    with pytest.raises(ReadError, match="no labels of any of the 4 recordings, such as 'a'"):
+        labels_of(recordings_below(corpus), tmp_path / "labels.csv")
+    (tmp_path / "one.csv").write_text("start_s,stop_s,label\n0,1,step\n")
+    with pytest.raises(ReadError, match="names no recording in the column 'recording'"):
+        labels_of(recordings_below(corpus), tmp_path / "one.csv")
+
+
+def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
+    register(Score("longest", "longest", "longest segment, frames", "segments", longest))
+    try:
+        sources = labels_of(recordings_below(corpus), corpus / "labels.csv")
+        result = evaluate_folder(sources, ["uniform"], processes=1)
+        assert result.methods["uniform"][0].scores["longest"] == 15
+        with pytest.raises(ParameterError, match="there is a score 'longest' already"):
+            register(Score("longest", "", "", "segments", longest))
+    finally:
+        _known().pop("longest")
+
+
+def longest(compared: Comparison) -> float:
+    return max(run.stop - run.start for run in compared.found_runs)
+
+
+SETS = {
+    "ipolgait": {"mof": 0.842, "edit": 0.669, "f1@10": 0.688, "f1@25": 0.664, "f1@50": 0.531},
+}
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_the_figures_of_a_set_with_human_labels_come_out(data_dir, name) -> None:
+    home = data_dir / "sets" / name
+    if not home.is_dir():
+        pytest.skip(f"no {home}")
+    sources = labels_of(recordings_below(home), home / "labels.csv")
+    result = evaluate_folder(sources, ["kineme"], reading=Reading(without=("emg*",)))
+    found = result.over_all("kineme")
+    for score, value in SETS[name].items():
+        assert found[score] == pytest.approx(value, abs=0.002), score

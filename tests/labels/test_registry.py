@@ -1,0 +1,162 @@
+"""One registry and one reader: content tells formats apart, other packages add their own."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from kineme.errors import ParameterError, ReadError
+from kineme.labels import (
+    LabelFormat,
+    Labels,
+    Span,
+    holds_labels,
+    label_formats,
+    read_segments,
+    register,
+    registry,
+    write_segments,
+)
+from kineme.segments.segmentation import Segmentation
+
+SEGMENTS = Segmentation.from_columns(
+    {
+        "level": ["activity", "activity"],
+        "kind": ["activity", "activity"],
+        "start_frame": [0, 40],
+        "stop_frame": [40, 60],
+        "label": ["walk", "jump"],
+    },
+    n_frames=60,
+    fps=10,
+)
+WRITERS = [name for name, known in label_formats().items() if known.write]
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_what_a_file_holds_tells_its_format_where_several_share_the_suffix(
+    tmp_path: Path, name: str
+) -> None:
+    known = label_formats()[name]
+    path = tmp_path / known.folder / f"take{known.written_suffix}"
+    write_segments(SEGMENTS, path, format=name)
+    back = read_segments(path, fps=10, n_frames=60)
+    assert back.activities.label.tolist() == ["walk", "jump"]
+    assert back.cuts().tolist() == [40]
+    assert holds_labels(path)
+
+
+@pytest.mark.parametrize("separator", [",", "\t"])
+@pytest.mark.parametrize("suffix", [".csv", ".tsv"])
+def test_a_table_of_intervals_with_gap_transition_and_counts(
+    tmp_path: Path, separator: str, suffix: str
+) -> None:
+    rows = ["start_s,stop_s,label,count", "0,2,walk,4", "2.5,4,jump,", "4,4.4,transition,",
+            "4.4,6,walk,3"]  # fmt: skip
+    path = tmp_path / f"truth{suffix}"
+    path.write_text("\n".join(rows).replace(",", separator))
+    found = read_segments(path, fps=10)
+    assert found.activities.label.tolist() == ["walk", "", "jump", "", "walk"]
+    assert found.activities.start_frame.tolist() == [0, 20, 25, 40, 44]
+    assert found.provenance["labels"]["counts"] == [4, None, None, None, 3]
+    path.write_text("start_s,stop_s,label,count\n0,6,a,many\n")
+    with pytest.raises(ReadError, match="line 2: count must be a whole number, not 'many'"):
+        read_segments(path, fps=10)
+
+
+def test_levels_and_kinds_of_a_table_of_seconds_are_kept(tmp_path: Path) -> None:
+    path = tmp_path / "seconds.csv"
+    path.write_text(
+        "level,kind,start_s,stop_s,label\nactivity,activity,0,2,walk\n"
+        "activity,transition,2,3,\nactivity,activity,3,6,run\nprimitive,activity,0,1,x\n"
+    )
+    found = read_segments(path, fps=10)
+    assert found.activities.kind.tolist() == ["activity", "transition", "activity"]
+    assert found.primitives.label.tolist() == ["x", "", "", ""]
+
+
+def test_a_table_of_many_recordings_is_no_table_of_one(tmp_path: Path) -> None:
+    path = tmp_path / "labels.csv"
+    path.write_text("recording,start_s,stop_s,label\na,0,2,walk\nb,0,2,run\n")
+    with pytest.raises(ReadError, match=r"labels of 2 recordings \(a, b\): keep one"):
+        read_segments(path, fps=10)
+
+
+def test_one_label_per_frame_needs_no_name_of_the_format(tmp_path: Path) -> None:
+    path = tmp_path / "frames.txt"
+    path.write_text("stand up\n" * 30 + "transition\n" * 10 + "run\n" * 20)
+    found = read_segments(path, fps=10)
+    assert found.activities.label.tolist() == ["stand up", "", "run"]
+    path.write_text("a\n\nb\n")
+    with pytest.raises(ReadError, match="line 2: has an empty line: every frame needs a label"):
+        read_segments(path, fps=10)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("recording.csv", "time,x,y\n0,1,2\n"),
+        ("signals.txt", "0.1 0.2\n0.3 0.4\n"),
+        ("signals.tsv", "time\tx\n0\t1\n"),
+        ("keypoints.json", '{"people": []}'),
+        ("take.provenance.json", '{"schema": "kineme.segments/1"}'),
+        ("walk.bvh", "HIERARCHY\n"),
+    ],
+)
+def test_recordings_are_not_taken_for_labels(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text)
+    assert not holds_labels(tmp_path / name)
+
+
+def test_a_format_of_ones_own_is_read_and_written_by_its_suffix(tmp_path: Path) -> None:
+    def write(rows, segmentation, path) -> None:
+        path.write_text("".join(f"{r.start_frame} {r.stop_frame} {r.label}\n" for r in rows))
+
+    def read(path) -> Labels:
+        lines = [line.split() for line in path.read_text().splitlines()]
+        return Labels([Span(int(a), int(b), text) for a, b, text in lines], "frames")
+
+    toy = LabelFormat("toy", "Three words a line", (".toy",), "level", read, write)
+    register(toy)
+    try:
+        write_segments(SEGMENTS, tmp_path / "take.toy")
+        back = read_segments(tmp_path / "take.toy", fps=10)
+        assert back.activities.label.tolist() == ["walk", "jump"]
+        with pytest.raises(ParameterError, match="there is a label format 'toy' already"):
+            register(toy)
+    finally:
+        registry._known().pop("toy")
+
+
+TOY = """
+from kineme.labels import LabelFormat, Labels, Span
+
+def read(path):
+    return Labels([Span(0, 1, path.read_text().strip())])
+
+FORMAT = LabelFormat("toy", "One word for all", (".toy",), "level", read)
+"""
+
+
+def test_another_package_adds_a_format_by_its_entry_point(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "toy_labels.py").write_text(TOY)
+    info = tmp_path / "toy_labels-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: toy-labels\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text(
+        "[kineme.label_formats]\ntoy = toy_labels:FORMAT\nabsent = nowhere:FORMAT\n"
+    )
+    (tmp_path / "a.toy").write_text("walk\n")
+    script = (
+        "import sys, warnings; warnings.simplefilter('always'); sys.path.insert(0, sys.argv[1])\n"
+        "import kineme\n"
+        "print(kineme.read_segments(sys.argv[1] + '/a.toy', fps=10).activities.label[0])\n"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", script, tmp_path], capture_output=True, text=True, check=True
+    )
+    assert ran.stdout == "walk\n"
+    assert "'absent' of kineme.label_formats is left out" in ran.stderr
