@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import convolve1d
 from scipy.spatial import cKDTree
 
-from kineme._checks import as_floats, is_number
+from kineme._checks import as_features, is_number
 from kineme._threads import even_slices, map_threads, n_threads
 from kineme.errors import ParameterError
 from kineme.features import _kernels
@@ -67,11 +67,7 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
     ------
     Krueger et al. 2017, section III; constants as in the authors' program.
     """
-    points = as_floats(features, "features to bundle")
-    if points.ndim != 2 or 0 in points.shape or not np.isfinite(points).all():
-        raise ParameterError(
-            f"features to bundle must be finite, frames x dims, not of shape {points.shape}"
-        )
+    points = as_features(features, "features to bundle")
     if not (is_number(neighbors) and neighbors >= 1 and is_number(variance) and 0 < variance <= 1):
         raise ParameterError(
             f"neighbors must be at least 1 and variance a share above 0, "
