@@ -53,7 +53,12 @@ if TYPE_CHECKING:  # "as": exported, for type checkers
         Skeleton as Skeleton,
     )
     from kineme.recordings.operations import resample as resample
-    from kineme.plot.segmentation import plot_segmentation as plot_segmentation
+    from kineme.plot import (
+        compare as compare,
+        plot_matrix as plot_matrix,
+        plot_segmentation as plot_segmentation,
+        plot_timeline as plot_timeline,
+    )
     from kineme.report.page import write_report as write_report
     from kineme.methods.region_growing.analysis import Analysis as Analysis
     from kineme.segmentation.from_features import analyze as analyze
@@ -98,7 +103,7 @@ _HOMES = {
     "kineme.graph": ("NeighborGraph", "WarpingPaths", "neighbor_graph", "warping_paths"),
     "kineme.recordings.motion": ("Motion", "Provenance", "Skeleton"),
     "kineme.recordings.operations": ("resample",),
-    "kineme.plot.segmentation": ("plot_segmentation",),
+    "kineme.plot": ("compare", "plot_matrix", "plot_segmentation", "plot_timeline"),
     "kineme.report.page": ("write_report",),
     "kineme.methods.region_growing.analysis": ("Analysis",),
     "kineme.segmentation.from_features": ("analyze",),

@@ -1,9 +1,9 @@
-"""Motion graphs as JSON, schema ``kineme.recordings.motion-graph/1``.
+"""Motion graphs as JSON, schema ``kineme.motion-graph/1``.
 
 One object::
 
     {
-      "schema": "kineme.recordings.motion-graph/1",
+      "schema": "kineme.motion-graph/1",
       "fps": 120.0, "threshold": 0.08, "window": 0.333,    as in MotionGraph
       "sources": [{"path": "86_10.amc", "sha256": "...", "n_frames": 7583, "options": {}}],
       "nodes": [{"source": 0, "start": 0, "stop": 312, "cluster": 0, "label": ""}],
@@ -34,7 +34,7 @@ from kineme.formats import read
 from kineme.recordings.motion import Motion
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 
-SCHEMA = "kineme.recordings.motion-graph/1"
+SCHEMA = "kineme.motion-graph/1"
 OPTIONS = ("skeleton", "fps", "unit", "up")
 
 Json = dict[str, Any]
@@ -73,7 +73,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     except (ValueError, RecursionError) as error:
         raise ReadError(path, "is not valid JSON, or is cut short: build it anew") from error
     schema = data.get("schema") if isinstance(data, dict) else None
-    if not str(schema).startswith("kineme.recordings.motion-graph/"):
+    if not str(schema).startswith("kineme.motion-graph/"):
         raise ReadError(path, "is not a motion graph: make one with kineme graph FILES")
     if schema != SCHEMA:
         raise ReadError(path, f"has schema {schema!r}, but this version reads {SCHEMA!r}")

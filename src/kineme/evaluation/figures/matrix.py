@@ -27,7 +27,7 @@ from kineme.graph import NeighborGraph, component_labels
 from kineme.methods.presets import PUBLISHED, RegionPreset
 from kineme.methods.region_growing.analysis import Analysis, analyze_regions
 from kineme.methods.region_growing.primitives import primitive_cuts
-from kineme.plot.segmentation import SHADES, similarity_image
+from kineme.plot.matrix import SHADES, similarity_image
 from kineme.segmentation.segmenter import motion_features
 
 FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
