@@ -176,7 +176,8 @@ class Segmentation:
         Examples
         --------
         >>> import kineme
-        >>> segments = kineme.read_segments(kineme.datasets.bundled_truth(), fps=60)
+        >>> from kineme.datasets import bundled_truth
+        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
         >>> segments.per_frame("label", level="activity")[60].item()
         'walk'
         """
@@ -229,8 +230,9 @@ class Segmentation:
         Examples
         --------
         >>> import kineme
+        >>> from kineme.datasets import bundled_truth
         >>> from matplotlib.figure import Figure
-        >>> segments = kineme.read_segments(kineme.datasets.bundled_truth(), fps=60)
+        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
         >>> axes = segments.plot(ax=Figure().add_subplot())
         """
         from kineme.segments.timeline import draw_timeline

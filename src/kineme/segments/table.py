@@ -83,7 +83,8 @@ class SegmentTable:
     Examples
     --------
     >>> import kineme
-    >>> table = kineme.read_segments(kineme.datasets.bundled_truth(), fps=60).table
+    >>> from kineme.datasets import bundled_truth
+    >>> table = kineme.read_segments(bundled_truth(), fps=60).table
     >>> table[0].kind, table[table.duration_s > 5.0]
     ('activity', <SegmentTable of 5 segments, 0.00 to 48.30 s>)
     """
@@ -123,7 +124,8 @@ class SegmentTable:
         Examples
         --------
         >>> import kineme
-        >>> segments = kineme.read_segments(kineme.datasets.bundled_truth(), fps=60)
+        >>> from kineme.datasets import bundled_truth
+        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
         >>> frame = segments.activities.to_dataframe()
         >>> float(frame.groupby("label").duration_s.sum().round(2)["walk"])
         9.78

@@ -43,10 +43,17 @@ Json = dict[str, Any]
 def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
     """Leave the graph at ``path``.
 
+    Parameters
+    ----------
+    graph : MotionGraph
+    path : path-like
+
     Raises
     ------
-    ParameterError : a source came from no file, so that nobody could read it again
-    WriteError : the file cannot be written
+    ParameterError
+        A source came from no file, so that nobody could read it again.
+    WriteError
+        The file cannot be written.
     """
     folder = Path(path).absolute().parent
     head = {
@@ -65,7 +72,21 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
 
 
 def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
-    """The graph at ``path``; ReadError if it is missing, damaged or of another version."""
+    """The graph at ``path``.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    MotionGraph
+
+    Raises
+    ------
+    ReadError
+        Missing, damaged or of another version.
+    """
     try:
         data = json.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
@@ -87,9 +108,18 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
 def load_sources(graph: MotionGraph) -> list[Motion]:
     """The recordings the graph was built on, in order.
 
+    Parameters
+    ----------
+    graph : MotionGraph
+
+    Returns
+    -------
+    list of Motion
+
     Raises
     ------
-    ReadError : one is missing or was changed since
+    ReadError
+        One is missing or was changed since.
     """
     motions = []
     for source in graph.sources:
