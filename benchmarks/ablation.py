@@ -19,8 +19,6 @@ import numpy as np
 
 from _recordings import hdm05, subject_86, synthetic
 from fairness import show
-from kineme.methods.numbering import by_first_appearance
-from kineme.methods.presets import KINEME
 from kineme.methods.recurrence import (
     analysis as action_analysis,
 )
@@ -30,6 +28,8 @@ from kineme.methods.recurrence import (
     transitions,
 )
 from kineme.methods.recurrence.actions import Actions
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.segments import by_first_appearance
 from sensitivity import at_working_rate, scores
 
 

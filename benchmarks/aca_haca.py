@@ -24,8 +24,8 @@ from threadpoolctl import threadpool_limits
 import kineme
 from kineme.evaluation import Labelling, read_trials
 from kineme.evaluation.aca_protocol import aca_accuracy
+from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.baselines import aca, haca
-from kineme.methods.baselines.joints import joint_quaternions, log_maps
 from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
 

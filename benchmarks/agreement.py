@@ -33,9 +33,9 @@ from scipy.optimize import linear_sum_assignment
 import kineme
 from _figures import add_option, record
 from kineme.features import mirror_features
-from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
-from kineme.methods.region_growing.analysis import Analysis, analyze_regions
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
+from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
+from kineme.segmentation.bodies import motion_features
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 LEVELS = ("activities", "primitives", "clusters")
@@ -43,7 +43,7 @@ LEVELS = ("activities", "primitives", "clusters")
 
 def _program(
     offsets: range, radius: float, growth_radius: float, neighbors: int, **parts: Any
-) -> RegionPreset:
+) -> RegionGrowingPreset:
     """The 2017 program with frames at 30 Hz and radii per stacked block in metres."""
     parts = {"bundling": None, **parts}
     return KRUEGER2017.replace(
@@ -120,7 +120,7 @@ def _cuts(ours: set[int], theirs: set[int]) -> Agreement:
     return Agreement(len(theirs), tuple(differences), len(far))
 
 
-def _clusters(found: Analysis, reference: dict[str, Any]) -> Agreement:
+def _clusters(found: RegionsFound, reference: dict[str, Any]) -> Agreement:
     borders = (found.segments + 1).tolist()
     borders[-1] = reference["frames"]
     ours = dict(zip(pairwise(borders), found.clustering.labels.tolist(), strict=True))

@@ -21,8 +21,8 @@ import numpy as np
 import kineme
 from agreement import TRIALS
 from kineme.features.bundling import bundle
-from kineme.methods.presets import KRUEGER2017
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.region_growing.preset import KRUEGER2017
+from kineme.segmentation.bodies import motion_features
 
 PROMISED_S = 0.5
 PROMISED_FRAMES = 2000

@@ -23,8 +23,9 @@ import numpy as np
 
 import kineme
 from _measure import verdict
-from kineme.methods.presets import PRESETS, ActionPreset
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.presets import PRESETS
+from kineme.methods.recurrence.preset import RecurrencePreset
+from kineme.segmentation.bodies import motion_features
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
@@ -42,13 +43,13 @@ def one(name: str, hours: float, max_lag: float | None) -> None:
     noise = np.random.default_rng(0)
     for part in np.array_split(features, max(1, frames // 10_000)):
         part[:] += noise.normal(0, NOISE * once.std(), part.shape)
-    if isinstance(preset, ActionPreset):
-        from kineme.methods.recurrence.analysis import analyze_actions as analyze
+    if isinstance(preset, RecurrencePreset):
+        from kineme.methods.recurrence.analysis import analyze_actions as analyze_regions
     else:
         from kineme.methods.region_growing.analysis import analyze_regions as analyze
     analyze(features[: round(60 * preset.working_fps)], preset)
     start = perf_counter()
-    found = analyze(features, preset)
+    found = analyze_regions(features, preset)
     took = perf_counter() - start
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     print(took, peak)

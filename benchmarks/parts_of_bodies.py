@@ -15,16 +15,16 @@ import warnings
 from collections.abc import Callable, Iterator
 
 import numpy as np
+from kineme.segmentation.from_features import segment_features
 
 import kineme
 from _recordings import Case, annotation, hdm05, subject_86
 from kineme.datasets import Action, synthesize
 from kineme.evaluation import evaluate_segmentation
 from kineme.features import body_frame, body_size, end_effectors, offsets_in_frames, stack
-from kineme.methods.presets import KINEME
+from kineme.methods.recurrence.preset import KINEME
 from kineme.recordings.motion import Motion, Skeleton
 from kineme.recordings.operations import resample
-from kineme.segmentation.from_features import segment_features
 from kineme.segments.segmentation import Segmentation
 
 Segment = Callable[[Motion], Segmentation]

@@ -24,8 +24,10 @@ import numpy as np
 
 import kineme
 from _measure import interleaved, verdict
-from kineme.methods.presets import KRUEGER2017, PRESETS, Preset
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.base import Preset
+from kineme.methods.presets import PRESETS
+from kineme.methods.region_growing.preset import KRUEGER2017
+from kineme.segmentation.bodies import motion_features
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 PLAIN = KRUEGER2017.replace(bundling=None, radius=0.302 * math.sqrt(5))

@@ -28,7 +28,7 @@ from _recordings import Case, hdm05, subject_86, synthetic
 from fairness import SHOWN, Scores, mean, show
 from kineme.errors import ParameterError
 from kineme.evaluation import evaluate_segmentation
-from kineme.methods.presets import KINEME, ActionPreset
+from kineme.methods.recurrence.preset import KINEME, RecurrencePreset
 from kineme.recordings.operations import resample
 from kineme.segmentation.segmenter import segment
 
@@ -36,7 +36,7 @@ NUDGES = (0.85, 1.15)
 STEPS = (0.72, 0.85, 1.0, 1.15, 1.32)
 JUDGED = ("one_to_one", "border_f1", "covering")
 KEPT = ("name", "unit", "working_fps", "offsets", "max_lag", "any_pace")
-CONSTANTS = [field.name for field in fields(ActionPreset) if field.name not in KEPT]
+CONSTANTS = [field.name for field in fields(RecurrencePreset) if field.name not in KEPT]
 
 
 def at_working_rate(cases: Iterable[Case]) -> list[Case]:
@@ -44,13 +44,13 @@ def at_working_rate(cases: Iterable[Case]) -> list[Case]:
     return [replace(case, motion=resample(case.motion, KINEME.working_fps)) for case in cases]
 
 
-def scores(cases: Sequence[Case], preset: ActionPreset) -> Scores:
+def scores(cases: Sequence[Case], preset: RecurrencePreset) -> Scores:
     return mean(
         evaluate_segmentation(case.truth, segment(case.motion, preset=preset)) for case in cases
     )
 
 
-def nudged(preset: ActionPreset) -> Iterator[tuple[str, ActionPreset]]:
+def nudged(preset: RecurrencePreset) -> Iterator[tuple[str, RecurrencePreset]]:
     for name in CONSTANTS:
         for factor in NUDGES:
             other = stepped(preset, name, factor)
@@ -63,9 +63,9 @@ class Judge:
 
     def __init__(self, *groups: Sequence[Case]):
         self._groups = groups
-        self._known: dict[ActionPreset, list[NDArray[np.float64]]] = {}
+        self._known: dict[RecurrencePreset, list[NDArray[np.float64]]] = {}
 
-    def goodness(self, preset: ActionPreset, out: Case) -> float:
+    def goodness(self, preset: RecurrencePreset, out: Case) -> float:
         """Mean over the groups, each of equal weight, of what is judged; without one case."""
         if preset not in self._known:
             self._known[preset] = [np.array([judged(c, preset) for c in g]) for g in self._groups]
@@ -78,7 +78,7 @@ class Judge:
             )
         )
 
-    def chosen(self, out: Case) -> ActionPreset:
+    def chosen(self, out: Case) -> RecurrencePreset:
         """The preset that all but one of the cases would have led to."""
         best = KINEME
         for name in CONSTANTS:
@@ -92,7 +92,7 @@ class Judge:
         return best
 
 
-def stepped(preset: ActionPreset, name: str, step: float) -> ActionPreset | None:
+def stepped(preset: RecurrencePreset, name: str, step: float) -> RecurrencePreset | None:
     """The preset with a constant at so many times its value in `kineme`; None if it cannot be."""
     try:
         return preset.replace(**{name: step * getattr(KINEME, name)})
@@ -100,7 +100,7 @@ def stepped(preset: ActionPreset, name: str, step: float) -> ActionPreset | None
         return None
 
 
-def judged(case: Case, preset: ActionPreset) -> float:
+def judged(case: Case, preset: RecurrencePreset) -> float:
     found = scores([case], preset)
     return float(np.mean([found[name] for name in JUDGED]))
 

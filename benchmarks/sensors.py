@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme import Signals, read_signals, segment_signals
+from kineme import Signals, read_signals, segment
 from kineme import _rotations as rot
 from kineme.datasets import random_recording
 from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
@@ -83,7 +83,7 @@ KINDS: dict[str, Callable[[Motion], Signals]] = {
 def scores(recordings: Iterable[Recording], preset: str) -> str:
     """Border F1 within 0.25 s / frames in the right class, means over the recordings."""
     found = [
-        evaluate_segmentation(truth, segment_signals(signals, preset=preset))
+        evaluate_segmentation(truth, segment(signals, preset=preset))
         for truth, signals in recordings
     ]
     means = (np.mean([f[key] for f in found]) for key in ("border_f1", "one_to_one"))
@@ -114,7 +114,7 @@ def main() -> None:
     ):
         print(table(title, sets, units=options.units))
     for path in sorted((options.data / "timeseries").glob("WalkJogRun*.txt")):
-        found = segment_signals(read_signals(path, fps=FPS))
+        found = segment(read_signals(path, fps=FPS))
         borders = ", ".join(map(str, found.cuts().tolist()))
         print(f"{path.stem}: {borders} of {found.n_frames} frames")
 

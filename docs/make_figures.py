@@ -20,9 +20,10 @@ import kineme
 from kineme._colors import PALETTE, cluster_color
 from kineme.datasets import bundled_truth
 from kineme.graph import component_labels
-from kineme.methods.presets import KINEME, KRUEGER2017
-from kineme.methods.presets import VOEGELE2014 as PRESET
-from kineme.methods.recurrence.analysis import ActionAnalysis
+from kineme.methods.recurrence.analysis import RecurrenceFound
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.region_growing.preset import KRUEGER2017
+from kineme.methods.region_growing.preset import VOEGELE2014 as PRESET
 from kineme.methods.region_growing.primitives import primitive_cuts
 from kineme.plot.matrix import (
     BORDER,
@@ -31,7 +32,7 @@ from kineme.plot.matrix import (
     plot_matrix,
     similarity_image,
 )
-from kineme.segmentation.segmenter import motion_features
+from kineme.segmentation.bodies import motion_features
 
 IMAGES = Path(__file__).parent / "images"
 EFFECTORS = ("left ankle", "right ankle", "head", "left wrist", "right wrist")
@@ -41,7 +42,7 @@ ZOOMED = 2  # the activity shown in the picture of the primitives: squats
 
 def main() -> None:
     motion = kineme.read(kineme.bundled_recording())
-    segments, found = kineme.segment_and_analysis(motion, KINEME)
+    segments, found = kineme.segment_and_found(motion, KINEME)
 
     figure = _figure(7.6, 6.6)
     plot_matrix(segments, found.graph, ax=figure.add_subplot())
@@ -63,7 +64,7 @@ def main() -> None:
     draw_bundling(figure.subplots(1, 2, sharex=True, sharey=True), motion, segments)
     _save(figure, "bundling")
 
-    published, analysis = kineme.segment_and_analysis(motion, PRESET)
+    published, analysis = kineme.segment_and_found(motion, PRESET)
 
     figure = _figure(9, 4.6)
     draw_regions(figure.subplots(1, 2, sharey=True), analysis)
@@ -91,7 +92,7 @@ def draw_features(axes: Axes, motion: kineme.Motion) -> None:
     axes.legend(ncols=5, frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.15))
 
 
-def draw_recurrence(pair: np.ndarray, found: ActionAnalysis) -> None:
+def draw_recurrence(pair: np.ndarray, found: RecurrenceFound) -> None:
     """Poses that are alike, and moments that are alike whatever their phase."""
     band = found.recurrence.similarity
     n = len(band)
@@ -102,7 +103,7 @@ def draw_recurrence(pair: np.ndarray, found: ActionAnalysis) -> None:
     frames = len(found.features)
     _matrix(pair[0], similarity_image(found.graph), frames)
     _matrix(pair[1], image, frames)
-    for start, stop, label in zip(found.blocks[:-1], found.blocks[1:], found.labels, strict=True):
+    for start, stop, label in zip(found.borders[:-1], found.borders[1:], found.labels, strict=True):
         if label >= 0:
             size = (stop - start) / FPS
             corner = (start / FPS, start / FPS)
@@ -111,15 +112,15 @@ def draw_recurrence(pair: np.ndarray, found: ActionAnalysis) -> None:
     pair[1].set_title("moments, and activities", loc="left", fontsize=10)
 
 
-def draw_visits(axes: Axes, found: ActionAnalysis) -> None:
+def draw_visits(axes: Axes, found: RecurrenceFound) -> None:
     """How far the squats are from three of their own poses, and where the repetitions begin."""
-    start, stop = found.blocks[ZOOMED : ZOOMED + 2].tolist()
+    start, stop = found.borders[ZOOMED : ZOOMED + 2].tolist()
     seconds = np.arange(start, stop) / FPS
     for share, color in zip((0.03, 0.1, 0.17), PALETTE[2:], strict=False):
         at = round(start + share * (stop - start))
         distance = np.linalg.norm(found.features[start:stop] - found.features[at], axis=1)
         axes.plot(seconds, distance, color=color, linewidth=1.2, label=f"{at / FPS:.1f} s")
-    for cut in found.segments[(found.segments > start) & (found.segments < stop)] / FPS:
+    for cut in found.primitives[(found.primitives > start) & (found.primitives < stop)] / FPS:
         axes.axvline(cut, color=BORDER, linewidth=1.5)
     axes.set(xlabel="seconds", ylabel="body sizes", xlim=(seconds[0], seconds[-1]), ylim=(0, None))
     axes.spines[["top", "right"]].set_visible(False)
@@ -166,7 +167,7 @@ def draw_regions(pair: np.ndarray, analysis: kineme.Analysis) -> None:
 
 def draw_paths(pair: np.ndarray, analysis: kineme.Analysis) -> None:
     """The connected components inside one activity, and the paths and cuts they give."""
-    first, stop = analysis.blocks[ZOOMED : ZOOMED + 2].tolist()
+    first, stop = analysis.borders[ZOOMED : ZOOMED + 2].tolist()
     image, extent = components(analysis.graph, first, stop)
     found = primitive_cuts(
         analysis.graph,

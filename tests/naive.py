@@ -762,7 +762,7 @@ def nearest_around(poses, frames, centers, reach):
     )
 
 
-def mean_likeness(poses, frames, others, reaches, scales, other_scales, softness, gap):
+def mean_similarity(poses, frames, others, reaches, scales, other_scales, softness, gap):
     values = []
     for reach in reaches:
         there = nearest_around(poses, frames, others, reach)
@@ -822,7 +822,7 @@ def poses_at(poses, path, lengths):
     return np.array([poses[f] for f in last])
 
 
-def unlike(parts):
+def unexplained(parts):
     """One minus the squared correlation, if positive, of each part with the mean of all others."""
     rows = [(part - part.mean(axis=0)).ravel() for part in parts]
     found = []
@@ -832,7 +832,7 @@ def unlike(parts):
     return found
 
 
-def along(poses, path, lengths, mean, near):
+def followed(poses, path, lengths, mean, near):
     gains = [
         [near - ((pose - place) ** 2).sum() for place in mean]
         for pose in poses_at(poses, path, lengths)

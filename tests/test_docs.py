@@ -27,7 +27,9 @@ from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
 import _figures
 from kineme.datasets import bundled_recording
 from kineme.labels import read_segments, write_segments
-from kineme.methods.presets import KINEME, KRUEGER2017, VOEGELE2014, Preset
+from kineme.methods.base import Preset
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]

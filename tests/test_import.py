@@ -99,7 +99,7 @@ def public_doors(folder: Path) -> list[tuple[Callable[..., object], list[Any], d
         (kineme.read_signals, [folder / "b.csv"], {"fps": 30.0, "columns": None}),
         (kineme.segment, [motion], {"preset": "voegele2014", "effectors": None, "radius": 0.6}),
         (kineme.segment, [motion], {"window": 10.0, "offsets": (0.0,), "any_pace": True}),
-        (kineme.segment_and_analysis, [motion, "krueger2017"], {"effectors": None}),
+        (kineme.segment_and_found, [motion, "krueger2017"], {"effectors": None}),
         (kineme.segment_signals, [kineme.Signals(x, 30)], {"preset": "kineme", "smoothing": 0.1}),
         (kineme.analyze, [x, "krueger2017"], {}),
         (kineme.end_effectors, [motion], {"names": None}),

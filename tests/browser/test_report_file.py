@@ -60,7 +60,7 @@ def test_signals_have_no_figure_but_lanes_and_matrix(chromium, tmp_path: Path) -
     times = np.arange(3000) / 50
     values = np.column_stack([np.sin(6 * times), np.cos(6 * times)])
     signals = kineme.Signals(values, 50.0)
-    write_report(signals, kineme.segment_signals(signals), tmp_path / "signals.html", name="wrist")
+    write_report(signals, kineme.segment(signals), tmp_path / "signals.html", name="wrist")
     page = chromium.new_page()
     said: list[str] = []
     page.on("console", lambda message: said.append(message.text))

@@ -14,7 +14,8 @@ from typer.testing import CliRunner
 import kineme as package
 from kineme.cli.app import app
 from kineme.datasets import bundled_recording
-from kineme.methods.presets import PRESETS, Preset
+from kineme.methods.base import Preset
+from kineme.methods.presets import PRESETS
 
 
 def test_info_says_what_the_file_is(kineme) -> None:

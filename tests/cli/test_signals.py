@@ -42,7 +42,7 @@ def test_columns_rate_and_constants_are_options(kineme, phone) -> None:
     data = json.loads(done.stdout)
     assert data["provenance"]["parameters"]["radius"] == 0.3
     assert data["provenance"]["notes"][0].startswith("channels: acc_y, acc_x,")
-    same = package.segment_signals(
+    same = package.segment(
         package.read_signals(phone, columns=["acc_y", "acc_x"], fps=50),
         preset="krueger2017",
         radius=0.3,

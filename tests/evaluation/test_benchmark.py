@@ -20,7 +20,7 @@ from kineme.evaluation.methods import METHODS, method, preset_method
 from kineme.evaluation.reoccurrence import reoccurring
 from kineme.evaluation.tables import as_records, markdown_scores, write_records
 from kineme.evaluation.trials import Trial, find_folder, load_trials
-from kineme.methods.presets import VOEGELE2014
+from kineme.methods.region_growing.preset import VOEGELE2014
 
 
 @pytest.fixture(scope="module")

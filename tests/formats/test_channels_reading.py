@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from pyarrow import parquet
 from scipy.io import savemat
 
-from kineme import Signals, read, read_signals, segment_signals
+from kineme import Signals, read, read_signals, segment
 from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
 from kineme.formats.channels.reading import is_signal_file
 
@@ -349,7 +349,7 @@ def test_walking_jogging_and_running(data_dir, name) -> None:
     Three actions, and each change at a border, give or take 3 s, or in the transition between.
     """
     signals = read_signals(data_dir / "timeseries" / f"{name}.txt", fps=100)
-    found = segment_signals(signals)
+    found = segment(signals)
     walk, jog, run = found.per_frame(level="activity")[[2000, 5300, 8500]]
     assert len({walk, jog, run} - {-1}) == 3
     kinds = found.per_frame("kind", level="activity")

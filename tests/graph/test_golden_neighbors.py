@@ -9,8 +9,8 @@ import pytest
 
 import kineme
 from kineme.graph import neighbor_graph
-from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
+from kineme.segmentation.bodies import motion_features
 
 TOLERANCE_CM = 0.05  # to which the features of rebuilt recordings agree
 
@@ -22,7 +22,7 @@ TOLERANCE_CM = 0.05  # to which the features of rebuilt recordings agree
     ids=["2014", "2017"],
 )
 def test_equal_to_the_authors_program(
-    data_dir: Path, reference: str, preset: RegionPreset, trial: str
+    data_dir: Path, reference: str, preset: RegionGrowingPreset, trial: str
 ) -> None:
     motion = kineme.read(data_dir / "cmu86" / f"{trial}.amc")
     features = 100 * motion_features(motion, preset)

@@ -119,7 +119,7 @@ def test_signals_are_shown_without_a_figure(tmp_path: Path) -> None:
     times = np.arange(3000) / 100
     values = np.column_stack([np.sin(6 * times), np.cos(6 * times)])
     signals = Signals(values, 100.0, gaps=[(1000, 1400)])
-    segments = kineme.segment_signals(signals)
+    segments = kineme.segment(signals)
     for name, source in (("signals", signals), ("array", values)):
         write_report(source, segments, tmp_path / f"{name}.html", name=name)
         message = content(tmp_path / f"{name}.html")

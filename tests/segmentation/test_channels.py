@@ -10,16 +10,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from kineme import PRESETS, Segmenter, Signals, segment_signals
+from kineme import PRESETS, Segmenter, Signals, segment
 from kineme.errors import ParameterError
 from kineme.features.emg import emg_envelope
-from kineme.methods.presets import KINEME, KRUEGER2017, VOEGELE2014
+from kineme.methods import resolve_preset
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
 from kineme.segmentation.channels import (
     RECURS_AT,
     at_rate,
     recurrence_unit,
     search_vectors,
-    signal_preset,
 )
 from kineme.segmentation.channels import standardized as standard
 
@@ -95,8 +96,8 @@ def test_units_zeros_signs_and_order_of_channels_change_no_cut(gain, offset, swa
     x = recording()
     other = (gain * x + offset)[:, ::-1] if swap else gain * x + offset
     a, b = (
-        segment_signals(Signals(x, 60), preset=preset),
-        segment_signals(Signals(other, 60), preset=preset),
+        segment(Signals(x, 60), preset=preset),
+        segment(Signals(other, 60), preset=preset),
     )
     assert a.cuts("primitive").tolist() == b.cuts("primitive").tolist()
 
@@ -105,27 +106,27 @@ def test_repeated_channels_change_no_cut() -> None:
     """The generalised radius: twice the channels are no farther apart."""
     x = recording()
     for preset in ("kineme", "voegele2014"):
-        once = segment_signals(Signals(x, 60), preset=preset)
-        twice = segment_signals(Signals(np.hstack([x, x]), 60), preset=preset)
+        once = segment(Signals(x, 60), preset=preset)
+        twice = segment(Signals(np.hstack([x, x]), 60), preset=preset)
         assert once.cuts("primitive").tolist() == twice.cuts("primitive").tolist()
 
 
 def test_lengths_of_published_presets_are_those_of_a_body() -> None:
-    r = signal_preset(KRUEGER2017).radius
+    r = resolve_preset(KRUEGER2017, signals=True).radius
     assert r * np.sqrt(5 * 15) * 0.13 == pytest.approx(KRUEGER2017.radius)
-    assert signal_preset("voegele2014").radius == pytest.approx(0.734, abs=1e-3)
-    assert signal_preset("voegele2014", radius=0.5).radius == 0.5
-    assert signal_preset(VOEGELE2014).max_neighbors == VOEGELE2014.max_neighbors
-    assert signal_preset("kineme") == KINEME.replace(any_pace=False)
-    assert signal_preset("kineme", any_pace=True) == KINEME
+    assert resolve_preset("voegele2014", signals=True).radius == pytest.approx(0.734, abs=1e-3)
+    assert resolve_preset("voegele2014", signals=True, radius=0.5).radius == 0.5
+    assert resolve_preset(VOEGELE2014, signals=True).max_neighbors == VOEGELE2014.max_neighbors
+    assert resolve_preset("kineme", signals=True) == KINEME.replace(any_pace=False)
+    assert resolve_preset("kineme", signals=True, any_pace=True) == KINEME
 
 
 @pytest.mark.parametrize("name", PRESETS)
 def test_a_preset_made_for_signals_is_used_as_it_is(name: str) -> None:
-    made = signal_preset(name)
-    assert signal_preset(made) == made
+    made = resolve_preset(name, signals=True)
+    assert resolve_preset(made, signals=True) == made
     x = Signals(recording(), 60)
-    by_name, passed_on = segment_signals(x, preset=name), segment_signals(x, preset=made)
+    by_name, passed_on = segment(x, preset=name), segment(x, preset=made)
     assert passed_on.table == by_name.table
     assert passed_on.provenance == by_name.provenance
     estimator = Segmenter(made, fps=60).fit(recording())
@@ -133,23 +134,24 @@ def test_a_preset_made_for_signals_is_used_as_it_is(name: str) -> None:
 
 
 def test_what_a_preset_object_says_is_kept() -> None:
-    said = segment_signals(Signals(recording(), 60), preset=KINEME.replace(any_pace=True))
+    said = segment(Signals(recording(), 60), preset=KINEME.replace(any_pace=True))
     assert said.provenance["parameters"]["any_pace"] is True
-    assert signal_preset(signal_preset("krueger2017", radius=0.5)).radius == 0.5
+    assert (
+        resolve_preset(resolve_preset("krueger2017", signals=True, radius=0.5), signals=True).radius
+        == 0.5
+    )
 
 
 def test_the_unit_of_lengths_is_in_the_provenance_and_is_not_an_option() -> None:
     x = Signals(recording(), 60)
-    units = {
-        name: segment_signals(x, preset=name).provenance["parameters"]["unit"] for name in PRESETS
-    }
+    units = {name: segment(x, preset=name).provenance["parameters"]["unit"] for name in PRESETS}
     assert units == {
         "kineme": "sizes",
         "voegele2014": "standard deviations",
         "krueger2017": "standard deviations",
     }
     with pytest.raises(ParameterError, match="krueger2017 has no parameter 'unit'"):
-        segment_signals(x, preset="krueger2017", unit="metres")
+        segment(x, preset="krueger2017", unit="metres")
     with pytest.raises(ParameterError, match="unit must be metres or standard deviations"):
         replace(KRUEGER2017, unit="inches")
     with pytest.raises(ParameterError, match="unit must be sizes in kineme"):
@@ -168,7 +170,7 @@ def test_the_unit_of_kineme_is_the_distance_of_recurrence() -> None:
 def test_a_gap_is_a_transition_and_what_lies_around_it_is_compared() -> None:
     x = np.tile(recording(seconds=10)[:300], (4, 1))
     x[600:640] = 1e6
-    found = segment_signals(Signals(x, 60, gaps=[(600, 640)]))
+    found = segment(Signals(x, 60, gaps=[(600, 640)]))
     assert {600, 640} <= set(found.cuts().tolist())
     assert found.per_frame("kind")[600:640].tolist() == ["transition"] * 40
     assert found.per_frame()[300] == found.per_frame()[900]
@@ -195,7 +197,7 @@ def test_bursts_of_a_muscle_are_repetitions() -> None:
     rng = np.random.default_rng(1)
     phases = [np.clip(np.sin(2 * np.pi * 0.5 * t + p), 0, None) for p in (0, 2)]
     raw = np.column_stack([s * rng.standard_normal(len(t)) for s in phases])
-    found = segment_signals(Signals(raw, fps), emg=True)
+    found = segment(Signals(raw, fps), emg=True)
     (count,) = found.repetitions().values()
     assert count == 15
     assert "muscle signals: rectified and low-passed" in found.provenance["notes"]
@@ -239,4 +241,4 @@ def test_signals_that_contradict_themselves() -> None:
 
 def test_a_rate_beyond_all_measure_is_refused() -> None:
     with pytest.raises(ParameterError, match="is the frame rate right"):
-        segment_signals(Signals(np.zeros((10, 1)), 1e-6))
+        segment(Signals(np.zeros((10, 1)), 1e-6))

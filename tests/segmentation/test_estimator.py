@@ -11,7 +11,7 @@ from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import FunctionTransformer
 from sklearn.utils.estimator_checks import parametrize_with_checks
 
-from kineme import Segmenter, Signals, segment_signals
+from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
 
 ORDER_MATTERS = "the rows of this check are in no order, and clusters here are of stretches in time"
@@ -50,7 +50,7 @@ def test_two_movements_are_two_clusters_with_a_border_between(preset: str) -> No
 def test_labels_are_those_of_the_segmentation() -> None:
     x = two_movements()
     estimator = Segmenter(fps=50, min_action=2.0).fit(x)
-    same = segment_signals(Signals(x, 50), min_action=2.0)
+    same = segment(Signals(x, 50), min_action=2.0)
     assert estimator.segmentation_.table == same.table
     assert estimator.labels_.tolist() == same.per_frame("cluster").tolist()
     assert estimator.segmentation_.provenance["parameters"]["min_action"] == 2.0

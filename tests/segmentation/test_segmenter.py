@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kineme.segmentation.from_features import analyze
 
 from kineme.datasets import Action, random_recording, synthesize
 from kineme.errors import ParameterError
 from kineme.features import end_effectors
+from kineme.methods import resolve_preset
 from kineme.methods.presets import PRESETS
 from kineme.recordings.motion import Motion
 from kineme.recordings.operations import cut, move, resample, turn
-from kineme.segmentation.channels import signal_preset
-from kineme.segmentation.from_features import analyze
-from kineme.segmentation.segmenter import motion_features, segment, segment_and_analysis
-from kineme.segmentation.signals import segment_signals
+from kineme.segmentation.bodies import motion_features
+from kineme.segmentation.segmenter import segment, segment_and_found
 from kineme.segments.segmentation import Segmentation
 
 presets = pytest.mark.parametrize("preset", PRESETS)
@@ -108,9 +108,9 @@ def test_segments_tile_at_any_frame_rate(preset: str, fps: float) -> None:
 @presets
 def test_cuts_are_those_of_the_analysis_in_frames_of_the_source(preset: str) -> None:
     motion = recording(1)
-    found, analysis = segment_and_analysis(motion, PRESETS[preset])
+    found, analysis = segment_and_found(motion, PRESETS[preset])
     assert motion.fps == 120
-    np.testing.assert_array_equal(found.activities.start_frame, 4 * analysis.blocks[:-1])
+    np.testing.assert_array_equal(found.activities.start_frame, 4 * analysis.borders[:-1])
     np.testing.assert_array_equal(found.primitives.start_frame, 4 * analysis.segments[:-1])
     np.testing.assert_allclose(found.primitives.start_s, analysis.segments[:-1] / 30)
     repeats = analysis.labels >= 0 if preset == "kineme" else analysis.repeats
@@ -133,10 +133,10 @@ def test_slow_and_fast_are_one_action_unless_pace_is_to_count() -> None:
 def test_the_stages_are_found_by_name_or_preset(preset: str) -> None:
     motion = cut(recording(0), 0, 400)
     (by_name, found), (as_it_is, same) = (
-        segment_and_analysis(motion, one) for one in (preset, PRESETS[preset])
+        segment_and_found(motion, one) for one in (preset, PRESETS[preset])
     )
     assert by_name.table == as_it_is.table
-    np.testing.assert_array_equal(found.blocks, same.blocks)
+    np.testing.assert_array_equal(found.borders, same.borders)
     features = motion_features(motion, PRESETS[preset])
     for one in (preset, PRESETS[preset]):
         np.testing.assert_array_equal(analyze(features, one).segments, found.segments)
@@ -149,7 +149,7 @@ def test_presets_that_are_none_and_presets_for_signals_are_refused() -> None:
     with pytest.raises(ParameterError, match="preset takes a Preset, not float: give one, or the"):
         segment(motion, preset=0.5)
     with pytest.raises(ParameterError, match="standard deviations of signals"):
-        segment(motion, preset=signal_preset("krueger2017"))
+        segment(motion, preset=resolve_preset("krueger2017", signals=True))
     with pytest.raises(ParameterError, match="radius must be a positive number, not 'big'"):
         segment(motion, preset="krueger2017", radius="big")
 
@@ -171,7 +171,7 @@ def test_what_is_no_motion_is_refused_with_the_way_to_one() -> None:
         with pytest.raises(ParameterError, match=r"takes a Motion, not \w+: kineme.read"):
             segment(wrong)  # type: ignore[arg-type]
     with pytest.raises(ParameterError, match="takes Signals, not ndarray: kineme.read_signals"):
-        segment_signals(np.zeros((90, 3)))  # type: ignore[arg-type]
+        segment(np.zeros((90, 3)))  # type: ignore[arg-type]
 
 
 def test_an_unknown_constant_is_refused() -> None:

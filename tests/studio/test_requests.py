@@ -276,7 +276,7 @@ def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> N
     again = studio.done(message["revision"], "segment", preset="kineme", parameters={"phase": 0.5})
     signals = kineme.read_signals(folder / "imu.csv")
     stored = kineme.read_segments(folder / "imu.segments.json")
-    assert stored.table == kineme.segment_signals(signals, preset="kineme", phase=0.5).table
+    assert stored.table == kineme.segment(signals, preset="kineme", phase=0.5).table
     assert stored.provenance["parameters"]["any_pace"] is False
     studio.done(again["revision"], "split", level="activity", frame=500)
     assert 500 in kineme.read_segments(folder / "imu.segments.json").cuts()

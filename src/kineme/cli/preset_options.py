@@ -10,32 +10,28 @@ import inspect
 from collections.abc import Callable
 from functools import partial, wraps
 from types import NoneType
-from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
 
-from kineme.methods.presets import (
-    PRESETS,
-    ActionPreset,
-    Preset,
-    RegionPreset,
-    constant_help,
-)
+from kineme.methods.base import Preset
+from kineme.methods.constants import Constant
+from kineme.methods.presets import PRESETS
 
-PANEL = "Constants of the preset (seconds, metres; body sizes in kineme)"
-KINDS = (ActionPreset, RegionPreset)
-NAMES = tuple(dict.fromkeys(name for kind in KINDS for name in kind.constants()))
+PANEL = "Constants of the preset"
+FINE = "Finer constants of the preset, which hardly anybody needs to change"
 
 
 def with_preset_options(command: Callable[..., None]) -> Callable[..., None]:
     """The command with one option per constant; those given reach it as ``overrides``."""
     signature = inspect.signature(command, eval_str=True)
     own = [p for p in signature.parameters.values() if p.name != "overrides"]
-    options = [_parameter(name, hint) for name, hint in _hints().items()]
+    known = _constants()
+    options = [_parameter(each) for each in known.values()]
 
     @wraps(command)
     def wrapped(**values: Any) -> None:
-        given = {name: values.pop(name) for name in NAMES}
+        given = {name: values.pop(name) for name in known}
         overrides = {name: value[0] for name, value in given.items() if value is not None}
         command(**values, overrides=overrides)
 
@@ -44,23 +40,29 @@ def with_preset_options(command: Callable[..., None]) -> Callable[..., None]:
     return wrapped
 
 
-def _hints() -> dict[str, Any]:
-    hints = {name: hint for kind in KINDS for name, hint in get_type_hints(kind).items()}
-    return {name: hints[name] for name in NAMES}
+def _constants() -> dict[str, Constant]:
+    """Each constant that a preset has, by name, as the first preset that has it tells it."""
+    found: dict[str, Constant] = {}
+    for preset in PRESETS.values():
+        for known in preset.constants():
+            found.setdefault(known.name, known)
+    return found
 
 
-def _parameter(name: str, hint: Any) -> inspect.Parameter:
+def _parameter(known: Constant) -> inspect.Parameter:
+    name = known.name
     defaults = ", ".join(
         f"{preset.name} {_shown(preset, name)}"
         for preset in PRESETS.values()
         if hasattr(preset, name)
     )
+    unit = f", {known.unit}" if known.unit else ""
     option = typer.Option(
         f"--{name.replace('_', '-')}",
-        parser=partial(_parse, hint),
-        metavar=_metavar(hint),
-        help=f"{constant_help().get(name, '')} [dim]\\[{defaults}][/dim]",
-        rich_help_panel=PANEL,
+        parser=partial(_parse, known.hint),
+        metavar=_metavar(known.hint),
+        help=f"{known.help}{unit} [dim]\\[{defaults}][/dim]",
+        rich_help_panel=FINE if known.fine else PANEL,
         show_default=False,
     )
     return inspect.Parameter(

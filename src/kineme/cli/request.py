@@ -12,12 +12,12 @@ import typer
 from kineme.cli.reading import effector_names
 from kineme.cli.signals import SignalOptions
 from kineme.errors import ParameterError, ReadError
-from kineme.methods.presets import DEFAULT, Preset, resolve_preset
+from kineme.methods.base import Preset
+from kineme.methods.presets import DEFAULT, resolve_preset
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.methods.recurrence.analysis import ActionAnalysis
-    from kineme.methods.region_growing.analysis import Analysis
+    from kineme.methods.base import Found
     from kineme.recordings.motion import Motion
     from kineme.recordings.signals import Signals
     from kineme.segments.segmentation import Segmentation
@@ -72,23 +72,18 @@ class Request:
             raise ReadError(path, "holds signals without a skeleton, where a motion is needed")
         return read(path, **self.reading)
 
-    def segment(
-        self, recording: Motion | Signals, stage: Stage
-    ) -> tuple[Segmentation, Analysis | ActionAnalysis]:
+    def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
         """The segments, and what was found on the way to them."""
-        from kineme.recordings.motion import Motion
+        from kineme.segmentation.segmenter import segment_and_found
 
-        if isinstance(recording, Motion):
-            from kineme.segmentation.segmenter import segment_and_analysis
-
-            return segment_and_analysis(
-                recording, self.preset, effectors=self.effectors, progress=stage
-            )
-        from kineme.segmentation.channels import signal_preset
-        from kineme.segmentation.signals import segment_signals_and_analysis
-
-        chosen = signal_preset(self.preset.name, **self.overrides)
-        return segment_signals_and_analysis(recording, chosen, emg=self.signals.emg, progress=stage)
+        return segment_and_found(
+            recording,
+            preset=self.preset.name,
+            effectors=self.effectors,
+            emg=self.signals.emg,
+            progress=stage,
+            **self.overrides,
+        )
 
     def segments(
         self, recording: Motion | Signals, table: Path | None, stage: Stage

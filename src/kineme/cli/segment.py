@@ -17,8 +17,7 @@ from kineme.methods.presets import DEFAULT, PRESETS
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
-    from kineme.methods.recurrence.analysis import ActionAnalysis
-    from kineme.methods.region_growing.analysis import Analysis
+    from kineme.methods.base import Found
     from kineme.segments.segmentation import Segmentation
 
 
@@ -84,7 +83,7 @@ def segment(
 
 def write_results(
     result: Segmentation,
-    analysis: Analysis | ActionAnalysis,
+    analysis: Found,
     table: Path | None,
     picture: Path | None,
 ) -> None:

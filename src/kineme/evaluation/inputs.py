@@ -111,8 +111,8 @@ def score(truth: Annotation, found: Found, motion: Motion | None = None) -> dict
     """
     data: dict[str, Any] = {}
     if motion is not None:
-        from kineme.methods.presets import VOEGELE2014
-        from kineme.segmentation.segmenter import motion_features
+        from kineme.methods.region_growing.preset import VOEGELE2014
+        from kineme.segmentation.bodies import motion_features
 
         preset = VOEGELE2014.replace(working_fps=truth.fps)
         data["positions"] = resample(motion, truth.fps).positions

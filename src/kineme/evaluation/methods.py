@@ -16,8 +16,9 @@ from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.evaluation.labelling import TRANSITION
 from kineme.evaluation.trials import Floats, Trial
+from kineme.methods.base import Preset
 from kineme.methods.baselines import Pieces
-from kineme.methods.presets import PRESETS, Preset
+from kineme.methods.presets import PRESETS
 from kineme.segments.segmentation import Segmentation
 
 Method = Callable[[Trial], Segmentation]
@@ -113,13 +114,13 @@ def _uniform(trial: Trial) -> Pieces:
 
 
 def _log_maps(trial: Trial) -> Floats:
-    from kineme.methods.baselines.joints import joint_quaternions, log_maps
+    from kineme.features.rotations import joint_quaternions, log_maps
 
     return log_maps(joint_quaternions(trial.motion))
 
 
 def _quaternions(trial: Trial) -> Floats:
-    from kineme.methods.baselines.joints import joint_quaternions
+    from kineme.features.rotations import joint_quaternions
 
     return joint_quaternions(trial.motion).reshape(trial.motion.n_frames, -1)
 

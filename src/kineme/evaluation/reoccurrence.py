@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from kineme.errors import KinemeError
 from kineme.graph import NeighborGraph, neighbor_graph
-from kineme.methods.presets import VOEGELE2014
+from kineme.methods.region_growing.preset import VOEGELE2014
 from kineme.recordings.motion import Motion
-from kineme.segmentation.segmenter import motion_features
+from kineme.segmentation.bodies import motion_features
 
 MIN_LENGTH_S = 8.0
 SLOT_S = 10.0

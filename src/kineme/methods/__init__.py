@@ -1,1 +1,26 @@
-"""Segmentation methods on plain arrays (samples × dims), one folder each, and their presets."""
+"""Segmentation methods on plain arrays (samples × dims), one folder each.
+
+=================== ========================================================
+``recurrence``      ``kineme``, the default
+``region_growing``  the published methods of 2014 and 2017
+``baselines``       what results are compared with: ACA, HACA, PCA, GMM, ...
+=================== ========================================================
+
+A method is used by a preset: its constants with values, and a name.
+`kineme.methods.base` says what a preset and what it finds are made of.
+"""
+
+from kineme.methods.base import Found, Preset
+from kineme.methods.constants import Constant, constant
+from kineme.methods.presets import DEFAULT, PRESETS, register, resolve_preset
+
+__all__ = [
+    "DEFAULT",
+    "PRESETS",
+    "Constant",
+    "Found",
+    "Preset",
+    "constant",
+    "register",
+    "resolve_preset",
+]

@@ -1,80 +1,184 @@
-"""What every preset has, and how its constants are checked and changed."""
+"""What every method shares: `Preset`, the constants of a method, and `Found`, what it finds.
+
+A method is a folder of this room: a class of presets with the function
+``analyze(features, ...)``, which gives a `Found`, and one or more presets with
+values. From there on nothing needs to know which method it was.
+
+A third party's method is a class of presets of its own, and an object of it
+registered by `kineme.methods.register`, or named in its package as an entry
+point of the group ``kineme.presets``.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, fields, replace
-from typing import Any, Literal, Self
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self
 
-from kineme._checks import is_number
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from kineme.errors import ParameterError
+from kineme.methods.constants import (
+    SOME_TIME,
+    TIME,
+    Constant,
+    Limits,
+    check,
+    constant,
+    constants_of,
+)
 
-Unit = Literal["metres", "sizes", "standard deviations"]
+if TYPE_CHECKING:
+    from kineme.graph import NeighborGraph
+    from kineme.methods.stages import Progress
+
+Columns = dict[str, NDArray[Any]]
+Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+View = Literal["poses", "quaternions", "rotation vectors"]
+Unit = Literal["body sizes", "metres", "standard deviations", "any"]
+
+RATE = Limits(0.1, 1000.0)
+"""Hertz: of anything that moves."""
+
+
+class Found(Protocol):
+    """What a method found, in samples of its working rate.
+
+    Its own stages are further attributes of the class that a method gives;
+    what is here each of them has.
+    """
+
+    @property
+    def timings(self) -> dict[str, float]:
+        """Seconds per stage."""
+
+    @property
+    def graph(self) -> NeighborGraph:
+        """Neighbours of every sample, for pictures."""
+
+    def columns(self) -> Columns:
+        """Columns of a segment table: ``level``, ``kind``, ``start_frame``, ``stop_frame``.
+
+        Frames count samples. ``cluster`` and ``score`` go with them.
+        """
+
+    def doubts(self, columns: Columns, fps: float) -> list[str]:
+        """A sentence for each segment that the method is not sure of.
+
+        Parameters
+        ----------
+        columns : dict of str to array
+            Those of `columns`, in frames of the recording.
+        fps : float
+            Of the recording.
+        """
 
 
 @dataclass(frozen=True, kw_only=True)
-class Preset:
-    """What every preset has.
+class Preset(ABC):
+    """Named constants of a method, and the method itself.
 
-    Parameters
+    Attributes
     ----------
     name : str
-    unit : what the lengths are in: ``metres``, ``standard deviations`` of channels, or ``sizes``
-        of what is recorded, the body's or, of signals, five times the distance at which they recur
-    working_fps : frames per second at which the recording is looked at
-    offsets : seconds of the neighbouring frames stacked into one search vector
-    max_lag : look for likeness no farther away than this, seconds; None for everywhere
+        By which people choose it.
+    help : str
+        What it is for, in a sentence.
     """
 
+    method: ClassVar[str]
+    """The name of the method."""
+    view: ClassVar[View] = "poses"
+    """What it sees of a body: where five points are, or how joints are turned."""
+
+    signal_defaults: ClassVar[Mapping[str, Any]] = {}
+    """Constants with other values for signals, where the preset is given by name."""
+
     name: str
-    unit: Unit = "metres"
-    working_fps: float = 30.0
-    offsets: tuple[float, ...]
-    max_lag: float | None = None
+    help: str
+    unit: Unit
+    """What its lengths are in."""
+    working_fps: float = constant(
+        "samples per second at which the recording is looked at",
+        unit="Hz",
+        limits=RATE,
+        default=30.0,
+    )
+    offsets: tuple[float, ...] = constant(
+        "neighbouring samples that are stacked into one feature", unit="s",
+        limits=Limits(-60.0, 60.0), default=(0.0,),
+    )  # fmt: skip
+    max_lag: float | None = constant(
+        "look for similarity no farther away than this; none for everywhere", unit="s",
+        limits=SOME_TIME, default=None,
+    )  # fmt: skip
+    smoothing: float = constant(
+        "channels of signals are averaged over this", unit="s", limits=TIME, default=0.1
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    @abstractmethod
+    def analyze(
+        self,
+        features: ArrayLike,
+        *,
+        mirror: Mirror | None = None,
+        progress: Progress | None = None,
+    ) -> Found:
+        """What the method finds in features (samples, dims) at the working rate.
+
+        Parameters
+        ----------
+        features : (samples, dims) array
+            In the unit of the preset.
+        mirror : callable, optional
+            Exchanges left and right in such features.
+        progress : callable, optional
+            Called with the name of each stage before it runs.
+        """
+
+    def for_signals(self) -> Self:
+        """The preset with its lengths in what channels are measured in; once is enough."""
+        return self
+
+    def signal_unit(self, features: NDArray[np.float64]) -> float:  # noqa: ARG002
+        """How many standard deviations one unit of length is in these features."""
+        return 1.0
 
     def frames(self, seconds: float) -> int:
-        """Seconds in whole frames of the working rate."""
+        """Seconds in whole samples of the working rate."""
         return round(seconds * self.working_fps)
 
-    @classmethod
-    def constants(cls) -> tuple[str, ...]:
-        """The names of the constants: all fields but the name and the unit."""
-        return tuple(field.name for field in fields(cls) if field.name not in ("name", "unit"))
+    def constants(self) -> tuple[Constant, ...]:
+        """Each constant with its meaning, unit, value and limits."""
+        return constants_of(self)
+
+    def parameters(self) -> Mapping[str, Any]:
+        """The value of each constant by name, for the provenance."""
+        return {known.name: known.value for known in self.constants()}
 
     def replace(self, **overrides: Any) -> Self:
         """The same preset with some constants changed.
 
         Raises
         ------
-        ParameterError : a constant that does not exist, or a value it cannot take
+        ParameterError
+            A constant that does not exist, or a value it cannot take.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> kineme.PRESETS["kineme"].replace(min_action=2.0).min_action
+        2.0
         """
-        known = self.constants()
+        known = [each.name for each in self.constants()]
         for name in overrides:
             if name not in known:
                 raise ParameterError(
-                    f"{self.name} has no parameter {name!r}; there are {', '.join(known)}"
+                    f"{self.name} has no parameter {name!r:.60}; there are {', '.join(known)}"
                 )
         return replace(self, **overrides)
-
-    def _check(self, positive: Iterable[str], not_negative: Iterable[str]) -> None:
-        if not _are_numbers(self.offsets):
-            raise ParameterError(f"offsets must be seconds, at least one, not {self.offsets!r:.60}")
-        optional = [field.name for field in fields(self) if "None" in str(field.type)]
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if field.type == "bool" and not isinstance(value, bool):
-                raise ParameterError(f"{field.name} is on or off, True or False, not {value!r:.60}")
-        for name in positive:
-            value = getattr(self, name)
-            if value is None and name in optional:
-                continue
-            if not (is_number(value) and value > 0):
-                raise ParameterError(f"{name} must be a positive number, not {value!r}")
-        for name in not_negative:
-            value = getattr(self, name)
-            if not (is_number(value) and value >= 0):
-                raise ParameterError(f"{name} must be a number from 0, not {value!r}")
-
-
-def _are_numbers(values: object) -> bool:
-    return isinstance(values, tuple | list) and bool(values) and all(map(is_number, values))

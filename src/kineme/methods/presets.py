@@ -1,75 +1,128 @@
-"""Presets: every constant of each way to segment, in seconds and metres.
+"""The presets there are: ours, and those that other packages register.
 
 ``kineme`` is the default; ``voegele2014`` and ``krueger2017`` are the published
-methods. Seconds become frames of the working rate in one place,
-``Preset.frames``.
+methods; the others are what results are compared with.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
-from dataclasses import is_dataclass
+from collections.abc import Iterator, Mapping
+from functools import cache
+from types import MappingProxyType
 from typing import Any
 
-from kineme._checks import check_type
+from kineme._plugins import plugins
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
-from kineme.methods.recurrence.preset import KINEME, ActionPreset
-from kineme.methods.region_growing.preset import (
-    BASIC_STEPS,
-    KRUEGER2017,
-    VOEGELE2014,
-    RegionPreset,
-    Step,
-)
+from kineme.methods.baselines.presets import BASELINES
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 
-__all__ = [
-    "BASIC_STEPS",
-    "DEFAULT",
-    "KINEME",
-    "KRUEGER2017",
-    "PRESETS",
-    "PUBLISHED",
-    "VOEGELE2014",
-    "ActionPreset",
-    "Preset",
-    "RegionPreset",
-    "Step",
-    "constant_help",
-    "resolve_preset",
-]
-
-PUBLISHED: Mapping[str, RegionPreset] = {p.name: p for p in (VOEGELE2014, KRUEGER2017)}
-PRESETS: Mapping[str, Preset] = {KINEME.name: KINEME, **PUBLISHED}
+GROUP = "kineme.presets"
+"""The entry points by which other packages name theirs."""
 DEFAULT = KINEME.name
 
+PUBLISHED: Mapping[str, RegionGrowingPreset] = MappingProxyType(
+    {preset.name: preset for preset in (VOEGELE2014, KRUEGER2017)}
+)
+_known: dict[str, Preset] = {
+    preset.name: preset for preset in (KINEME, *PUBLISHED.values(), *BASELINES)
+}
 
-def resolve_preset(preset: str | Preset, **overrides: Any) -> Preset:
-    """A preset by name or as it is, with some constants changed.
+
+def register(preset: Preset) -> None:
+    """Make a preset known by its name: to `kineme.segment`, the command line and the studio.
+
+    Parameters
+    ----------
+    preset : Preset
+        In place of one of that name that was known before.
 
     Raises
     ------
-    ParameterError : no preset has that name, or an override does not fit
+    ParameterError
+        Something else than a preset.
+    """
+    if not isinstance(preset, Preset):
+        raise ParameterError(f"register takes a preset, not {type(preset).__name__}")
+    _known[preset.name] = preset
+
+
+class _Presets(Mapping[str, Preset]):
+    """The presets by name, the default first; those of other packages are looked up when used."""
+
+    def __getitem__(self, name: str) -> Preset:
+        _look_up()
+        return _known[name]
+
+    def __iter__(self) -> Iterator[str]:
+        _look_up()
+        return iter(_known)
+
+    def __len__(self) -> int:
+        _look_up()
+        return len(_known)
+
+    def __repr__(self) -> str:
+        return f"<presets {', '.join(self)}>"
+
+
+PRESETS: Mapping[str, Preset] = _Presets()
+
+
+def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: Any) -> Preset:
+    """A preset by name or as it is, with some constants changed.
+
+    Parameters
+    ----------
+    preset : str or Preset
+        By name it takes its own defaults for signals.
+    signals : bool
+        Whether it is for channels: its lengths become standard deviations of them, and so
+        those in `overrides` are taken.
+    **overrides
+        Constants to change.
+
+    Returns
+    -------
+    Preset
+
+    Raises
+    ------
+    ParameterError
+        No preset has that name, or an override does not fit.
+
+    Examples
+    --------
+    >>> from kineme.methods import resolve_preset
+    >>> resolve_preset("kineme", min_action=2.0).min_action
+    2.0
     """
     if isinstance(preset, str):
         if preset not in PRESETS:
-            raise ParameterError(f"no preset {preset!r}; there are {', '.join(PRESETS)}")
-        preset = PRESETS[preset]
-    check_type(preset, Preset, "preset", f"give one, or the name of one: {', '.join(PRESETS)}")
+            raise ParameterError(f"no preset {preset!r:.60}; there are {', '.join(PRESETS)}")
+        chosen = PRESETS[preset]
+        if signals:
+            chosen = chosen.replace(**chosen.signal_defaults)
+    elif isinstance(preset, Preset):
+        chosen = preset
+    else:
+        raise ParameterError(
+            f"a preset is a name or a Preset, not {type(preset).__name__}: "
+            f"there are {', '.join(PRESETS)}"
+        )
     for name in overrides:
         others = [other for other, known in PRESETS.items() if hasattr(known, name)]
-        if others and not hasattr(preset, name):
+        if others and not hasattr(chosen, name):
             raise ParameterError(
-                f"{preset.name} has no parameter {name!r}: it is one of {' and '.join(others)}, "
+                f"{chosen.name} has no parameter {name!r}: it is one of {' and '.join(others)}, "
                 f"so choose another preset or leave it out"
             )
-    return preset.replace(**overrides)
+    return (chosen.for_signals() if signals else chosen).replace(**overrides)
 
 
-def constant_help() -> dict[str, str]:
-    """What the docstrings of the presets say of each constant."""
-    kinds = (ActionPreset, RegionPreset)
-    texts = [base.__doc__ or "" for kind in kinds for base in kind.__mro__ if is_dataclass(base)]
-    entries = re.findall(r"^    (\w+) : (.+(?:\n        .+)*)", "\n".join(texts), re.MULTILINE)
-    return {name: " ".join(text.replace("``", "").split()) for name, text in entries}
+@cache
+def _look_up() -> None:
+    """Register what installed packages name as theirs, once."""
+    for preset in plugins(GROUP):
+        register(preset)

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from kineme._checks import check_type
 from kineme._colors import NO_CLUSTER, cluster_color
-from kineme.segmentation.parts import in_time
+from kineme.segmentation.spans import in_time
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 

@@ -1,74 +1,106 @@
-"""Channels made comparable: the working rate, standard deviations, search vectors.
+"""What a method sees of channels: the working rate, standard deviations, stacked features.
 
 What a channel measures, and in which unit, plays no part: each is divided by
-its standard deviation. Distances of search vectors are divided by
+its standard deviation. Distances of features are divided by
 √(window · channels), so that a radius R means the same whatever the number of
 channels: the generalised radius r = R √(window · channels) of Krüger et al. 2017.
 
-The published methods' lengths are metres of a body. A pose channel of a body
-varies by about 13 cm (the mean over subject 86 of the CMU database), so that a
-radius of 19 cm over 15 channels, 4.9 cm for each, becomes 0.38 standard
-deviations. The method ``kineme`` takes its unit from the recording itself: the
-distance at which its moments recur, of which noise and irregularity are part.
+The published methods' lengths, metres of a body, become standard deviations
+(see their presets). The method ``kineme`` takes its unit from the recording
+itself: the distance at which its samples recur, of which noise and irregularity
+are part.
 """
 
 from __future__ import annotations
-
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import check_rates
 from kineme.features import offsets_in_frames, stack
-from kineme.methods.presets import ActionPreset, Preset, RegionPreset, resolve_preset
+from kineme.features.emg import emg_envelope
+from kineme.methods.base import Preset
 from kineme.recordings.signals import Signals
-from kineme.segmentation.parts import Part
+from kineme.segmentation.spans import SeenSpan
+from kineme.segmentation.views import View
 
 Floats = NDArray[np.float64]
 
-SMOOTHING = 0.1
-"""Seconds over which channels are averaged; ``kineme`` compares moments so far apart."""
-
-POSE_CHANNELS, POSE_DEVIATION = 15, 0.13
-"""Numbers in a pose, and the metres by which each of them varies."""
-
-RECURS_AT = 0.2
-"""The distance, in the unit of ``kineme``'s scales, at which the median moment recurs: a
-quarter beyond the largest scale, so that about half of the moments count as recurring well."""
-
-NEAREST = 0.02
-"""Standard deviations: what recurs nearer than this recurs exactly, as in made-up signals."""
-
-DEFAULTS: Mapping[str, Mapping[str, Any]] = {"kineme": {"any_pace": False}}
-"""Constants that presets given by name have for signals. Few channels at one moment tell little,
-so pace counts: what is the same at another is another action, as running is to a sensor that walks.
-"""
-
-_LENGTHS = ("radius", "growth_radius", "zero_cost")
-_TINY, _HUGE = 1e-9, 1e9
+# Names of channels in a note.
+NAMED = 8
 
 
-def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float = SMOOTHING) -> Floats:
+def view_of_signals(
+    signals: Signals,
+    preset: Preset,
+    *,
+    emg: bool = False,
+    standardize: bool = True,
+    unit: float | None = None,
+) -> View:
+    """The features of signals between their gaps, at the working rate of the preset.
+
+    Parameters
+    ----------
+    signals : Signals
+    preset : Preset
+        For signals, see :func:`kineme.methods.resolve_preset`.
+    emg : bool
+        Take the envelopes of muscle signals first.
+    standardize : bool
+        Divide each channel by its standard deviation.
+    unit : float, optional
+        What one unit of the preset's lengths is in these channels; by default the preset
+        finds out.
+    """
+    values = emg_envelope(signals.values, signals.fps) if emg else signals.values
+    rows, seen = [], []
+    for start, stop in signals.stretches():
+        row = at_rate(
+            values[start:stop], signals.fps, preset.working_fps, smoothing=preset.smoothing
+        )
+        rows.append(row)
+        seen.append(SeenSpan(start, stop, len(row)))
+    features = _stacked(rows, preset, standardize=standardize)
+    notes = _notes(signals, values, emg=emg, standardize=standardize)
+    if unit is None:
+        unit = preset.signal_unit(features)
+    named = "standard deviations" if standardize else "units of the channels"
+    if unit != 1:
+        features = features / unit
+        notes.append(f"lengths are in units of {unit:.3g} {named}")
+    elif preset.unit != "any":
+        notes.append(f"lengths are in {named}")
+    ends = np.cumsum([span.n_samples for span in seen])[:-1]
+    return View(np.split(features, ends), seen, notes)
+
+
+def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
     """The channels at the times 0, 1/new, 2/new, … up to their last frame.
 
-    Each value is the mean over ``smoothing`` seconds around its time, over a
+    Each value is the mean over `smoothing` seconds around its time, over a
     frame of the old or new rate where that is longer: nothing folds back from
     above the new rate, and a lower rate is interpolated in a line. At the ends
     the mean is over what is there.
 
     Parameters
     ----------
-    values : (frames, channels)
-    fps : their rate
-    new : the rate wanted
-    smoothing : seconds
+    values : (frames, channels) array
+    fps : float
+        Their rate.
+    new : float
+        The rate wanted.
+    smoothing : float
+        Seconds.
+
+    Returns
+    -------
+    (samples, channels) array
 
     Raises
     ------
-    ParameterError : the rate wanted is beyond all measure
+    ParameterError
+        The rate wanted is beyond all measure.
     """
     check_rates(fps, new)
     held = np.asarray(values, np.float64)
@@ -95,67 +127,27 @@ def standardized(values: ArrayLike) -> Floats:
     return scaled
 
 
-def search_vectors(
-    signals: Signals, preset: Preset, *, smoothing: float = SMOOTHING
-) -> tuple[Floats, list[Part]]:
-    """Search vectors (frames, dims) at the working rate, and the stretches they are of.
-
-    Their distances are root mean squares over window and channels, in standard deviations.
-    """
-    working = preset.working_fps
-    parts, rows = [], []
-    for start, stop in signals.stretches():
-        row = at_rate(signals.values[start:stop], signals.fps, working, smoothing=smoothing)
-        rows.append(row)
-        parts.append(Part(start, stop, len(row)))
-    scaled = standardized(np.concatenate(rows))
-    ends = np.cumsum([part.n_working for part in parts])[:-1]
-    offsets = offsets_in_frames(preset.offsets, working)
-    stacked = np.concatenate([stack(part, offsets) for part in np.split(scaled, ends)])
-    return stacked / np.sqrt(stacked.shape[1]), parts
+def _stacked(rows: list[Floats], preset: Preset, *, standardize: bool) -> Floats:
+    """Features of all spans; their distances are root mean squares over window and channels."""
+    ends = np.cumsum([len(row) for row in rows])[:-1]
+    whole = np.concatenate(rows)
+    scaled = standardized(whole) if standardize else whole
+    offsets = offsets_in_frames(preset.offsets, preset.working_fps)
+    stacked = np.concatenate([stack(row, offsets) for row in np.split(scaled, ends)])
+    return np.asarray(stacked / np.sqrt(stacked.shape[1]), np.float64)
 
 
-def signal_preset(preset: str | Preset, **overrides: Any) -> Preset:
-    """The preset with its lengths as standard deviations; overrides are taken as such.
-
-    Metres become standard deviations once: what comes out can be passed on to
-    `segment_signals` and `Segmenter` as it is. A preset given by name starts from
-    `DEFAULTS`, one given as an object keeps what it says.
-
-    Raises
-    ------
-    ParameterError : no such preset or constant, or a value it cannot take
-    """
-    if isinstance(preset, str):
-        overrides = {**DEFAULTS.get(preset, {}), **overrides}
-    chosen = resolve_preset(preset)
-    if isinstance(chosen, RegionPreset) and chosen.unit == "metres":
-        per_channel = np.sqrt(POSE_CHANNELS * len(chosen.offsets)) * POSE_DEVIATION
-        lengths = {name: getattr(chosen, name) for name in _LENGTHS}
-        scaled = {name: v / per_channel for name, v in lengths.items() if v is not None}
-        chosen = replace(chosen, unit="standard deviations", **scaled)
-    return resolve_preset(chosen, **overrides)
-
-
-def recurrence_unit(features: Floats, preset: ActionPreset) -> float:
-    """The length in which the median moment of the recording recurs at `RECURS_AT`.
-
-    1 where nothing is long enough to recur.
-    """
-    from kineme.methods.recurrence.recurrence import recurrence  # compiled code, loaded where used
-
-    scales = recurrence(
-        features,
-        step=preset.step,
-        width=max(1, preset.moments(preset.window)),
-        phase=preset.moments(preset.phase),
-        rank=preset.moments(preset.recurrence_time),
-        low=_TINY,
-        high=_HUGE,
-        softness=preset.softness,
-    ).scales
-    known = scales[scales < _HUGE / 2]
-    return max(float(np.median(known)), NEAREST) / RECURS_AT if len(known) else 1.0
+def _notes(signals: Signals, values: Floats, *, emg: bool, standardize: bool) -> list[str]:
+    shown = ", ".join(signals.names[:NAMED]) + (", …" if signals.n_channels > NAMED else "")
+    scaled = "each divided by its standard deviation" if standardize else "as they are"
+    notes = [f"channels: {shown}, {scaled}"]
+    steady = values.min(axis=0) == values.max(axis=0)
+    if steady.any() and standardize:
+        names = [name for name, still in zip(signals.names, steady, strict=True) if still]
+        notes.append(f"never change and carry no weight: {', '.join(names)}")
+    if emg:
+        notes.append("muscle signals: rectified and low-passed")
+    return notes
 
 
 def _at(sums: Floats, at: Floats) -> Floats:

@@ -1,6 +1,6 @@
 """Segmenter: segmentation by scikit-learn's rules, for arrays, data frames and grid searches.
 
-Rows are moments in time order, columns channels. Unlike the clusterers of
+Rows are samples in time order, columns channels. Unlike the clusterers of
 scikit-learn, this one depends on that order: rows that are shuffled are another
 recording.
 """
@@ -13,10 +13,10 @@ import numpy as np
 from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.utils.validation import validate_data
 
-from kineme.methods.presets import DEFAULT, Preset
+from kineme.methods.base import Preset
+from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.recordings.signals import Signals
-from kineme.segmentation.channels import SMOOTHING, signal_preset
-from kineme.segmentation.signals import segment_signals_and_analysis
+from kineme.segmentation.segmenter import segment
 
 
 class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
@@ -24,24 +24,42 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
 
     Parameters
     ----------
-    preset : ``kineme``, ``voegele2014`` or ``krueger2017``
-    fps : rows per second; by default rows are frames of the preset's working rate, 30 Hz
-    smoothing : seconds over which channels are averaged; 0 for none
-    emg : take the envelopes of muscle signals first
-    **constants : of the preset, to change, as in `kineme.segment_signals`; they are
-        parameters like the others for ``get_params``, ``set_params`` and grid searches
+    preset : str or Preset
+        ``kineme``, or another of `kineme.PRESETS`.
+    fps : float, optional
+        Rows per second; by default rows are samples of the preset's working rate, 30 Hz.
+    standardize : bool
+        Divide each column by its standard deviation; not for an embedding.
+    unit : float, optional
+        The length in the columns that counts as one unit of the preset's lengths; by default
+        the preset finds it in the rows.
+    emg : bool
+        Take the envelopes of muscle signals first.
+    **constants
+        Of the preset, to change, as in `kineme.segment`; they are parameters like the others
+        for ``get_params``, ``set_params`` and grid searches.
 
     Attributes
     ----------
-    labels_ : (rows,) cluster of the repetition that each row is in, -1 in transitions
-    segmentation_ : `Segmentation`, activities and repetitions in rows and seconds
+    labels_ : (rows,) array of int
+        Cluster of the repetition that each row is in, -1 in transitions.
+    segmentation_ : Segmentation
+        Activities and repetitions in rows and seconds.
     n_features_in_ : int
-    feature_names_in_ : (columns,) where X had names
+    feature_names_in_ : (columns,) array
+        Where X had names.
 
     Raises
     ------
-    ParameterError : in ``fit``: a constant that the preset does not have, or a value it
-        cannot take
+    ParameterError
+        In ``fit``: a constant that the preset does not have, or a value it cannot take.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> angle = np.linspace(0, 16 * np.pi, 480)
+    >>> Segmenter().fit_predict(np.column_stack([np.sin(angle), np.cos(angle)]))[:5]
+    array([0, 0, 0, 0, 0])
     """
 
     labels_: np.ndarray[tuple[int], np.dtype[np.int64]]
@@ -51,28 +69,30 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         preset: str | Preset = DEFAULT,
         *,
         fps: float | None = None,
-        smoothing: float = SMOOTHING,
+        standardize: bool = True,
+        unit: float | None = None,
         emg: bool = False,
         **constants: Any,
     ):
         self.preset = preset
         self.fps = fps
-        self.smoothing = smoothing
+        self.standardize = standardize
+        self.unit = unit
         self.emg = emg
         self._constants = constants
 
     def fit(self, X: Any, y: Any = None) -> Self:  # noqa: ARG002, N803 (scikit-learn's names)
         """Segment the rows of X, (frames, channels); y is there for scikit-learn alone."""
         values = validate_data(self, X, dtype=np.float64)
-        preset = signal_preset(self.preset, **self._constants)
+        preset = resolve_preset(self.preset, signals=True, **self._constants)
         names = getattr(self, "feature_names_in_", ())
         fps = preset.working_fps if self.fps is None else self.fps
         signals = Signals(values, fps, tuple(map(str, names)))
         if self.fps is None:
             note = f"frame rate {preset.working_fps:g} Hz assumed: no fps was given"
             signals = signals.noted(note)
-        result, _ = segment_signals_and_analysis(
-            signals, preset, emg=self.emg, smoothing=self.smoothing
+        result = segment(
+            signals, preset=preset, emg=self.emg, standardize=self.standardize, unit=self.unit
         )
         self.segmentation_ = result
         self.labels_ = result.per_frame("cluster")

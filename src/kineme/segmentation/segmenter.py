@@ -1,193 +1,261 @@
-"""From a motion to its segments, in one call."""
+"""From a recording to its segments, in one call: features, a method, and back to its frames.
+
+Methods count samples of their working rate, results frames of the recording;
+they meet here.
+"""
 
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
-from kineme._checks import check_type
-from kineme.errors import EndEffectorError, MotionError, ParameterError
-from kineme.features import (
-    EndEffectors,
-    body_size,
-    distance_features,
-    end_effectors,
-    mirror_features,
-    offsets_in_frames,
-    pose_features,
-    stack,
-)
-from kineme.features.distances import SIZE
+from kineme._checks import as_features
+from kineme._version import __version__
+from kineme.errors import ParameterError
 from kineme.features.effectors import Names
-from kineme.methods.presets import (
-    DEFAULT,
-    ActionPreset,
-    Preset,
-    RegionPreset,
-    resolve_preset,
-)
+from kineme.methods.base import Found, Mirror, Preset
+from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.methods.stages import Progress
 from kineme.recordings.motion import Motion
-from kineme.recordings.operations import resample, split_at_gaps
-from kineme.segmentation.from_features import segment_features
-from kineme.segmentation.parts import Part
+from kineme.recordings.signals import Signals
+from kineme.segmentation.bodies import view_of_motion
+from kineme.segmentation.channels import view_of_signals
+from kineme.segmentation.spans import gaps_between, in_frames
+from kineme.segmentation.views import View
 from kineme.segments.segmentation import Segmentation
-
-if TYPE_CHECKING:
-    from kineme.methods.recurrence.analysis import ActionAnalysis
-    from kineme.methods.region_growing.analysis import Analysis
-
-Floats = NDArray[np.float64]
 
 
 def segment(
-    motion: Motion,
+    recording: Motion | Signals,
     *,
     preset: str | Preset = DEFAULT,
     effectors: Names | None = None,
+    emg: bool = False,
+    features: ArrayLike | None = None,
+    feature_fps: float | None = None,
+    unit: float | None = None,
+    standardize: bool | None = None,
     progress: Progress | None = None,
-    **overrides: Any,
+    **constants: Any,
 ) -> Segmentation:
-    """Activities, transitions and primitives of a motion, as one table.
+    """Activities, transitions and primitives of a recording, as one table.
 
-    Frames and seconds are those of the motion given, whatever the rate at
-    which the preset looks at it. A gap of the motion is a transition; what lies
-    around it is analysed together.
+    Frames and seconds are those of the recording given, whatever the rate at
+    which the preset looks at it. A gap of the recording is a transition; what
+    lies around it is analysed together.
 
     Parameters
     ----------
-    motion : Motion
+    recording : Motion or Signals
         At least one frame. What is too short or never repeats is one segment.
     preset : str or Preset
-        ``kineme``, ``voegele2014`` or ``krueger2017``; see
-        :mod:`kineme.methods.presets`.
-    effectors : joints to take for head, hands and feet where names do not tell. Where these are
-        not found either, the distances between points are looked at instead of a body
-    progress : called with the name of each stage before it runs
-    **overrides : constants of the preset to change, such as ``radius=0.5``
+        ``kineme``, or another of `kineme.PRESETS`.
+    effectors : joints, optional
+        Of a motion, to take for head, hands and feet where names do not tell. Where these are
+        not found either, the distances between points are looked at instead of a body.
+    emg : bool
+        Of signals: take the envelopes of muscle signals, see `kineme.features.emg_envelope`.
+    features : (rows, dims) array, optional
+        To look at in place of the recording's own, such as an embedding of each frame.
+    feature_fps : float, optional
+        Rows of `features` per second; that of the recording by default.
+    unit : float, optional
+        The length in signals or features that counts as one unit of the preset's lengths; by
+        default the preset finds it in the recording.
+    standardize : bool, optional
+        Whether each channel is divided by its standard deviation: those of signals are by
+        default, features are not.
+    progress : callable, optional
+        Called with the name of each stage before it runs.
+    **constants
+        Constants of the preset to change, such as ``min_action=2.0``.
+
+    Returns
+    -------
+    Segmentation
 
     Raises
     ------
-    MotionError : the joints named are not those of a body, or there is a single point
-    ParameterError : no such preset or constant, a value it cannot take, a preset for signals, no
-        motion, or mirroring where nothing tells left from right
+    MotionError
+        The joints named are not those of a body, or there is a single point.
+    ParameterError
+        No such preset or constant, a value it cannot take, no recording, or mirroring where
+        nothing tells left from right.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> kineme.segment(motion).repetitions()
+    {0: 8, 1: 5, 2: 4, 3: 6, 4: 4, 5: 5}
     """
-    chosen = resolve_preset(preset, **overrides)
-    return segment_and_analysis(motion, chosen, effectors=effectors, progress=progress)[0]
+    return segment_and_found(
+        recording,
+        preset=preset,
+        effectors=effectors,
+        emg=emg,
+        features=features,
+        feature_fps=feature_fps,
+        unit=unit,
+        standardize=standardize,
+        progress=progress,
+        **constants,
+    )[0]
 
 
-def segment_and_analysis(
-    motion: Motion,
-    preset: str | Preset = DEFAULT,
+def segment_and_found(
+    recording: Motion | Signals,
     *,
+    preset: str | Preset = DEFAULT,
     effectors: Names | None = None,
+    emg: bool = False,
+    features: ArrayLike | None = None,
+    feature_fps: float | None = None,
+    unit: float | None = None,
+    standardize: bool | None = None,
     progress: Progress | None = None,
-) -> tuple[Segmentation, Analysis | ActionAnalysis]:
-    """The segments, and what each stage found on the way to them (for pictures).
+    **constants: Any,
+) -> tuple[Segmentation, Found]:
+    """The segments, and what the method found on the way to them (for pictures).
 
-    Parameters and errors are those of `segment`; constants are changed by ``Preset.replace``.
+    Parameters are those of `segment`.
+
+    Returns
+    -------
+    segmentation : Segmentation
+    found : Found
     """
-    advice = "kineme.read(path) gives one; channels go to segment_signals, arrays to Segmenter"
-    check_type(motion, Motion, "segment", advice)
-    preset = resolve_preset(preset)
-    if preset.unit == "standard deviations":
+    start = time.perf_counter()
+    if not isinstance(recording, Motion | Signals):
         raise ParameterError(
-            f"the lengths of this {preset.name} are in standard deviations of signals: "
-            f"give motions one in metres"
+            f"segment takes a Motion or Signals, not {type(recording).__name__}: "
+            f"kineme.read(path) gives one; arrays go to Segmenter"
         )
     if progress is not None:
         progress("features")
-    start = time.perf_counter()
-    seen = _seen(motion, preset, effectors)
-    seconds = time.perf_counter() - start
-    source = motion.provenance
-    return segment_features(
-        np.concatenate(seen.features),
-        preset,
-        n_frames=motion.n_frames,
-        fps=motion.fps,
-        parts=seen.parts,
-        mirror=mirror_features,
-        source={"path": source.path, "format": source.format, "sha256": source.sha256},
-        notes=[*source.notes, *seen.notes],
-        timings={"features": seconds},
-        progress=progress,
-    )
-
-
-def motion_features(
-    motion: Motion, preset: Preset, *, effectors: EndEffectors | None = None
-) -> Floats:
-    """Search vectors (frames, dims) of a motion at the preset's working rate.
-
-    In metres for the published methods; for ``kineme`` in body sizes, over the
-    root of the number of stacked poses, so that distances do not depend on
-    either.
-    """
-    effectors = effectors or end_effectors(motion)
-    size = body_size(motion, effectors) if isinstance(preset, ActionPreset) else 1.0
-    pose = pose_features(resample(motion, preset.working_fps), effectors=effectors)
-    return _search_vectors(pose, preset, size)
-
-
-@dataclass(frozen=True)
-class _Seen:
-    """Search vectors of the stretches between a motion's gaps, and what to know of them."""
-
-    features: list[Floats]
-    parts: list[Part]
-    notes: list[str]
-
-
-def _seen(motion: Motion, preset: Preset, effectors: Names | None) -> _Seen:
-    """What there is to see of a motion: a body, or else the distances between its points."""
-    stretches = split_at_gaps(motion)
-    looked = [resample(part, preset.working_fps) for _, part in stretches]
-    longest = max((part for _, part in stretches), key=lambda part: part.n_frames)
-    try:
-        found = end_effectors(motion, names=effectors)
-        size = body_size(longest, found) if isinstance(preset, ActionPreset) else 1.0
-        poses = [pose_features(part, effectors=found) for part in looked]
-        notes = [f"end effectors: {found.describe(motion.skeleton)}"]
-    except MotionError as error:
-        if effectors is not None:
-            raise
-        size = SIZE
-        poses, notes = _without_a_body(looked, preset, error)
-    parts = [
-        Part(start, start + part.n_frames, len(pose))
-        for (start, part), pose in zip(stretches, poses, strict=True)
-    ]
-    return _Seen([_search_vectors(pose, preset, size) for pose in poses], parts, notes)
-
-
-def _without_a_body(
-    stretches: list[Motion], preset: Preset, error: MotionError
-) -> tuple[list[Floats], list[str]]:
-    """The distances between the points of each stretch, and notes that say so and why."""
-    reason = error.reason if isinstance(error, EndEffectorError) else str(error)
-    if isinstance(preset, RegionPreset) and preset.mirror:
+    seen = recording if features is None else _outside(recording, features, feature_fps)
+    chosen = resolve_preset(preset, signals=isinstance(seen, Signals), **constants)
+    if isinstance(seen, Signals):
+        scaled = features is None if standardize is None else standardize
+        view = view_of_signals(seen, chosen, emg=emg, standardize=scaled, unit=unit)
+    elif chosen.unit == "standard deviations":
         raise ParameterError(
-            f"{reason}, so nothing tells left from right: name five joints with --effectors, "
-            f"or leave out mirroring"
-        ) from error
-    features, points = distance_features(np.concatenate([part.positions for part in stretches]))
-    names = stretches[0].skeleton.names
-    said = (
-        f"{reason}: segmented by the distances between {len(points)} of its {len(names)} points; "
-        f"name five joints with --effectors to be looked at as a body"
+            f"{chosen.name} is in standard deviations, for signals: a motion takes one in metres "
+            f"or body sizes"
+        )
+    else:
+        view = view_of_motion(seen, chosen, effectors)
+    if features is not None:
+        view = _on_recording(view, recording, seen.fps)
+    timings = {"features": time.perf_counter() - start}
+    found = chosen.analyze(np.concatenate(view.features), mirror=view.mirror, progress=progress)
+    return _result(recording, chosen, view, found, timings), found
+
+
+def analyze(
+    features: ArrayLike,
+    preset: str | Preset = DEFAULT,
+    *,
+    mirror: Mirror | None = None,
+    progress: Progress | None = None,
+    **constants: Any,
+) -> Found:
+    """What each stage of a method finds in a sequence of features.
+
+    Parameters
+    ----------
+    features : (samples, dims) array
+        At the working rate, in the unit that the preset's lengths are in.
+    preset : str or Preset
+    mirror : callable, optional
+        Exchanges left and right in such features, for presets that mirror;
+        `kineme.mirror_features` for those of motions.
+    progress : callable, optional
+        Called with the name of each stage before it runs.
+    **constants
+        Constants of the preset to change.
+
+    Returns
+    -------
+    Found
+        Its class tells the method.
+
+    Raises
+    ------
+    ParameterError
+        No such preset, features of another shape, empty or not finite, or a preset that
+        mirrors what has no left and right.
+
+    Examples
+    --------
+    >>> import kineme, numpy as np
+    >>> angle = np.linspace(0, 16 * np.pi, 480)
+    >>> found = kineme.analyze(np.column_stack([np.sin(angle), np.cos(angle)]))
+    >>> found.columns()["level"].tolist().count("primitive")
+    8
+    """
+    chosen = resolve_preset(preset, **constants)
+    return chosen.analyze(as_features(features), mirror=mirror, progress=progress)
+
+
+def _result(
+    recording: Motion | Signals, preset: Preset, view: View, found: Found, timings: dict[str, float]
+) -> Segmentation:
+    """What was found, in frames of the recording, with where it came from."""
+    n_frames, fps = recording.n_frames, recording.fps
+    columns = in_frames(found.columns(), view.seen, n_frames, fps / preset.working_fps)
+    source = recording.provenance
+    provenance: dict[str, Any] = {
+        "kineme": __version__,
+        "preset": preset.name,
+        "method": preset.method,
+        "parameters": {"unit": preset.unit, **preset.parameters()},
+        "input": {"path": source.path, "format": source.format, "sha256": source.sha256},
+        "notes": [*map(str, source.notes), *view.notes, *found.doubts(columns, fps)],
+    }
+    if gaps := gaps_between(view.seen, n_frames):
+        provenance["gaps"] = [list(gap) for gap in gaps]
+    return Segmentation.from_columns(
+        columns,
+        n_frames=n_frames,
+        fps=fps,
+        provenance=provenance,
+        timings={**timings, **found.timings},
     )
-    notes = [said, f"points: {', '.join(names[point] for point in points)}"]
-    ends = np.cumsum([part.n_frames for part in stretches])[:-1]
-    return np.split(features, ends), notes
 
 
-def _search_vectors(pose: Floats, preset: Preset, size: float) -> Floats:
-    stacked = stack(pose, offsets_in_frames(preset.offsets, preset.working_fps))
-    if isinstance(preset, ActionPreset):
-        stacked /= size * np.sqrt(len(preset.offsets))
-    return stacked
+def _outside(recording: Motion | Signals, features: ArrayLike, fps: float | None) -> Signals:
+    """Features from outside as channels, with the gaps of the recording at their rate."""
+    rows = as_features(features)
+    rate = recording.fps if fps is None else fps
+    expected = recording.n_frames * rate / recording.fps
+    if abs(len(rows) - expected) > 1 + rate / recording.fps:
+        raise ParameterError(
+            f"features have {len(rows)} rows, the recording lasts {recording.duration:.2f} s: "
+            f"{expected:.0f} rows at {rate:g} a second; give feature_fps"
+        )
+    share = rate / recording.fps
+    gaps = [
+        (start, stop)
+        for start, stop in (
+            (int(a * share), min(int(np.ceil(b * share)), len(rows))) for a, b in recording.gaps
+        )
+        if start < stop
+    ]
+    return Signals(rows, rate, gaps=gaps)
+
+
+def _on_recording(view: View, recording: Motion | Signals, fps: float) -> View:
+    """The view with its spans, so far in rows at `fps`, in frames of the recording."""
+    per_row, n = recording.fps / fps, recording.n_frames
+    seen = [
+        replace(span, start=round(span.start * per_row), stop=min(round(span.stop * per_row), n))
+        for span in view.seen
+    ]
+    if not recording.gaps or recording.gaps[-1][1] < n:
+        seen[-1] = replace(seen[-1], stop=n)
+    return replace(view, seen=seen)

@@ -128,17 +128,12 @@ class Take:
         self, preset: str = DEFAULT, parameters: Mapping[str, float] | None = None
     ) -> Segmentation:
         """The segments by the preset of that name, with some of the constants it offers changed."""
-        found = self.source
-        chosen = preset_of(preset, parameters or {})
-        if isinstance(found, Motion):
-            from kineme.segmentation.segmenter import segment_and_analysis
+        from kineme.segmentation.segmenter import segment
 
-            return segment_and_analysis(found, chosen, effectors=self.effectors)[0]
-        from kineme.segmentation.channels import DEFAULTS, signal_preset
-        from kineme.segmentation.signals import segment_signals_and_analysis
-
-        chosen = signal_preset(chosen, **DEFAULTS.get(preset, {}))
-        return segment_signals_and_analysis(found, chosen)[0]
+        found, chosen = self.source, preset_of(preset, parameters or {})
+        if not isinstance(found, Motion):
+            chosen = chosen.replace(**chosen.signal_defaults)
+        return segment(found, preset=chosen, effectors=self.effectors)
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
         """The segments by the default preset, or one for all; and what to know about them."""

@@ -23,10 +23,11 @@ from kineme._checks import check_type, is_number
 from kineme.errors import ParameterError
 from kineme.features.point_clouds import fit_clouds
 from kineme.graph import neighbor_graph
-from kineme.methods.presets import KINEME
+from kineme.methods.recurrence.preset import KINEME
 from kineme.recordings.motion import Motion, check_motion
 from kineme.recordings.operations import resample
-from kineme.segmentation.segmenter import motion_features, segment
+from kineme.segmentation.bodies import motion_features
+from kineme.segmentation.segmenter import segment
 from kineme.segments.segmentation import Segmentation
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 from kineme.transfer.sharing import share_clusters

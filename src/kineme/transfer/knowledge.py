@@ -23,9 +23,9 @@ from kineme._checks import check_type
 from kineme.errors import ParameterError, ReadError
 from kineme.features import end_effectors
 from kineme.features.effectors import Names
-from kineme.methods.presets import KINEME
+from kineme.methods.recurrence.preset import KINEME
 from kineme.recordings.motion import Motion, check_motion
-from kineme.segmentation.segmenter import motion_features
+from kineme.segmentation.bodies import motion_features
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
 from kineme.transfer import knowledge_file

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_floats, check_type, is_number
 from kineme.errors import ParameterError
-from kineme.methods.presets import KINEME
+from kineme.methods.recurrence.preset import KINEME
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable
 from kineme.transfer.knowledge import FPS, KnowledgeBase, working_frames

@@ -15,6 +15,7 @@ import naive
 from kineme.errors import MotionError, ParameterError
 from kineme.evaluation import Labelling, read_trials
 from kineme.evaluation.aca_protocol import aca_accuracy
+from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.baselines._kernels import (
     cheapest_lengths,
     propagate,
@@ -22,7 +23,6 @@ from kineme.methods.baselines._kernels import (
 )
 from kineme.methods.baselines.aca import State, aca, improve, majority_pieces
 from kineme.methods.baselines.haca import haca, haca_levels
-from kineme.methods.baselines.joints import joint_quaternions, log_maps
 from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
 

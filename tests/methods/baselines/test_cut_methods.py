@@ -14,8 +14,8 @@ import kineme
 import naive
 from kineme.errors import ParameterError
 from kineme.evaluation import Labelling, border_score, read_trials
+from kineme.features.rotations import joint_quaternions
 from kineme.methods.baselines.gmm import gmm
-from kineme.methods.baselines.joints import joint_quaternions
 from kineme.methods.baselines.pca import pca, ppca
 from kineme.methods.baselines.uniform import uniform
 

@@ -16,9 +16,10 @@ from scipy.stats import ortho_group
 
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
-from kineme.methods.presets import KINEME, resolve_preset
-from kineme.methods.recurrence.analysis import ActionAnalysis, analyze_actions
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.presets import resolve_preset
+from kineme.methods.recurrence.analysis import RecurrenceFound, analyze_actions
+from kineme.methods.recurrence.preset import KINEME
+from kineme.segmentation.bodies import motion_features
 from loops import swing
 
 few = settings(max_examples=8)
@@ -30,20 +31,20 @@ def recorded(seed: int) -> np.ndarray:
 
 
 @cache
-def analysis_of(seed: int) -> ActionAnalysis:
+def analysis_of(seed: int) -> RecurrenceFound:
     return analyze_actions(recorded(seed), KINEME)
 
 
-def assert_same(found: ActionAnalysis, expected: ActionAnalysis) -> None:
+def assert_same(found: RecurrenceFound, expected: RecurrenceFound) -> None:
     for name in ("blocks", "labels", "segments"):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
     for name in ("confidence", "agreement"):
         np.testing.assert_allclose(getattr(found, name), getattr(expected, name), atol=1e-3)
 
 
-def repetitions_of(found: ActionAnalysis) -> list[int]:
+def repetitions_of(found: RecurrenceFound) -> list[int]:
     """How many repetitions each activity has; transitions left out."""
-    parents = np.searchsorted(found.blocks, found.segments[:-1], side="right") - 1
+    parents = np.searchsorted(found.borders, found.primitives[:-1], side="right") - 1
     return np.bincount(parents)[found.labels >= 0].tolist()
 
 
@@ -72,8 +73,8 @@ def test_actions_their_borders_and_counts_are_found(sequence) -> None:
     order = list(dict.fromkeys(axis for axis, _, _ in sequence))
     assert found.labels[activities].tolist() == [order.index(axis) for axis, _, _ in sequence]
     borders = np.cumsum([0, *map(len, parts)])
-    assert np.abs(found.blocks[:-1][activities] - borders[:-1]).max() <= 6
-    assert np.abs(found.blocks[1:][activities] - borders[1:]).max() <= 6
+    assert np.abs(found.borders[:-1][activities] - borders[:-1]).max() <= 6
+    assert np.abs(found.borders[1:][activities] - borders[1:]).max() <= 6
     assert repetitions_of(found) == [times for _, _, times in sequence]
 
 
@@ -115,8 +116,8 @@ from kineme.segmentation.segmenter import motion_features
 for _ in range(2):
     found = analyze_actions(motion_features(random_recording(2).motion, KINEME), KINEME)
     digest = hashlib.sha256()
-    for part in (found.recurrence.near, found.recurrence.similarity, found.blocks, found.labels,
-                 found.confidence, found.segments, found.agreement):
+    for part in (found.recurrence.near, found.recurrence.similarity, found.borders, found.labels,
+                 found.confidence, found.primitives, found.agreement):
         digest.update(np.ascontiguousarray(part).tobytes())
     print(digest.hexdigest())
 """
@@ -140,14 +141,14 @@ def test_threads_and_repetition_change_nothing() -> None:
 # --- what holds for every input ---------------------------------------------------------------
 
 
-def assert_whole(found: ActionAnalysis, frames: int) -> None:
-    for borders in (found.blocks, found.segments):
+def assert_whole(found: RecurrenceFound, frames: int) -> None:
+    for borders in (found.borders, found.primitives):
         assert borders[0] == 0
         assert borders[-1] == frames
         assert (np.diff(borders) > 0).all()
-    assert set(found.blocks.tolist()) <= set(found.segments.tolist())
+    assert set(found.borders.tolist()) <= set(found.primitives.tolist())
     labels = found.labels.tolist()
-    assert len(labels) == len(found.confidence) == len(found.blocks) - 1
+    assert len(labels) == len(found.confidence) == len(found.borders) - 1
     assert all(a != b for a, b in pairwise(labels))
     known = [label for label in dict.fromkeys(labels) if label >= 0]
     assert known == list(range(len(known)))
@@ -157,7 +158,7 @@ def assert_whole(found: ActionAnalysis, frames: int) -> None:
     assert np.isnan(found.confidence[~moving]).all()
     counted = found.agreement[np.isfinite(found.agreement)]
     assert ((counted >= 0) & (counted <= 1 + 1e-9)).all()
-    assert len(found.agreement) == len(found.segments) - 1
+    assert len(found.agreement) == len(found.primitives) - 1
 
 
 def test_activities_alternate_and_are_counted_by_first_appearance() -> None:
@@ -183,14 +184,14 @@ def test_nothing_is_too_short_or_too_strange(frames, dims, seed, kind) -> None:
     found = analyze_actions(rows, KINEME)
     assert_whole(found, frames)
     if kind == "held" or frames <= 2:
-        assert found.blocks.tolist() == found.segments.tolist() == [0, frames]
+        assert found.borders.tolist() == found.primitives.tolist() == [0, frames]
 
 
 def test_what_never_comes_back_is_one_transition() -> None:
     for seconds in (3, 10, 40, 150):
         found = analyze_actions(np.arange(30 * seconds)[:, None] * [0.01, 0.02], KINEME)
         assert found.labels.tolist() == [-1]
-        assert found.segments.tolist() == [0, 30 * seconds]
+        assert found.primitives.tolist() == [0, 30 * seconds]
 
 
 @st.composite

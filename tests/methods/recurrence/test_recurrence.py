@@ -106,9 +106,9 @@ def test_stretches_are_as_alike_as_in_the_naive_version(poses, reaches, gap, dat
         np.testing.assert_allclose(found, expected, rtol=1e-6)
     scales = np.linspace(0.5, 2, len(poses)).astype(np.float32)
     given_to_both = reaches, scales[frames], scales[others], 1.5, gap
-    likeness = distant.mean_likeness(poses, frames, others, np.array(reaches), *given_to_both[1:])
+    likeness = distant.mean_similarity(poses, frames, others, np.array(reaches), *given_to_both[1:])
     assert likeness == pytest.approx(
-        naive.mean_likeness(poses, frames, others, *given_to_both), abs=1e-5
+        naive.mean_similarity(poses, frames, others, *given_to_both), abs=1e-5
     )
 
 

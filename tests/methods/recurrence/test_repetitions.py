@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import naive
 from bands import points
+from kineme.methods.recurrence import _candidate_kernels as candidate_kernels
 from kineme.methods.recurrence import _distance_kernels as kernels
-from kineme.methods.recurrence import _way_kernels as way_kernels
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from loops import nod, swing
 
@@ -155,7 +155,7 @@ def gains(draw: st.DrawFn) -> np.ndarray:
 @seconds
 def test_matched_lengths_are_those_of_the_naive_version(gained) -> None:
     best, lengths = naive.matched_lengths(gained.tolist())
-    length = way_kernels.matched_length(gained)
+    length = candidate_kernels.matched_length(gained)
     assert length in lengths if best > 0 else length == 0
 
 
@@ -167,15 +167,15 @@ def test_ways_are_judged_as_by_the_naive_versions(seed: int) -> None:
     path = np.append(0, np.cumsum(rng.integers(0, 3, 12))).astype(float)
     lengths = rng.uniform(0, path[-1] + 0.1, 5)
     expected = naive.poses_at(poses, path, lengths)
-    np.testing.assert_array_equal(way_kernels.poses_at(poses, path, lengths), expected)
+    np.testing.assert_array_equal(candidate_kernels.poses_at(poses, path, lengths), expected)
     parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
-    np.testing.assert_allclose(way_kernels.unlike(parts), naive.unlike(parts), atol=1e-12)
+    np.testing.assert_allclose(candidate_kernels.unlike(parts), naive.unlike(parts), atol=1e-12)
     best, ends = naive.along(poses, path, lengths, parts[0], 4.0)
-    length = way_kernels.along(poses, path, lengths, parts[0], 4.0)
+    length = candidate_kernels.along(poses, path, lengths, parts[0], 4.0)
     assert length in ends if best > 0 else length == 0
     visits = np.array([1, 5, 9])
     for part, (a, b) in zip(
-        way_kernels.parts_between(poses, path, visits, 4), pairwise(path[visits]), strict=True
+        candidate_kernels.parts_between(poses, path, visits, 4), pairwise(path[visits]), strict=True
     ):
         places = a + (b - a) * (np.arange(4) + 0.5) / 4
         np.testing.assert_array_equal(part, naive.poses_at(poses, path, places))

@@ -18,39 +18,40 @@ from graphs import features
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
 from kineme.graph import BASIC_STEPS
-from kineme.methods.presets import PUBLISHED, RegionPreset, resolve_preset
-from kineme.methods.region_growing.analysis import Analysis, analyze_regions
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.presets import PUBLISHED, resolve_preset
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
+from kineme.methods.region_growing.preset import RegionGrowingPreset
+from kineme.segmentation.bodies import motion_features
 
 presets = pytest.mark.parametrize("preset", PUBLISHED.values(), ids=PUBLISHED.keys())
 few = settings(max_examples=10)
 
 
 @cache
-def recorded(seed: int, preset: RegionPreset) -> np.ndarray:
+def recorded(seed: int, preset: RegionGrowingPreset) -> np.ndarray:
     return motion_features(random_recording(seed).motion, preset)
 
 
 @cache
-def found_in(seed: int, preset: RegionPreset) -> Analysis:
+def found_in(seed: int, preset: RegionGrowingPreset) -> RegionsFound:
     return analyze_regions(recorded(seed, preset), preset)
 
 
-def assert_same(found: Analysis, expected: Analysis) -> None:
+def assert_same(found: RegionsFound, expected: RegionsFound) -> None:
     for name in ("blocks", "repeats", "repetition", "segments"):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
     np.testing.assert_array_equal(found.clustering.labels, expected.clustering.labels)
     np.testing.assert_array_equal(found.clustering.scores, expected.clustering.scores)
 
 
-def assert_tiles(found: Analysis, n: int) -> None:
-    for borders in (found.blocks, found.segments):
+def assert_tiles(found: RegionsFound, n: int) -> None:
+    for borders in (found.borders, found.primitives):
         assert borders[0] == 0
         assert borders[-1] == n
         assert (np.diff(borders) > 0).all()
-    assert set(found.blocks.tolist()) <= set(found.segments.tolist())
-    assert len(found.repeats) == len(found.repetition) == len(found.blocks) - 1
-    assert len(found.clustering.labels) == len(found.segments) - 1
+    assert set(found.borders.tolist()) <= set(found.primitives.tolist())
+    assert len(found.repeats) == len(found.repetition) == len(found.borders) - 1
+    assert len(found.clustering.labels) == len(found.primitives) - 1
     assert ((found.repetition >= 0) & (found.repetition <= 1)).all()
     assert ((found.clustering.scores >= 0) & (found.clustering.scores <= 1)).all()
 
@@ -81,19 +82,19 @@ def test_scaling_the_features_with_all_lengths_changes_nothing(preset, seed, fac
 
 
 @presets
-def test_a_reach_beyond_the_recording_is_no_limit(preset: RegionPreset) -> None:
+def test_a_reach_beyond_the_recording_is_no_limit(preset: RegionGrowingPreset) -> None:
     rows = recorded(1, preset)
     far = analyze_regions(rows, preset.replace(max_lag=len(rows) / preset.working_fps))
     assert_same(far, found_in(1, preset))
 
 
 @presets
-def test_recordings_have_something_to_find(preset: RegionPreset) -> None:
+def test_recordings_have_something_to_find(preset: RegionGrowingPreset) -> None:
     for seed in range(4):
         found = found_in(seed, preset)
         assert found.repeats.sum() >= 3
-        assert len(found.segments) > 2 * len(found.blocks)
-        assert len(set(found.clustering.labels.tolist())) < len(found.segments) - 5
+        assert len(found.primitives) > 2 * len(found.borders)
+        assert len(set(found.clustering.labels.tolist())) < len(found.primitives) - 5
 
 
 PRINT_DIGEST = """
@@ -107,8 +108,8 @@ digest = hashlib.sha256()
 for preset in PUBLISHED.values():
     for _ in range(2):
         found = analyze_regions(motion_features(random_recording(2).motion, preset), preset)
-        for part in (found.graph.indices, found.graph.distances, found.blocks, found.repetition,
-                     found.segments, found.clustering.labels, found.clustering.scores):
+        for part in (found.graph.indices, found.graph.distances, found.borders, found.repetition,
+                     found.primitives, found.clustering.labels, found.clustering.scores):
             digest.update(np.ascontiguousarray(part).tobytes())
         print(digest.hexdigest())
         digest = hashlib.sha256()
@@ -131,7 +132,7 @@ def test_threads_and_repetition_change_nothing() -> None:
 
 
 @st.composite
-def constants(draw: st.DrawFn) -> RegionPreset:
+def constants(draw: st.DrawFn) -> RegionGrowingPreset:
     """A preset with constants changed in every direction it allows."""
     seconds = st.sampled_from([0.0, 0.01, 1 / 30, 0.2, 1.0, 50.0])
     some = st.sampled_from([0.01, 1 / 30, 0.2, 50.0])

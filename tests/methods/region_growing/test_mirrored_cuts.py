@@ -13,10 +13,11 @@ import naive
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
 from kineme.features import mirror, mirror_features
-from kineme.methods.presets import KRUEGER2017, VOEGELE2014, RegionPreset
-from kineme.methods.region_growing.analysis import Analysis, analyze_regions
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
 from kineme.methods.region_growing.mirroring import merged_cuts
-from kineme.segmentation.segmenter import motion_features, segment_and_analysis
+from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
+from kineme.segmentation.bodies import motion_features
+from kineme.segmentation.segmenter import segment_and_found
 
 MIRRORING = {
     "voegele2014": VOEGELE2014.replace(mirror=True),
@@ -27,13 +28,13 @@ frames = st.lists(st.integers(0, 200), unique=True).map(sorted)
 
 
 @cache
-def found_in(preset: RegionPreset, *actions: str, side: str = "right") -> Analysis:
+def found_in(preset: RegionGrowingPreset, *actions: str, side: str = "right") -> RegionsFound:
     made = synthesize([Action(name, 6, side=side) for name in actions], fps=30, seed=5)
-    return segment_and_analysis(made.motion, preset)[1]
+    return segment_and_found(made.motion, preset)[1]
 
 
-def longest(found: Analysis) -> str:
-    return str(found.symmetry[np.argmax(np.diff(found.blocks) * found.repeats)])
+def longest(found: RegionsFound) -> str:
+    return str(found.symmetry[np.argmax(np.diff(found.borders) * found.repeats)])
 
 
 @given(frames, frames, st.sampled_from([0.5, 7.5, 30.0]))
@@ -43,14 +44,14 @@ def test_merging_equals_the_naive_version(main, mirrored, gap) -> None:
 
 
 @presets
-def test_steps_are_told_apart_in_walking(preset: RegionPreset) -> None:
+def test_steps_are_told_apart_in_walking(preset: RegionGrowingPreset) -> None:
     plain = found_in(preset.replace(mirror=False), "walk")
     found = found_in(preset, "walk")
     assert plain.symmetry is None
     assert longest(found) == "alternating"
-    assert len(found.segments) >= 1.6 * len(plain.segments)
-    assert set(plain.segments.tolist()) <= set(found.segments.tolist())
-    np.testing.assert_array_equal(found.blocks, plain.blocks)
+    assert len(found.primitives) >= 1.6 * len(plain.segments)
+    assert set(plain.segments.tolist()) <= set(found.primitives.tolist())
+    np.testing.assert_array_equal(found.borders, plain.blocks)
 
 
 @presets
@@ -66,10 +67,10 @@ def test_the_symmetry_of_an_activity_is_told(preset, action: str, expected: str)
 
 
 @presets
-def test_a_kick_with_the_other_leg_has_the_same_cuts(preset: RegionPreset) -> None:
+def test_a_kick_with_the_other_leg_has_the_same_cuts(preset: RegionGrowingPreset) -> None:
     motion = synthesize([Action("kick", 5), Action("walk", 4)], fps=30, seed=3).motion
-    found, other = (segment_and_analysis(m, preset)[1] for m in (motion, mirror(motion)))
-    np.testing.assert_array_equal(found.segments, other.segments)
+    found, other = (segment_and_found(m, preset)[1] for m in (motion, mirror(motion)))
+    np.testing.assert_array_equal(found.primitives, other.segments)
     np.testing.assert_array_equal(found.symmetry, other.symmetry)
 
 

@@ -24,16 +24,19 @@ from kineme.evaluation.figures.style import BETWEEN, heading, new_figure, save
 from kineme.evaluation.labelling import TRANSITION, Annotation
 from kineme.evaluation.trials import Trial
 from kineme.graph import NeighborGraph, component_labels
-from kineme.methods.presets import PUBLISHED, RegionPreset
-from kineme.methods.region_growing.analysis import Analysis, analyze_regions
+from kineme.methods.presets import PUBLISHED
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
+from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import primitive_cuts
 from kineme.plot.matrix import SHADES, similarity_image
-from kineme.segmentation.segmenter import motion_features
+from kineme.segmentation.bodies import motion_features
 
 FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
 
 
-def plot_regions(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voegele2014"]) -> Path:
+def plot_regions(
+    trial: Trial, path: Path, preset: RegionGrowingPreset = PUBLISHED["voegele2014"]
+) -> Path:
     """Truth, forward regions, backward regions and activities in one matrix each."""
     analysis = analyze_regions(motion_features(trial.motion, preset), preset)
     n, fps = len(analysis.graph), preset.working_fps
@@ -48,7 +51,7 @@ def plot_regions(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voe
     cuts = analysis.activity_cuts
     _draw_squares(panels[1], np.concatenate([[0], cuts.forward]) / fps, FORWARD)
     _draw_squares(panels[2], np.concatenate([cuts.backward, [n]]) / fps, BACKWARD)
-    spans = analysis.blocks / fps
+    spans = analysis.borders / fps
     for repeats, start, stop in zip(analysis.repeats, spans[:-1], spans[1:], strict=True):
         _draw_squares(panels[3], np.array([start, stop]), FINAL if repeats else BETWEEN)
     for axes, text in zip(
@@ -65,11 +68,13 @@ def plot_regions(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voe
     return save(figure, path)
 
 
-def plot_paths(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voegele2014"]) -> Path:
+def plot_paths(
+    trial: Trial, path: Path, preset: RegionGrowingPreset = PUBLISHED["voegele2014"]
+) -> Path:
     """The longest activity: matrix, connected components, warping paths."""
     analysis = analyze_regions(motion_features(trial.motion, preset), preset)
-    lengths = np.diff(analysis.blocks) * analysis.repeats
-    first, stop = analysis.blocks[lengths.argmax() :][:2].tolist()
+    lengths = np.diff(analysis.borders) * analysis.repeats
+    first, stop = analysis.borders[lengths.argmax() :][:2].tolist()
     graph, fps = analysis.graph, preset.working_fps
     labels = component_labels(graph, steps=preset.steps)
     figure = new_figure(9.2, 3.5)
@@ -95,7 +100,7 @@ def plot_paths(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voege
     ).paths
     lines = [np.column_stack([columns, rows]) / fps for rows, columns in paths]
     panels[2].add_collection(LineCollection(lines, colors="#D62728", linewidths=1.3))
-    cuts = analysis.segments
+    cuts = analysis.primitives
     for cut in cuts[(first < cuts) & (cuts < stop)]:
         panels[2].axvline(cut / fps, color=FINAL, linewidth=0.8, linestyle="--")
     for axes, text in zip(
@@ -111,7 +116,7 @@ def plot_paths(trial: Trial, path: Path, preset: RegionPreset = PUBLISHED["voege
     return save(figure, path)
 
 
-def _growth_pairs(analysis: Analysis, preset: RegionPreset) -> NeighborGraph:
+def _growth_pairs(analysis: RegionsFound, preset: RegionGrowingPreset) -> NeighborGraph:
     """The pairs that regions count, with the band as main diagonal."""
     graph = analysis.graph
     if preset.growth_neighbors is not None:

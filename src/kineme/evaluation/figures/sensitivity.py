@@ -17,7 +17,8 @@ from kineme.evaluation.benchmark import Scores, mean
 from kineme.evaluation.figures.style import FAINT, heading, new_figure, save, tidy
 from kineme.evaluation.scores import evaluate_segmentation
 from kineme.evaluation.trials import Trial
-from kineme.methods.presets import PUBLISHED, RegionPreset
+from kineme.methods.presets import PUBLISHED
+from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.segmentation.segmenter import segment
 
 SHARES = (0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4)
@@ -31,13 +32,15 @@ CURVES: Mapping[str, tuple[str, str]] = {
 }
 
 
-def scores_by_radius(trials: Sequence[Trial], preset: RegionPreset) -> list[tuple[float, Scores]]:
+def scores_by_radius(
+    trials: Sequence[Trial], preset: RegionGrowingPreset
+) -> list[tuple[float, Scores]]:
     """Radius in metres and mean scores; the smaller radius for activities changes with it."""
     return [(share * preset.radius, _mean(trials, _wider(preset, share))) for share in SHARES]
 
 
 def scores_by_neighbors(
-    trials: Sequence[Trial], preset: RegionPreset
+    trials: Sequence[Trial], preset: RegionGrowingPreset
 ) -> list[tuple[float, Scores]]:
     """Number of neighbours and mean scores; what is derived from it changes with it."""
     return [(float(k), _mean(trials, _with_neighbors(preset, k))) for k in NEIGHBORS]
@@ -72,18 +75,18 @@ def _draw(axes: Axes, scores: Sequence[tuple[float, Scores]], own: float) -> Non
     tidy(axes)
 
 
-def _mean(trials: Sequence[Trial], preset: RegionPreset) -> Scores:
+def _mean(trials: Sequence[Trial], preset: RegionGrowingPreset) -> Scores:
     return mean([evaluate_segmentation(t.truth, segment(t.motion, preset=preset)) for t in trials])
 
 
-def _wider(preset: RegionPreset, share: float) -> RegionPreset:
+def _wider(preset: RegionGrowingPreset, share: float) -> RegionGrowingPreset:
     inner = preset.growth_radius
     return preset.replace(
         radius=share * preset.radius, growth_radius=None if inner is None else share * inner
     )
 
 
-def _with_neighbors(preset: RegionPreset, k: int) -> RegionPreset:
+def _with_neighbors(preset: RegionGrowingPreset, k: int) -> RegionGrowingPreset:
     changed = {
         name: max(1, round(own * k / preset.max_neighbors))
         for name in ("growth_neighbors", "cluster_neighbors")

@@ -16,9 +16,11 @@ from numpy.typing import NDArray
 from kineme._colors import PALETTE
 from kineme.evaluation.figures.style import INK, heading, new_figure, save, tidy
 from kineme.evaluation.trials import Trial
-from kineme.methods.presets import PUBLISHED, RegionPreset
+from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions
-from kineme.segmentation.segmenter import motion_features, segment
+from kineme.methods.region_growing.preset import RegionGrowingPreset
+from kineme.segmentation.bodies import motion_features
+from kineme.segmentation.segmenter import segment
 
 STEPS = ("features", "bundling", "neighbors", "activities", "primitives", "clusters")
 STEP_COLORS = dict(zip(STEPS, (PALETTE[i] for i in (1, 5, 2, 4, 3, 0)), strict=True))
@@ -28,7 +30,7 @@ POINTS = 7
 Timings = dict[str, float]
 
 
-def time_trials(trials: Sequence[Trial], preset: RegionPreset) -> list[Timings]:
+def time_trials(trials: Sequence[Trial], preset: RegionGrowingPreset) -> list[Timings]:
     """Seconds per step and trial, without reading the file."""
     return [
         _least([dict(segment(trial.motion, preset=preset).timings) for _ in range(RUNS)])
@@ -36,7 +38,7 @@ def time_trials(trials: Sequence[Trial], preset: RegionPreset) -> list[Timings]:
     ]
 
 
-def time_growth(trials: Sequence[Trial], preset: RegionPreset) -> list[tuple[int, Timings]]:
+def time_growth(trials: Sequence[Trial], preset: RegionGrowingPreset) -> list[tuple[int, Timings]]:
     """Frames and seconds per step, for longer and longer parts of all trials in a row, twice."""
     features = np.concatenate([motion_features(trial.motion, preset) for trial in trials] * 2)
     lengths: NDArray[np.int64] = np.geomspace(500, len(features), POINTS).astype(np.int64)

@@ -48,7 +48,7 @@ def nearest_around(poses, frames, centers, reaches):
     " float64, int64)",
     **SUMS,
 )
-def mean_likeness(poses, frames, others, reaches, scales, other_scales, softness, gap):
+def mean_similarity(poses, frames, others, reaches, scales, other_scales, softness, gap):
     """Mean similarity of the pairs of frames and others that lie apart by more than the gap."""
     there = nearest_around(poses, frames, others, reaches)
     back = nearest_around(poses, others, frames, reaches)

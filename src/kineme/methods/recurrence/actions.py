@@ -1,7 +1,7 @@
-"""Actions: what each moment of a recording belongs to, known again when it returns.
+"""Actions: what each sample of a recording belongs to, known again when it returns.
 
-Stretches (see ``stretches``) say roughly which actions there are. Each moment
-then goes to the action it is most like, or to none; changing costs, so that
+The segments between change points say roughly which actions there are. Each sample
+then goes to the action it is most similar to, or to none; changing costs, so that
 borders fall where the evidence turns.
 
 The method is ours. See ``docs/method.md`` for what each step contributes.
@@ -15,96 +15,111 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import even_slices, map_threads
-from kineme.methods.numbering import by_first_appearance
 from kineme.methods.recurrence import _action_kernels as kernels
+from kineme.methods.recurrence.change_points import Samples
 from kineme.methods.recurrence.recurrence import Recurrence
-from kineme.methods.recurrence.stretches import Bins
-
-# Moments less like an action than this share of its own are as unlike it as can be.
-LEAST_AFFINITY = 0.2
+from kineme.methods.segments import by_first_appearance
 
 
 @dataclass(frozen=True, eq=False)
 class Actions:
-    """Stretches of one action each.
+    """Segments of one action each.
 
-    Parameters
+    Attributes
     ----------
-    borders : (stretches + 1,) bins, from 0 to the end
-    labels : (stretches,) action of each, from 0 by first appearance; -1: none; neighbours differ
-    confidence : (stretches,) how much more alike its moments are to their own action than to
-        any other, 0 to 1
+    borders : (segments + 1,) array
+        Samples, from 0 to the end.
+    labels : (segments,) array
+        Action of each, from 0 by first appearance; -1: none; neighbours differ.
+    confidence : (segments,) array
+        How much more similar its samples are to their own action than to any other, 0 to 1.
     """
 
-    borders: Bins
-    labels: Bins
+    borders: Samples
+    labels: Samples
     confidence: NDArray[np.float64]
 
 
 def refine(
-    borders: Bins,
-    labels: Bins,
+    borders: Samples,
+    labels: Samples,
     recurrence: Recurrence,
     *,
     switch_cost: float,
     no_action_cost: float,
+    least_similarity: float,
+    least_own: float,
     min_length: int,
-    rounds: int = 2,
+    rounds: int,
 ) -> Actions:
-    """Each moment given to the action it is most like, or to none; changing costs.
+    """Each sample given to the action it is most similar to, or to none; changing costs.
 
     Parameters
     ----------
-    borders, labels : stretches and their actions to begin with; -1 for none
+    borders, labels : array of int
+        Segments and their actions to begin with; -1 for none.
     recurrence : Recurrence
-    switch_cost : bins of unlikeness that a change of action costs
-    no_action_cost : unlikeness, from 0 to 1, at which a moment is better in no action
-    min_length : bins; an action with less is given up
-    rounds : times that actions are learnt anew from their moments
+    switch_cost : float
+        Samples of dissimilarity that a change of action costs.
+    no_action_cost : float
+        Dissimilarity, from 0 to 1, at which a sample is better in no action.
+    least_similarity : float
+        Similarity, relative to that within the action, at which dissimilarity is 1.
+    least_own : float
+        An action is taken to be at least so similar within.
+    min_length : int
+        Samples; an action with less is given up.
+    rounds : int
+        Times that actions are learnt anew from their samples.
+
+    Returns
+    -------
+    Actions
     """
-    per_bin = by_first_appearance(np.repeat(labels, np.diff(borders)))
+    per_sample = by_first_appearance(np.repeat(labels, np.diff(borders)))
     for _ in range(rounds):
-        relative, actions = _relative_affinity(recurrence, per_bin, min_length)
-        none = np.full(len(per_bin), no_action_cost)
-        costs = np.column_stack([_unlikeness(relative), none])
+        relative, actions = _relative_affinity(recurrence, per_sample, min_length, least_own)
+        none = np.full(len(per_sample), no_action_cost)
+        costs = np.column_stack([_dissimilarity(relative, least_similarity), none])
         columns = kernels.cheapest_labels(costs, switch_cost)
-        actions = np.column_stack([actions, np.full(len(per_bin), -1)])
-        per_bin = actions[np.arange(len(per_bin)), columns]
-        rare = np.bincount(per_bin + 1)[per_bin + 1] < min_length
-        per_bin = by_first_appearance(np.where(rare, -1, per_bin))
-    found = np.concatenate([[0], np.flatnonzero(np.diff(per_bin)) + 1, [len(per_bin)]])
-    return Actions(found, per_bin[found[:-1]], _confidence(recurrence, per_bin, found, min_length))
+        actions = np.column_stack([actions, np.full(len(per_sample), -1)])
+        per_sample = actions[np.arange(len(per_sample)), columns]
+        rare = np.bincount(per_sample + 1)[per_sample + 1] < min_length
+        per_sample = by_first_appearance(np.where(rare, -1, per_sample))
+    found = np.concatenate([[0], np.flatnonzero(np.diff(per_sample)) + 1, [len(per_sample)]])
+    confidence = _confidence(recurrence, per_sample, found, min_length, least_own)
+    return Actions(found, per_sample[found[:-1]], confidence)
 
 
-def _unlikeness(affinity: NDArray[np.float64]) -> NDArray[np.float64]:
+def _dissimilarity(affinity: NDArray[np.float64], least: float) -> NDArray[np.float64]:
     """0 where an action is at home, more by as much each time affinity halves, 1 at the least."""
-    logarithms = np.log(np.maximum(affinity, LEAST_AFFINITY))
-    costs: NDArray[np.float64] = logarithms / np.log(LEAST_AFFINITY)
+    logarithms = np.log(np.maximum(affinity, least))
+    costs: NDArray[np.float64] = logarithms / np.log(least)
     return costs
 
 
 def _confidence(
-    recurrence: Recurrence, per_bin: Bins, borders: Bins, min_count: int
+    recurrence: Recurrence, per_sample: Samples, borders: Samples, min_count: int, least: float
 ) -> NDArray[np.float64]:
-    """How much more alike the bins of each stretch are to their own action than to the next."""
-    relative, actions = _relative_affinity(recurrence, per_bin, min_count)
-    is_own = (actions == per_bin[:, None]) & (per_bin[:, None] >= 0)
+    """How much more similar the samples of each segment are to their own action than to others."""
+    relative, actions = _relative_affinity(recurrence, per_sample, min_count, least)
+    is_own = (actions == per_sample[:, None]) & (per_sample[:, None] >= 0)
     own = np.where(is_own, relative, 0).sum(axis=1)
     other = np.where(is_own, 0, relative).max(axis=1, initial=0)
     return np.clip(np.add.reduceat(own - other, borders[:-1]) / np.diff(borders), 0, 1)
 
 
 def _relative_affinity(
-    recurrence: Recurrence, per_bin: Bins, min_count: int
-) -> tuple[NDArray[np.float64], Bins]:
-    """Mean similarity of each bin to the actions in reach, relative to their own medians, to 1.
+    recurrence: Recurrence, per_sample: Samples, min_count: int, least: float
+) -> tuple[NDArray[np.float64], Samples]:
+    """Mean similarity of each sample to the actions in reach, relative to their medians, to 1.
 
-    One column per action, or for several; which it is for at each bin comes with it.
+    One column per action, or for several; which it is for at each sample comes with it.
     """
-    actions, column_of = _columns(per_bin, recurrence.similarity.shape[1] - 1)
-    none = actions.shape[1]  # bins of no action count in a column of their own, left out below
-    columns = np.where(per_bin < 0, none, column_of[per_bin])
-    affinity = np.empty((len(per_bin), none + 1))
+    actions, column_of = _columns(per_sample, recurrence.similarity.shape[1] - 1)
+    none = actions.shape[1]  # samples of no action count in a column of their own, left out below
+    columns = np.where(per_sample < 0, none, column_of[per_sample])
+    affinity = np.empty((len(per_sample), none + 1))
 
     def fill(part: slice) -> None:
         kernels.class_affinities(
@@ -112,26 +127,30 @@ def _relative_affinity(
             affinity,
         )  # fmt: skip
 
-    map_threads(fill, even_slices(len(per_bin)))
-    by_action = np.split(np.argsort(per_bin, kind="stable"), np.cumsum(np.bincount(per_bin + 1)))
-    own = [np.median(affinity[bins, columns[bins]]) for bins in by_action[1:-1]]
-    scale = np.append(np.maximum(own, 0.05), 1.0)[actions]
+    map_threads(fill, even_slices(len(per_sample)))
+    by_action = np.split(
+        np.argsort(per_sample, kind="stable"), np.cumsum(np.bincount(per_sample + 1))
+    )
+    own = [
+        np.median(affinity[own_samples, columns[own_samples]]) for own_samples in by_action[1:-1]
+    ]
+    scale = np.append(np.maximum(own, least), 1.0)[actions]
     return np.minimum(affinity[:, :none] / scale, 1), actions
 
 
-def _columns(per_bin: Bins, reach: int) -> tuple[Bins, Bins]:
-    """Which action each column stands for at each bin (-1: none), and the column of each action.
+def _columns(per_sample: Samples, reach: int) -> tuple[Samples, Samples]:
+    """The action of each column at each sample (-1: none), and the column of each action.
 
-    Actions that no bin can reach both of share a column, so that there are
+    Actions that no sample can reach both of share a column, so that there are
     no more columns in a long recording than in a short one.
     """
-    n = len(per_bin)
-    column_of = np.zeros(int(per_bin.max()) + 2, np.int64)  # one more, for none
+    n = len(per_sample)
+    column_of = np.zeros(int(per_sample.max()) + 2, np.int64)  # one more, for none
     spans: list[tuple[int, int, int]] = []
     free_from: list[int] = []
     for action in range(len(column_of) - 1):
-        bins = np.flatnonzero(per_bin == action)
-        start, stop = max(0, int(bins[0]) - reach), min(n, int(bins[-1]) + reach + 1)
+        own = np.flatnonzero(per_sample == action)
+        start, stop = max(0, int(own[0]) - reach), min(n, int(own[-1]) + reach + 1)
         free = (column for column, since in enumerate(free_from) if since <= start)
         column = next(free, len(free_from))
         free_from[column : column + 1] = [stop]

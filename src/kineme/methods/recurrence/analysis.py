@@ -14,12 +14,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_features
 from kineme._threads import map_threads
-from kineme.methods.presets import ActionPreset
-from kineme.methods.recurrence import stretches
+from kineme.methods.base import Columns
+from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
-from kineme.methods.recurrence.recurrence import Recurrence, recurrence
-from kineme.methods.recurrence.repetitions import SMOOTHING, Repetitions, repetitions
+from kineme.methods.recurrence.preset import RecurrencePreset
+from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
+from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from kineme.methods.recurrence.transitions import activity_ends
+from kineme.methods.segments import columns_of
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
@@ -29,33 +31,55 @@ Frames = NDArray[np.int64]
 
 # For pictures: neighbours per frame at most.
 PICTURED = 256
+# Scales of signals before their unit is known.
+_TINY, _HUGE = 1e-9, 1e9
 
 
 @dataclass(frozen=True, eq=False)
-class ActionAnalysis:
+class RecurrenceFound:
     """What the stages found.
 
-    Parameters
+    Attributes
     ----------
-    features : (frames, dims), scaled so that distances are body sizes
-    recurrence : how alike the moments are
-    blocks : (blocks + 1,) borders of activities and transitions, from 0 to n
-    labels : (blocks,) action of each block, -1 for transitions
-    confidence : (blocks,) how sure the block's action is, nan for transitions
-    segments : (segments + 1,) borders of the primitives, from 0 to n, blocks' included
-    agreement : (segments,) how certain the count is, 0 to 1, nan in transitions
-    timings : seconds per stage
+    features : (frames, dims) array
+        Scaled so that distances are body sizes.
+    recurrence : Recurrence
+        How similar the samples are.
+    preset : RecurrencePreset
+    borders : (segments + 1,) array
+        Of activities and transitions, from 0 to n.
+    labels : (segments,) array
+        Action of each, -1 for transitions.
+    confidence : (segments,) array
+        How sure the action of each is, nan for transitions.
+    primitives : (primitives + 1,) array
+        Borders of the primitives, from 0 to n, those of activities included.
+    agreement : (primitives,) array
+        How certain the count is, 0 to 1, nan in transitions.
+    timings : dict of str to float
+        Seconds per stage.
     """
 
     features: NDArray[np.float64]
     recurrence: Recurrence
-    preset: ActionPreset
-    blocks: Frames
+    preset: RecurrencePreset
+    borders: Frames
     labels: Frames
     confidence: NDArray[np.float64]
-    segments: Frames
+    primitives: Frames
     agreement: NDArray[np.float64]
     timings: dict[str, float] = field(default_factory=dict)
+
+    def columns(self) -> Columns:
+        """Activities with their confidence, primitives with the certainty of their count."""
+        parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
+        return columns_of(
+            self.borders,
+            self.primitives,
+            is_activity=self.labels >= 0,
+            clusters=(self.labels, self.labels[parents]),
+            scores=(self.confidence, self.agreement),
+        )
 
     @cached_property
     def graph(self) -> NeighborGraph:
@@ -69,85 +93,137 @@ class ActionAnalysis:
             max_lag=max(1, self.preset.frames(self.preset.window)),
         )
 
+    def doubts(self, columns: Columns, fps: float) -> list[str]:
+        """A sentence for each activity that is nearly another, or whose count is not sure."""
+        activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
+        sentences = []
+        for row in np.flatnonzero(activity):
+            start, stop = columns["start_frame"][row], columns["stop_frame"][row]
+            where = f"at {start / fps:.2f} to {stop / fps:.2f} s"
+            if columns["score"][row] < self.preset.unsure_action:
+                sentences.append(
+                    f"look at the activity {where}: it is nearly as similar to another "
+                    f"(confidence {columns['score'][row]:.2f})"
+                )
+            inside = (columns["level"] == "primitive") & (columns["start_frame"] == start)
+            agreement = columns["score"][inside][0]
+            if agreement < self.preset.unsure_count:
+                sentences.append(
+                    f"look at the repetitions {where}: another number of them fits nearly as well "
+                    f"(score {agreement:.2f})"
+                )
+        return sentences
+
 
 def analyze_actions(
-    features: ArrayLike, preset: ActionPreset, *, progress: Progress | None = None
-) -> ActionAnalysis:
+    features: ArrayLike, preset: RecurrencePreset, *, progress: Progress | None = None
+) -> RecurrenceFound:
     """Recurrence, actions and repetitions of a sequence of features.
 
     Parameters
     ----------
-    features : (frames, dims)
+    features : (frames, dims) array
         Stacked poses at the working rate, scaled so that distances are body
         sizes: divided by the size of the body and by the root of the number
-        of stacked blocks.
-    preset : ActionPreset
-    progress : called with the name of each stage before it runs
+        of stacked poses.
+    preset : RecurrencePreset
+    progress : callable, optional
+        Called with the name of each stage before it runs.
+
+    Returns
+    -------
+    RecurrenceFound
 
     Raises
     ------
-    ParameterError : features of another shape, empty, or not finite
+    ParameterError
+        Features of another shape, empty, or not finite.
     """
     rows = as_features(features)
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
-    reach = preset.window if preset.max_lag is None else min(preset.window, preset.max_lag)
     with stage("recurrence"):
-        likeness = recurrence(
-            rows,
-            step=preset.step,
-            width=max(1, preset.moments(reach)),
-            phase=preset.moments(preset.phase),
-            rank=preset.moments(preset.recurrence_time),
-            low=preset.min_scale,
-            high=preset.max_scale,
-            softness=preset.softness,
-        )
+        recurring = _recurrence(rows, preset, preset.min_scale, preset.max_scale)
     with stage("actions"):
-        found = find_actions(likeness, preset)
-        blocks, labels, confidence = _blocks(found, likeness, preset, len(rows))
+        found = find_actions(recurring, preset)
+        borders, labels, confidence = _activities(found, recurring, preset, len(rows))
     with stage("repetitions"):
-        counted = _count(likeness, blocks, labels, found.borders * likeness.step, preset)
-    segments = np.unique(np.concatenate([blocks, *(c.cuts for c in counted)]))
-    parents = np.searchsorted(blocks, segments[:-1], side="right") - 1
-    agreement = np.array([c.agreement for c in counted])[parents]
-    return ActionAnalysis(
-        rows, likeness, preset, blocks, labels, confidence, segments, agreement, timings
+        limits = found.borders * recurring.step
+        counted = _count(recurring, borders, labels, limits, preset)
+    primitives = np.unique(np.concatenate([borders, *(each.cuts for each in counted)]))
+    parents = np.searchsorted(borders, primitives[:-1], side="right") - 1
+    agreement = np.array([each.agreement for each in counted])[parents]
+    return RecurrenceFound(
+        rows, recurring, preset, borders, labels, confidence, primitives, agreement, timings
     )
 
 
-def find_actions(likeness: Recurrence, preset: ActionPreset) -> Actions:
-    """Stretches of one action each, in moments."""
-    borders = stretches.change_points(
-        likeness,
-        penalty=preset.border_cost * preset.working_fps / preset.step,
-        min_length=max(1, preset.moments(preset.min_stretch)),
+def find_actions(recurring: Recurrence, preset: RecurrencePreset) -> Actions:
+    """Segments of one action each, in samples."""
+    per_second = preset.working_fps / preset.step
+    borders = change_points.change_points(
+        recurring,
+        penalty=preset.border_cost * per_second,
+        min_length=max(1, preset.samples(preset.min_segment)),
     )
-    borders = stretches.merge_parts(
+    borders = change_points.merge_neighbors(
         borders,
-        likeness,
-        gap=preset.moments(preset.part_gap),
-        softness=preset.part_softness,
-        least=preset.part_share,
+        recurring,
+        gap=preset.samples(preset.merge_gap),
+        softness=preset.merge_softness,
+        least=preset.merge_share,
     )
-    labels = stretches.link(
+    labels = change_points.link(
         borders,
-        likeness,
-        _poses(likeness.features, preset.offsets) if preset.any_pace else likeness.features,
-        likeness=preset.likeness,
-        softness=preset.likeness_softness,
-        max_lag=None if preset.max_lag is None else preset.moments(preset.max_lag),
+        recurring,
+        _poses(recurring.features, preset.offsets) if preset.any_pace else recurring.features,
+        similarity=preset.link_similarity,
+        softness=preset.link_softness,
+        samples=preset.link_samples,
+        least=preset.least_self_similarity,
+        max_lag=None if preset.max_lag is None else preset.samples(preset.max_lag),
     )
-    repeats = stretches.repeating(
-        borders, labels, likeness, softness=preset.part_softness, least=preset.min_repetition
+    repeats = change_points.repeating(
+        borders, labels, recurring, softness=preset.merge_softness, least=preset.min_repetition
     )
     return refine(
         borders,
         np.where(repeats, labels, -1),
-        likeness,
-        switch_cost=preset.switch_cost * preset.working_fps / preset.step,
+        recurring,
+        switch_cost=preset.switch_cost * per_second,
         no_action_cost=preset.no_action_cost,
-        min_length=max(1, preset.moments(preset.min_action)),
+        least_similarity=preset.least_similarity,
+        least_own=preset.least_self_similarity,
+        min_length=max(1, preset.samples(preset.min_action)),
+        rounds=preset.rounds,
+    )
+
+
+def recurrence_unit(features: NDArray[np.float64], preset: RecurrencePreset) -> float:
+    """The length in which the median sample of signals recurs at ``preset.recurs_at``.
+
+    1 where nothing is long enough to recur.
+    """
+    scales = _recurrence(features, preset.replace(max_lag=None), _TINY, _HUGE).scales
+    known = scales[scales < _HUGE / 2]
+    if not len(known):
+        return 1.0
+    return max(float(np.median(known)), preset.exact_below) / preset.recurs_at
+
+
+def _recurrence(
+    features: NDArray[np.float64], preset: RecurrencePreset, low: float, high: float
+) -> Recurrence:
+    reach = preset.window if preset.max_lag is None else min(preset.window, preset.max_lag)
+    return recurrence(
+        features,
+        step=preset.step,
+        width=max(1, preset.samples(reach)),
+        phases=phase_windows(preset.samples(preset.phase), preset.phase_shares),
+        rank=preset.samples(preset.recurrence_time),
+        low=low,
+        high=high,
+        softness=preset.softness,
     )
 
 
@@ -161,15 +237,18 @@ def _poses(features: NDArray[np.float32], offsets: tuple[float, ...]) -> NDArray
     return poses
 
 
-def _blocks(
-    found: Actions, likeness: Recurrence, preset: ActionPreset, n: int
+def _activities(
+    found: Actions, recurring: Recurrence, preset: RecurrencePreset, n: int
 ) -> tuple[Frames, Frames, NDArray[np.float64]]:
     """Borders, labels and confidence of activities and the transitions between them, in frames."""
     ends, begins = activity_ends(
         found,
-        likeness,
+        recurring,
         factor=preset.transition_factor,
-        longest=preset.moments(preset.max_transition),
+        spread=preset.transition_spread,
+        usual=preset.usual_quantile,
+        longest=preset.samples(preset.max_transition),
+        largest_share=preset.max_transition_share,
     )
     borders = np.column_stack([np.append(0, begins), np.append(ends, n)]).ravel()[:-1]
     labels = np.column_stack([found.labels, np.full_like(found.labels, -1)]).ravel()[:-1]
@@ -182,24 +261,27 @@ def _blocks(
 
 
 def _count(
-    likeness: Recurrence, blocks: Frames, labels: Frames, borders: Frames, preset: ActionPreset
+    recurring: Recurrence,
+    borders: Frames,
+    labels: Frames,
+    limits: Frames,
+    preset: RecurrencePreset,
 ) -> list[Repetitions]:
-    """Repetitions of each block; none in transitions.
+    """Repetitions of each activity; none in transitions.
 
     An activity's first and last repetition reach into its transitions, so it
-    is counted from half-way to the border of its stretch; cuts lie within it.
+    is counted from half-way to the limit of its action; cuts lie within it.
     """
-    smoothing = preset.frames(SMOOTHING)
-    limits = np.append(borders[:-1], len(likeness.features))
+    limits = np.append(limits[:-1], len(recurring.features))
 
-    def count(block: int) -> Repetitions:
-        start, stop = int(blocks[block]), int(blocks[block + 1])
-        if labels[block] < 0:
+    def count(segment: int) -> Repetitions:
+        start, stop = int(borders[segment]), int(borders[segment + 1])
+        if labels[segment] < 0:
             return Repetitions(np.empty(0, np.int64), np.nan)
-        stretch = int(np.searchsorted(limits, (start + stop) // 2, side="right")) - 1
-        first = (start + min(start, int(limits[stretch]))) // 2
-        last = (stop + max(stop, int(limits[stretch + 1]))) // 2
-        found = repetitions(likeness.features, first, last, smoothing=smoothing)
+        action = int(np.searchsorted(limits, (start + stop) // 2, side="right")) - 1
+        first = (start + min(start, int(limits[action]))) // 2
+        last = (stop + max(stop, int(limits[action + 1]))) // 2
+        found = repetitions(recurring.features, first, last, preset)
         inside = (start < found.cuts) & (found.cuts < stop)
         return replace(found, cuts=found.cuts[inside])
 

@@ -2,15 +2,15 @@
 
 Every pose of an activity is visited once per repetition: its distance to the
 activity, as that goes by, dips as often. How many of its dips are visits is not
-known. So the deepest two, three, ... of several poses each are one *way* to
-divide the activity, and the best way is the one whose parts are most alike:
-each is compared with the mean of all others. Of a way, what lies before the
-first visit and after the last counts by how far it goes along with the mean.
+known. So the deepest two, three, ... of several poses each are one *candidate*
+division of the activity, and the best is the one whose repetitions are most
+similar: each is compared with the mean of all others. Of a candidate, what lies
+before the first visit and after the last counts by how far it follows the mean.
 
-Parts are compared along their path, not in time, so that pace does not matter
-and a rest has no length; and apart from their size, so that a deep bend and a
-shallow one are two bends, where a step with the left foot and one with the
-right are halves of one repetition.
+Repetitions are compared along their path, not in time, so that pace does not
+matter and a rest has no length; and apart from their size, so that a deep bend
+and a shallow one are two bends, where a step with the left foot and one with
+the right are halves of one repetition.
 """
 
 from __future__ import annotations
@@ -20,39 +20,28 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.methods.recurrence import _candidate_kernels as candidate_kernels
 from kineme.methods.recurrence import _distance_kernels as kernels
-from kineme.methods.recurrence import _way_kernels as way_kernels
+from kineme.methods.recurrence.preset import RecurrencePreset
 
 Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 
-# Speeds are those of poses averaged over so many seconds before and after.
-SMOOTHING = 0.07
-# Depths are measured against a pose's large distances; less than this share of them is noise.
-LARGE = 0.9  # quantile
-SHALLOW = 0.05
-# So many poses vote, evenly spread: enough, and bounded in the length of the activity.
-VOTERS = 80
-# The numbers of visits with the most votes are tried, each with the poses that tell it best.
-NUMBERS, POSES = 8, 4
-# Parts are compared at so many places along their path.
-PLACES = 16
 # An end is followed for as long as one and a half repetitions.
-STEPS = (np.arange(PLACES * 3 // 2) + 0.5) / PLACES
-# An end goes along as long as it is nearer than this share of the variance, squared.
-NEAR = 0.5
-# Cost of the repetition that the others are compared with, per share of the activity.
-LENGTH = 1.5
-# Where more than this share stays unexplained, likeness is chance.
-CHANCE = 0.7
-# Ways that cost little more than the best say with it how long the ends are,
-# and those that cost somewhat more whether the count is certain.
-SAME, RIVAL = 0.1, 0.3
+FOLLOWED = 1.5
 
 
 @dataclass(frozen=True, eq=False)
 class Repetitions:
-    """Frames at which the second, third, ... repetition begins, and how certain their number is."""
+    """Where the repetitions of an activity begin.
+
+    Attributes
+    ----------
+    cuts : array of int
+        Frames at which the second, third, ... repetition begins.
+    agreement : float
+        How certain their number is, 0 to 1.
+    """
 
     cuts: Frames
     agreement: float
@@ -62,11 +51,14 @@ class Repetitions:
 class _Movement:
     """An activity along its path.
 
-    Parameters
+    Attributes
     ----------
-    poses : (frames, dims), smoothed, the mean subtracted
-    path : (frames + 1,) length of the path up to each frame, and to the end
-    variance : mean square of the poses along the path
+    poses : (frames, dims) array
+        Smoothed, the mean subtracted.
+    path : (frames + 1,) array
+        Length of the path up to each frame, and to the end.
+    variance : float
+        Mean square of the poses along the path.
     """
 
     poses: Floats
@@ -75,24 +67,30 @@ class _Movement:
 
 
 @dataclass(frozen=True, eq=False)
-class _Way:
-    """One way to divide an activity.
+class _Candidate:
+    """One division of an activity.
 
-    Parameters
+    Attributes
     ----------
-    visits : frames at which a pose is visited
-    before, after : share of a repetition before the first visit, and after the last
-    unexplained : share of the activity that the other repetitions do not explain
+    visits : array of int
+        Frames at which a pose is visited.
+    before, after : float
+        Share of a repetition before the first visit, and after the last.
+    unexplained : float
+        Share of the activity that the other repetitions do not explain.
+    length_cost : float
+        Of the preset.
     """
 
     visits: Frames
     before: float
     after: float
     unexplained: float
+    length_cost: float
 
     @property
     def cost(self) -> float:
-        return self.unexplained + LENGTH / self.number
+        return self.unexplained + self.length_cost / self.number
 
     @property
     def number(self) -> float:
@@ -112,7 +110,7 @@ class _Way:
 
 
 def repetitions(
-    features: NDArray[np.float32], start: int, stop: int, *, smoothing: int
+    features: NDArray[np.float32], start: int, stop: int, preset: RecurrencePreset
 ) -> Repetitions:
     """Where the repetitions of an activity begin, at equal phase.
 
@@ -120,25 +118,36 @@ def repetitions(
 
     Parameters
     ----------
-    features : (frames, dims)
-    start, stop : frames of the activity
-    smoothing : speeds are those of poses averaged over so many frames before and after
+    features : (frames, dims) array
+        At the working rate.
+    start, stop : int
+        Frames of the activity.
+    preset : RecurrencePreset
+
+    Returns
+    -------
+    Repetitions
     """
     rows = features[start:stop]
-    movement = _movement(rows, smoothing)
-    ways = _ways(rows, movement)
-    if not ways:
+    movement = _movement(rows, preset.frames(preset.repetition_smoothing))
+    candidates = _candidates(rows, movement, preset)
+    if not candidates:
         return Repetitions(np.empty(0, np.int64), 1.0)
-    best = min(ways, key=lambda way: way.cost)
-    same = [w for w in ways if w.cost < best.cost + SAME and abs(w.number - best.number) < 0.75]
-    count = int(np.mean([way.number for way in same]) + 0.5)
-    divisions = [cuts for way in same if (cuts := way.cuts(count)) is not None]
+    best = min(candidates, key=lambda each: each.cost)
+    same = [
+        each
+        for each in candidates
+        if each.cost < best.cost + preset.same_cost
+        and abs(each.number - best.number) < preset.same_count
+    ]
+    count = int(np.mean([each.number for each in same]) + 0.5)
+    divisions = [cuts for each in same if (cuts := each.cuts(count)) is not None]
     if not divisions:
         count = best.whole
         divisions = [cuts for cuts in [best.cuts(count)] if cuts is not None]
     even = min(divisions, key=lambda cuts: np.diff([0, *cuts, len(rows)]).std())
-    weights = np.array([max(best.cost + RIVAL - way.cost, 0) for way in ways])
-    agreeing = np.array([way.whole == count for way in ways])
+    weights = np.array([max(best.cost + preset.rival_cost - each.cost, 0) for each in candidates])
+    agreeing = np.array([each.whole == count for each in candidates])
     return Repetitions(start + even, float(weights[agreeing].sum() / weights.sum()))
 
 
@@ -154,59 +163,67 @@ def _movement(rows: NDArray[np.float32], smoothing: int) -> _Movement:
     return _Movement(poses, path, float(shares @ (poses**2).sum(axis=1)))
 
 
-def _ways(rows: NDArray[np.float32], movement: _Movement) -> list[_Way]:
-    """Ways to divide an activity that more than one repetition comes of."""
-    references = np.unique(np.linspace(0, len(rows) - 1, min(VOTERS, len(rows))).astype(np.int64))
-    depths, centers = _dips(rows, references)
+def _candidates(
+    rows: NDArray[np.float32], movement: _Movement, preset: RecurrencePreset
+) -> list[_Candidate]:
+    """Divisions of an activity into more than one repetition."""
+    voters = min(preset.voters, len(rows))
+    references = np.unique(np.linspace(0, len(rows) - 1, voters).astype(np.int64))
+    depths, centers = _dips(rows, references, preset)
     falls = depths - np.pad(depths[:, 1:], ((0, 0), (0, 1)))
     votes = np.diff(movement.path)[references] @ falls
     votes[0] = 0  # every pose visits itself
-    ways = []
-    for column in np.argsort(-votes, kind="stable")[:NUMBERS]:
-        clear = np.argsort(-falls[:, column], kind="stable")[:POSES]
+    found: list[_Candidate] = []
+    for column in np.argsort(-votes, kind="stable")[: preset.counts_tried]:
+        clear = np.argsort(-falls[:, column], kind="stable")[: preset.poses_tried]
         visits = centers[clear[falls[clear, column] > 0], : column + 1]
-        ways += [_way(movement, row) for row in np.sort(visits, axis=1) if votes[column] > 0]
-    return [way for way in ways if way.whole > 1 and way.unexplained < CHANCE]
+        if votes[column] > 0:
+            found += [_candidate(movement, row, preset) for row in np.sort(visits, axis=1)]
+    return [each for each in found if each.whole > 1 and each.unexplained < preset.max_unexplained]
 
 
 def _dips(
-    rows: NDArray[np.float32], references: Frames
+    rows: NDArray[np.float32], references: Frames, preset: RecurrencePreset
 ) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
     """Depths, 0 to 1, of each reference's dips, deepest first, and where they are."""
     distances = kernels.distances_to(rows, references, 0, len(rows))
-    rank = int(LARGE * (len(rows) - 1))
+    rank = int(preset.deep_quantile * (len(rows) - 1))
     large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
-    depths, centers = kernels.dips(distances, np.float32(SHALLOW) * large)
+    noise = np.float32(preset.noise_share)
+    depths, centers = kernels.dips(distances, noise * large)
     shares = np.minimum(depths / large[:, None], 1)
-    return np.maximum(shares - np.float32(SHALLOW), 0), centers
+    return np.maximum(shares - noise, 0), centers
 
 
-def _way(movement: _Movement, visits: Frames) -> _Way:
-    poses, path = movement.poses, movement.path
+def _candidate(movement: _Movement, visits: Frames, preset: RecurrencePreset) -> _Candidate:
+    poses, path, places = movement.poses, movement.path, preset.path_points
     whole, at = path[-1], path[visits]
     lengths = np.diff(at)
     length = max(float(np.sort(lengths)[len(lengths) // 2]), 1e-12)
-    parts = way_kernels.parts_between(poses, path, visits, PLACES)
-    mean = parts.sum(axis=0) / len(parts)
-    before = _along(movement, at[0] - STEPS * length, np.ascontiguousarray(mean[::-1]))
-    after = _along(movement, at[-1] + STEPS * length, mean)
-    strange = max(at[0] - before * length, 0) + max(whole - at[-1] - after * length, 0)
+    inner = candidate_kernels.repetitions_between(poses, path, visits, places)
+    mean = inner.sum(axis=0) / len(inner)
+    steps = (np.arange(int(places * FOLLOWED)) + 0.5) / places
+    near = preset.end_distance * movement.variance
+    before = _followed(movement, at[0] - steps * length, np.ascontiguousarray(mean[::-1]), near)
+    after = _followed(movement, at[-1] + steps * length, mean, near)
+    outside = max(at[0] - before * length, 0) + max(whole - at[-1] - after * length, 0)
     number = len(lengths) + before + after
-    if len(parts) == 1:  # compared with what comes after it, and goes on at the beginning
-        ahead = at[-1] + (whole - length) * STEPS[:PLACES]
-        rest = way_kernels.poses_at(poses, path, np.where(ahead < whole, ahead, ahead - whole))
-        parts = np.stack([parts[0], rest])
-    unlike = way_kernels.unlike(parts)[: len(lengths)]
-    known = max(whole - strange - lengths.sum(), 0)
-    # A part counts as a repetition, however short.
+    if len(inner) == 1:  # compared with what comes after it, and goes on at the beginning
+        ahead = at[-1] + (whole - length) * steps[:places]
+        rest = candidate_kernels.poses_at(
+            poses, path, np.where(ahead < whole, ahead, ahead - whole)
+        )
+        inner = np.stack([inner[0], rest])
+    unexplained = candidate_kernels.unexplained(inner)[: len(lengths)]
+    known = max(whole - outside - lengths.sum(), 0)
+    # What lies between two visits counts as a repetition, however short.
     shares = np.maximum(lengths / whole, 1 / number)
-    unexplained = shares @ unlike + (unlike.sum() / len(unlike) * known + strange) / whole
-    return _Way(visits, before, after, float(unexplained))
+    total = shares @ unexplained + (unexplained.sum() / len(unexplained) * known + outside) / whole
+    return _Candidate(visits, before, after, float(total), preset.length_cost)
 
 
-def _along(movement: _Movement, lengths: Floats, mean: Floats) -> float:
-    """How much of a repetition an end goes along with the mean of the others, 0 to 1."""
+def _followed(movement: _Movement, lengths: Floats, mean: Floats, near: float) -> float:
+    """How much of a repetition an end follows the mean of the others, 0 to 1."""
     poses, path = movement.poses, movement.path
     inside = lengths[(lengths >= 0) & (lengths <= path[-1])]
-    near = NEAR * movement.variance
-    return float(way_kernels.along(poses, path, inside, mean, near)) / PLACES
+    return float(candidate_kernels.followed(poses, path, inside, mean, near)) / len(mean)

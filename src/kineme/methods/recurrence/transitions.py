@@ -1,8 +1,8 @@
 """Transitions: from where one activity ends to where the next begins.
 
 An activity lasts for as long as its poses are found again in it. So the left
-one of two neighbours ends where its moments begin to recur badly, the right
-one begins where its moments recur well, and what lies between is transition.
+one of two neighbours ends where its samples begin to recur badly, the right
+one begins where its samples recur well, and what lies between is transition.
 How badly is a matter of degree: a range of thresholds votes, and their mean
 counts. Where the two overlap both explain what is seen, as when somebody
 stands still after the one and before the other. There the border is where
@@ -20,36 +20,52 @@ from numpy.typing import NDArray
 from kineme._threads import even_slices, map_threads
 from kineme.methods.recurrence import _recurrence_kernels as kernels
 from kineme.methods.recurrence.actions import Actions
+from kineme.methods.recurrence.change_points import Samples
 from kineme.methods.recurrence.recurrence import Recurrence
-from kineme.methods.recurrence.stretches import Bins
 
-# The thresholds that vote, as multiples of the one given.
-VOTES = np.linspace(0.7, 1.3, 7)
-# Moments recur badly by comparison with so many of their action.
-USUAL = 0.9
-# A transition takes no more than this share of an activity at either end.
-LARGEST_SHARE = 0.25
+# So many thresholds vote.
+VOTES = 7
 
 
 def activity_ends(
-    actions: Actions, recurrence: Recurrence, *, factor: float, longest: int
-) -> tuple[Bins, Bins]:
-    """Frames where each stretch but the last ends, and where each but the first begins.
+    actions: Actions,
+    recurrence: Recurrence,
+    *,
+    factor: float,
+    spread: float,
+    usual: float,
+    longest: int,
+    largest_share: float,
+) -> tuple[Samples, Samples]:
+    """Frames where each segment but the last ends, and where each but the first begins.
 
-    Equal where two stretches touch; stretches of no action have the ends that
+    Equal where two segments touch; segments of no action have the ends that
     their neighbours leave them.
 
     Parameters
     ----------
     actions : Actions
     recurrence : Recurrence
-    factor : moments recur badly if they are farther from the rest of their action than this
-        times its 90 % quantile
-    longest : bins that a transition reaches into a stretch at most
+    factor : float
+        Samples recur badly if they are farther from the rest of their action than this
+        times its usual distance.
+    spread : float
+        Factors from one minus this to one plus this times `factor` vote.
+    usual : float
+        Quantile of an action's distances that is its usual distance.
+    longest : int
+        Samples that a transition reaches into a segment at most.
+    largest_share : float
+        Share of a segment that it reaches into at most.
+
+    Returns
+    -------
+    ends, begins : (segments - 1,) array
     """
-    per_bin = np.repeat(actions.labels, np.diff(actions.borders))
-    thresholds = factor * VOTES[:, None] * _usual_distances(recurrence, per_bin)
-    reach = np.minimum(longest, LARGEST_SHARE * np.diff(actions.borders)).astype(np.int64)
+    votes = np.linspace(1 - spread, 1 + spread, VOTES)
+    per_sample = np.repeat(actions.labels, np.diff(actions.borders))
+    thresholds = factor * votes[:, None] * _usual_distances(recurrence, per_sample, usual)
+    reach = np.minimum(longest, largest_share * np.diff(actions.borders)).astype(np.int64)
     ends, begins = [], []
     for g, border in enumerate(actions.borders[1:-1].tolist()):
         around = slice(border - int(reach[g]), border + int(reach[g + 1]))
@@ -57,9 +73,9 @@ def activity_ends(
         shifts = []
         for side, action in enumerate(actions.labels[g : g + 2].tolist()):
             if action >= 0 and np.isfinite(thresholds[0, action]):
-                distances = _distances(recurrence, per_bin, action, around)
-                strange = distances > thresholds[:, action, None]
-                shifts.append(np.mean([(_end, _begin)[side](votes, at) for votes in strange]))
+                distances = _distances(recurrence, per_sample, action, around)
+                unfamiliar = distances > thresholds[:, action, None]
+                shifts.append(np.mean([(_end, _begin)[side](vote, at) for vote in unfamiliar]))
         left, right = (shifts[0], shifts[-1]) if shifts else (at, at)
         end, begin = (round(recurrence.step * (around.start + float(s))) for s in (left, right))
         if end > begin:
@@ -69,45 +85,53 @@ def activity_ends(
     return np.array(ends, np.int64), np.array(begins, np.int64)
 
 
-def _usual_distances(recurrence: Recurrence, per_bin: Bins) -> NDArray[np.float64]:
-    """How far most moments of each action are from the rest of it at most; infinite if unknown."""
-    nearest = np.empty(len(per_bin), np.float32)
+def _usual_distances(
+    recurrence: Recurrence, per_sample: Samples, quantile: float
+) -> NDArray[np.float64]:
+    """How far most samples of each action are from the rest of it at most; infinite if unknown."""
+    nearest = np.empty(len(per_sample), np.float32)
 
     def measure(part: slice) -> None:
         kernels.class_distances(
-            recurrence.near, per_bin, per_bin, recurrence.phase, part.start, part.stop, nearest
+            recurrence.near,
+            per_sample,
+            per_sample,
+            recurrence.phase,
+            part.start,
+            part.stop,
+            nearest,
         )
 
-    map_threads(measure, even_slices(len(per_bin)))
-    usual = np.full(int(per_bin.max()) + 1, np.inf)
+    map_threads(measure, even_slices(len(per_sample)))
+    usual = np.full(int(per_sample.max()) + 1, np.inf)
     for action in range(len(usual)):
-        known = nearest[(per_bin == action) & np.isfinite(nearest)]
+        known = nearest[(per_sample == action) & np.isfinite(nearest)]
         if known.size:
-            usual[action] = np.quantile(known, USUAL)
+            usual[action] = np.quantile(known, quantile)
     return usual
 
 
 def _distances(
-    recurrence: Recurrence, per_bin: Bins, action: int, bins: slice
+    recurrence: Recurrence, per_sample: Samples, action: int, around: slice
 ) -> NDArray[np.float32]:
-    """How far some bins are from the nearest of an action."""
-    nearest = np.empty(len(per_bin), np.float32)
-    wanted = np.full(len(per_bin), action)
+    """How far some samples are from the nearest of an action."""
+    nearest = np.empty(len(per_sample), np.float32)
+    wanted = np.full(len(per_sample), action)
     kernels.class_distances(
-        recurrence.near, per_bin, wanted, recurrence.phase, bins.start, bins.stop, nearest
+        recurrence.near, per_sample, wanted, recurrence.phase, around.start, around.stop, nearest
     )
-    return nearest[bins]
+    return nearest[around]
 
 
-def _end(strange: NDArray[np.bool_], border: int) -> int:
-    """Where the familiar ends: before the border if it is strange there, else after it."""
-    back = leading(strange[:border][::-1])
-    return border - back if back else border + leading(~strange[border:])
+def _end(unfamiliar: NDArray[np.bool_], border: int) -> int:
+    """Where the familiar ends: before the border if it is not familiar there, else after it."""
+    back = leading(unfamiliar[:border][::-1])
+    return border - back if back else border + leading(~unfamiliar[border:])
 
 
-def _begin(strange: NDArray[np.bool_], border: int) -> int:
-    """Where the familiar begins: after the border if it is strange there, else before it."""
-    return len(strange) - _end(strange[::-1], len(strange) - border)
+def _begin(unfamiliar: NDArray[np.bool_], border: int) -> int:
+    """Where the familiar begins: after the border if it is not familiar there, else before it."""
+    return len(unfamiliar) - _end(unfamiliar[::-1], len(unfamiliar) - border)
 
 
 def _slowest(recurrence: Recurrence, first: int, last: int) -> int:

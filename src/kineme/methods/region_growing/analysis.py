@@ -5,7 +5,6 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import repeat
 from math import ceil
@@ -17,7 +16,7 @@ from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.errors import ParameterError
 from kineme.graph import NeighborGraph, component_labels, neighbor_graph
-from kineme.methods.presets import RegionPreset
+from kineme.methods.base import Columns, Mirror
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.activities import (
     ActivityCuts,
@@ -26,106 +25,153 @@ from kineme.methods.region_growing.activities import (
 )
 from kineme.methods.region_growing.clustering import Clustering, cluster_segments
 from kineme.methods.region_growing.mirroring import merged_cuts, symmetry_type
+from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import PrimitiveCuts, primitive_cuts
+from kineme.methods.segments import by_first_appearance, columns_of
 from kineme.methods.stages import Progress, stopwatch
 
 Frames = NDArray[np.int64]
-Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True, eq=False)
-class Analysis:
+class RegionsFound:
     """What the stages found, stage by stage.
 
-    Parameters
+    Attributes
     ----------
-    graph : neighbours of every frame, main diagonal included
-    activity_cuts : where activities end and start
-    blocks : (blocks + 1,) borders of activities and transitions, from 0 to n
-    repeats : (blocks,) whether a block is an activity (or else a transition)
-    repetition : (blocks,) share of its frames that look like others of the block
-    segments : (segments + 1,) borders of the primitives, from 0 to n, blocks' included
-    clustering : cluster and score of each segment
-    symmetry : (blocks,) how left and right go together in each activity, ``symmetric``,
-        ``alternating`` or ``one-sided`` (see `kineme.methods.region_growing.mirroring`); empty in
-        transitions; None where the preset does not mirror
-    timings : seconds per stage
+    features : (frames, dims) array
+        As given, or bundled.
+    graph : NeighborGraph
+        Neighbours of every frame, main diagonal included.
+    activity_cuts : ActivityCuts
+        Where activities end and start.
+    borders : (segments + 1,) array
+        Of activities and transitions, from 0 to n.
+    repeats : (segments,) array of bool
+        Whether it is an activity, or else a transition.
+    repetition : (segments,) array
+        Share of its frames that are similar to others of it.
+    primitives : (primitives + 1,) array
+        Borders of the primitives, from 0 to n, those of activities included.
+    clustering : Clustering
+        Cluster and score of each primitive.
+    symmetry : (segments,) array of str, optional
+        How left and right go together in each activity: ``symmetric``, ``alternating`` or
+        ``one-sided`` (see `kineme.methods.region_growing.mirroring`); empty in transitions;
+        None where the preset does not mirror.
+    timings : dict of str to float
+        Seconds per stage.
     """
 
+    features: NDArray[np.float64]
     graph: NeighborGraph
     activity_cuts: ActivityCuts
-    blocks: Frames
+    borders: Frames
     repeats: NDArray[np.bool_]
     repetition: NDArray[np.float64]
-    segments: Frames
+    primitives: Frames
     clustering: Clustering
     symmetry: NDArray[np.str_] | None = None
     timings: dict[str, float] = field(default_factory=dict)
 
+    def columns(self) -> Columns:
+        """Activities in the cluster that most of their frames are in, primitives in their own."""
+        parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
+        clusters = _cluster_numbers(self, parents)
+        of_activities = _main_clusters(clusters, parents, np.diff(self.primitives))
+        return columns_of(
+            self.borders,
+            self.primitives,
+            is_activity=self.repeats,
+            clusters=(of_activities, clusters),
+            scores=(self.repetition, self.clustering.scores),
+        )
+
+    def doubts(self, columns: Columns, fps: float) -> list[str]:  # noqa: ARG002
+        """None: the published methods do not say how sure they are."""
+        return []
+
 
 def analyze_regions(
     features: ArrayLike,
-    preset: RegionPreset,
+    preset: RegionGrowingPreset,
     *,
     mirror: Mirror | None = None,
     progress: Progress | None = None,
-) -> Analysis:
+) -> RegionsFound:
     """Neighbour graph, activities, primitives and clusters of a sequence of features.
 
     Parameters
     ----------
-    features : (frames, dims)
-        Stacked search vectors at the working rate, in metres where the
-        preset's radius is to mean what its source means.
-    preset : RegionPreset
-    mirror : exchanges left and right in such features; `kineme.features.mirror_features`
-        for those of motions
-    progress : called with the name of each stage before it runs
+    features : (frames, dims) array
+        Stacked poses at the working rate, in metres where the preset's radius is to mean
+        what its source means.
+    preset : RegionGrowingPreset
+    mirror : callable, optional
+        Exchanges left and right in such features; `kineme.features.mirror_features` for
+        those of motions.
+    progress : callable, optional
+        Called with the name of each stage before it runs.
+
+    Returns
+    -------
+    RegionsFound
 
     Raises
     ------
-    ParameterError : features of another shape, empty or not finite, or the preset mirrors, and
-        nothing says how
+    ParameterError
+        Features of another shape, empty or not finite; or the preset mirrors, and nothing
+        says how.
     """
-    features = as_features(features)
+    given = as_features(features)
     if preset.mirror and mirror is None:
         raise ParameterError("these features have no left and right: they take mirror=False")
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
+    seen = given
     if preset.bundling is not None:
         from kineme.features.bundling import bundle  # compiled code that few need
 
         with stage("bundling"):
-            features = bundle(features, neighbors=preset.bundling)
+            seen = bundle(given, neighbors=preset.bundling)
     with stage("neighbors"):
-        graph = _neighbors(features, None, preset)
+        graph = _neighbors(seen, None, preset)
     with stage("activities"):
         off_diagonal = _growth_graph(graph, preset)
         cuts = _activity_cuts(off_diagonal, preset)
-        blocks = _borders(cuts.all, len(graph))
-        inner = _kernels.inner_neighbors(off_diagonal.indptr, off_diagonal.indices, blocks)
-        repeats = _repeats(blocks, cuts, np.add.reduceat(inner, blocks[:-1]), preset)
-        repetition = np.add.reduceat(inner > 0, blocks[:-1]) / np.diff(blocks)
+        borders = _borders(cuts.all, len(graph))
+        inner = _kernels.inner_neighbors(off_diagonal.indptr, off_diagonal.indices, borders)
+        repeats = _repeats(borders, cuts, np.add.reduceat(inner, borders[:-1]), preset)
+        repetition = np.add.reduceat(inner > 0, borders[:-1]) / np.diff(borders)
     with stage("primitives"):
-        primitives = _primitives(graph, blocks, preset)
-    cuts_inside = [block.cuts for block in primitives]
+        divided = _primitives(graph, borders, preset)
+    cuts_inside = [each.cuts for each in divided]
     symmetry = None
     if preset.mirror and mirror is not None:
         with stage("mirroring"):
-            graph_across = _neighbors(mirror(features), features, preset)
-            mirrored = _primitives(graph_across, blocks, preset)
-            cuts_inside = _merged(primitives, mirrored, preset)
-            symmetry = _symmetry(blocks, repeats, primitives, mirrored, preset)
+            graph_across = _neighbors(mirror(seen), seen, preset)
+            mirrored = _primitives(graph_across, borders, preset)
+            cuts_inside = _merged(divided, mirrored, preset)
+            symmetry = _symmetry(borders, repeats, divided, mirrored, preset)
     with stage("clusters"):
-        segments = _borders(np.concatenate([blocks, *cuts_inside]), len(graph))
-        clustering = _clusters(graph, segments, preset)
-    return Analysis(
-        graph, cuts, blocks, repeats, repetition, segments, clustering, symmetry, timings
+        primitives = _borders(np.concatenate([borders, *cuts_inside]), len(graph))
+        clustering = _clusters(graph, primitives, preset)
+    return RegionsFound(
+        seen,
+        graph,
+        cuts,
+        borders,
+        repeats,
+        repetition,
+        primitives,
+        clustering,
+        symmetry,
+        timings,
     )
 
 
 def _neighbors(
-    features: ArrayLike, others: ArrayLike | None, preset: RegionPreset
+    features: ArrayLike, others: ArrayLike | None, preset: RegionGrowingPreset
 ) -> NeighborGraph:
     return neighbor_graph(
         features,
@@ -136,7 +182,7 @@ def _neighbors(
     )
 
 
-def _growth_graph(graph: NeighborGraph, preset: RegionPreset) -> NeighborGraph:
+def _growth_graph(graph: NeighborGraph, preset: RegionGrowingPreset) -> NeighborGraph:
     """The pairs that growing regions count: near enough, and off the main diagonal."""
     if preset.growth_neighbors is not None:
         graph = graph.nearest(preset.growth_neighbors)
@@ -147,7 +193,7 @@ def _growth_graph(graph: NeighborGraph, preset: RegionPreset) -> NeighborGraph:
     return graph.restrict(radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width))
 
 
-def _activity_cuts(graph: NeighborGraph, preset: RegionPreset) -> ActivityCuts:
+def _activity_cuts(graph: NeighborGraph, preset: RegionGrowingPreset) -> ActivityCuts:
     gap = max(1, preset.frames(preset.growth_gap))
     if preset.growth == "squares":
         return square_cuts(
@@ -166,20 +212,22 @@ def _borders(cuts: Frames, n: int) -> Frames:
 
 
 def _repeats(
-    blocks: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionPreset
+    borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingPreset
 ) -> NDArray[np.bool_]:
-    """Blocks that repeat themselves; those from an end to the next start do not."""
-    ends_only = np.isin(blocks[:-1], cuts.forward) & ~np.isin(blocks[:-1], cuts.backward)
-    return (pairs > preset.growth_count) & ~(ends_only & np.isin(blocks[1:], cuts.backward))
+    """Segments that repeat themselves; those from an end to the next start do not."""
+    ends_only = np.isin(borders[:-1], cuts.forward) & ~np.isin(borders[:-1], cuts.backward)
+    return (pairs > preset.growth_count) & ~(ends_only & np.isin(borders[1:], cuts.backward))
 
 
-def _primitives(graph: NeighborGraph, blocks: Frames, preset: RegionPreset) -> list[PrimitiveCuts]:
-    frames = np.minimum(blocks, len(graph) - 1).tolist()
+def _primitives(
+    graph: NeighborGraph, borders: Frames, preset: RegionGrowingPreset
+) -> list[PrimitiveCuts]:
+    frames = np.minimum(borders, len(graph) - 1).tolist()
 
-    def cuts_of(block: int) -> PrimitiveCuts:
+    def cuts_of(segment: int) -> PrimitiveCuts:
         return primitive_cuts(
             graph,
-            (frames[block], frames[block + 1]),
+            (frames[segment], frames[segment + 1]),
             steps=preset.steps,
             skip_penalty=preset.skip_penalty * preset.radius,
             zero_cost=preset.zero_cost,
@@ -190,33 +238,33 @@ def _primitives(graph: NeighborGraph, blocks: Frames, preset: RegionPreset) -> l
             min_length=preset.min_primitive * preset.working_fps,
         )
 
-    return map_threads(cuts_of, range(len(blocks) - 1))
+    return map_threads(cuts_of, range(len(borders) - 1))
 
 
 def _merged(
-    main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionPreset
+    main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionGrowingPreset
 ) -> list[Frames]:
     gap = preset.min_primitive * preset.working_fps
     return [merged_cuts(a.cuts, b.cuts, gap) for a, b in zip(main, mirrored, strict=True)]
 
 
 def _symmetry(
-    blocks: Frames,
+    borders: Frames,
     repeats: NDArray[np.bool_],
     main: list[PrimitiveCuts],
     mirrored: list[PrimitiveCuts],
-    preset: RegionPreset,
+    preset: RegionGrowingPreset,
 ) -> NDArray[np.str_]:
-    """How left and right go together in each block that repeats; empty in the others."""
+    """How left and right go together in each segment that repeats; empty in the others."""
     gap = preset.min_primitive * preset.working_fps
-    last = (blocks[1:] - 1).tolist()
+    last = (borders[1:] - 1).tolist()
     types = map(
-        symmetry_type, zip(blocks.tolist(), last, strict=False), main, mirrored, repeat(gap)
+        symmetry_type, zip(borders.tolist(), last, strict=False), main, mirrored, repeat(gap)
     )
     return np.where(repeats, list(types), "")
 
 
-def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionPreset) -> Clustering:
+def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionGrowingPreset) -> Clustering:
     if preset.cluster_neighbors is not None:
         graph = graph.nearest(preset.cluster_neighbors)
     return cluster_segments(
@@ -234,5 +282,21 @@ def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionPreset) -> C
     )
 
 
-def _separation(preset: RegionPreset) -> int | None:
+def _separation(preset: RegionGrowingPreset) -> int | None:
     return None if preset.path_separation is None else preset.frames(preset.path_separation)
+
+
+def _cluster_numbers(found: RegionsFound, parents: NDArray[np.intp]) -> Frames:
+    """Numbers from 0 by first appearance; -1 for transitions that nothing else is similar to."""
+    labels = found.clustering.labels
+    lonely = np.bincount(labels)[labels] == 1
+    named = ~(lonely & ~found.repeats[parents])
+    return by_first_appearance(np.where(named, labels, -1))
+
+
+def _main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Frames) -> Frames:
+    """For each activity the cluster that most of its frames are in; -1 where that is none."""
+    frames = np.zeros((int(parents.max()) + 1, int(clusters.max()) + 2), np.int64)
+    np.add.at(frames, (parents, clusters), lengths)  # those in no cluster: the last column
+    main = frames.argmax(axis=1)
+    return np.where(main == frames.shape[1] - 1, -1, main)

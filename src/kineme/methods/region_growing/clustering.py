@@ -22,8 +22,8 @@ from scipy.sparse.csgraph import connected_components
 from kineme._threads import map_threads
 from kineme.graph import NeighborGraph, warping_paths
 from kineme.graph.warping import Step
-from kineme.methods.numbering import by_first_appearance
 from kineme.methods.region_growing import _kernels
+from kineme.methods.segments import by_first_appearance
 
 
 @dataclass(frozen=True, eq=False)

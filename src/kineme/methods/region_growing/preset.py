@@ -11,113 +11,149 @@ Lengths are metres, times seconds. Sources are named as
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
-from kineme._checks import is_number
-from kineme.errors import ParameterError
-from kineme.methods.base import Preset
+from numpy.typing import ArrayLike
+
+from kineme.methods.base import Mirror, Preset, Unit
+from kineme.methods.constants import (
+    COUNT,
+    LENGTH,
+    SOME,
+    SOME_LENGTH,
+    SOME_SHARE,
+    SOME_TIME,
+    TIME,
+    Limits,
+    constant,
+)
+
+if TYPE_CHECKING:
+    from kineme.methods.region_growing.analysis import RegionsFound
+    from kineme.methods.stages import Progress
 
 Step = tuple[int, int]
 
 BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
 
+POSE_CHANNELS, POSE_DEVIATION = 15, 0.13
+"""Numbers in a pose, and the metres by which each of them varies: the mean over subject 86."""
+
 
 @dataclass(frozen=True, kw_only=True)
-class RegionPreset(Preset):
-    """Constants of the published methods: growing regions and warping paths.
+class RegionGrowingPreset(Preset):
+    """Constants of the published methods: growing regions and warping paths."""
 
-    Parameters
-    ----------
-    radius : largest distance of two neighbours, metres in the stacked space
-    max_neighbors : neighbours kept per frame at most, the nearest
-    bundling : draw frames together first, each towards so many of those like it; None for
-        features as they are
-    mirror : also cut where a repetition with left and right exchanged starts
-    steps : warping steps (a, b)
-    skip_penalty : cost of each frame a step passes over, in radii
-    zero_cost : cost of a node whose distance is zero, metres
-    growth : form of the growing region: ``squares`` or ``scan_lines``
-    growth_radius : smaller radius for growing regions, metres; None for ``radius``
-    growth_neighbors : fewer neighbours for growing regions; None for all
-    diagonal : how the main diagonal is removed: a ``band``, or the connected ``component``
-        of the first frame
-    diagonal_width : half width of that band, seconds
-    growth_gap : seconds without a new neighbour that end a region
-    growth_count : neighbours that a region must hold more than
-    growth_distance : seconds between two cuts of one direction at least (squares)
-    min_path : shortest warping path inside an activity, seconds
-    path_separation : several paths of a component are kept if they begin at least this
-        far apart, seconds; None for the cheapest only
-    max_slope : a path's two stretches differ by this factor at most
-    symmetry : share of a path that must be matched the other way round
-    min_primitive : shortest primitive, seconds
-    cluster_neighbors : fewer neighbours for clusters; None for all
-    cluster_min_path : shortest warping path between segments, seconds
-    coverage : share of both segments that a linking path must cover
-    interpolate : judge the coverage by the rows at which the path enters and leaves the
-        other segment, instead of all its rows
-    connection : links one way make a cluster (``weak``), or links both ways (``strong``)
-    """
+    method: ClassVar[str] = "region_growing"
 
-    radius: float
-    max_neighbors: int
-    bundling: int | None = None
-    mirror: bool = False
-    steps: tuple[Step, ...]
-    skip_penalty: float
-    zero_cost: float
-    growth: Literal["squares", "scan_lines"]
-    growth_radius: float | None = None
-    growth_neighbors: int | None = None
-    diagonal: Literal["band", "component"] = "band"
-    diagonal_width: float
-    growth_gap: float
-    growth_count: int
-    growth_distance: float = 0.0
-    min_path: float
-    path_separation: float | None = None
-    max_slope: float = 2.0
-    symmetry: float = 0.5
-    min_primitive: float
-    cluster_neighbors: int | None = None
-    cluster_min_path: float
-    coverage: float
-    interpolate: bool
-    connection: Literal["weak", "strong"]
+    unit: Unit = "metres"
+    radius: float = constant(
+        "largest distance of two neighbours, in the stacked space", unit="metres",
+        limits=SOME_LENGTH, slider=(0.1, 1.6, 0.01),
+    )  # fmt: skip
+    max_neighbors: int = constant("neighbours kept per sample at most, the nearest", limits=SOME)
+    bundling: int | None = constant(
+        "draw features together first, each towards so many of those similar to it; none for "
+        "features as they are", limits=SOME, default=None,
+    )  # fmt: skip
+    mirror: bool = constant(
+        "also cut where a repetition with left and right exchanged starts", default=False
+    )
+    steps: tuple[Step, ...] = constant("warping steps (a, b)", limits=Limits(0, 1000))
+    skip_penalty: float = constant(
+        "cost of each sample a step passes over, in radii", limits=LENGTH
+    )
+    zero_cost: float = constant(
+        "cost of a node whose distance is zero", unit="metres", limits=SOME_LENGTH
+    )
+    growth: Literal["squares", "scan_lines"] = constant("form of the growing region")
+    growth_radius: float | None = constant(
+        "smaller radius for growing regions; none for that of all", unit="metres",
+        limits=SOME_LENGTH, default=None,
+    )  # fmt: skip
+    growth_neighbors: int | None = constant(
+        "fewer neighbours for growing regions; none for all", limits=SOME, default=None
+    )
+    diagonal: Literal["band", "component"] = constant(
+        "how the main diagonal is removed: a band, or the connected component of the first sample",
+        default="band",
+    )
+    diagonal_width: float = constant("half width of that band", unit="s", limits=TIME)
+    growth_gap: float = constant(
+        "time without a new neighbour that ends a region", unit="s", limits=SOME_TIME,
+        slider=(1 / 30, 2.0, 1 / 30),
+    )  # fmt: skip
+    growth_count: int = constant("neighbours that a region must hold more than", limits=COUNT)
+    growth_distance: float = constant(
+        "time between two cuts of one direction at least (squares)", unit="s", limits=TIME,
+        default=0.0,
+    )  # fmt: skip
+    min_path: float = constant("shortest warping path inside an activity", unit="s", limits=TIME)
+    path_separation: float | None = constant(
+        "several paths of a component are kept if they begin at least this far apart; none for "
+        "the cheapest only", unit="s", limits=SOME_TIME, default=None,
+    )  # fmt: skip
+    max_slope: float = constant(
+        "a path's two sides differ in length by this factor at most", limits=Limits(1.0, 1000.0),
+        default=2.0,
+    )  # fmt: skip
+    symmetry: float = constant(
+        "share of a path that must be matched the other way round", limits=SOME_SHARE, default=0.5
+    )
+    min_primitive: float = constant(
+        "shortest primitive", unit="s", limits=TIME, slider=(0.05, 3.0, 0.05)
+    )
+    cluster_neighbors: int | None = constant(
+        "fewer neighbours for clusters; none for all", limits=SOME, default=None
+    )
+    cluster_min_path: float = constant(
+        "shortest warping path between segments", unit="s", limits=TIME
+    )
+    coverage: float = constant(
+        "share of both segments that a linking path must cover", limits=SOME_SHARE,
+        slider=(0.1, 1.0, 0.02),
+    )  # fmt: skip
+    interpolate: bool = constant(
+        "judge the coverage by the rows at which the path enters and leaves the other segment, "
+        "instead of all its rows"
+    )
+    connection: Literal["weak", "strong"] = constant(
+        "links one way make a cluster (weak), or links both ways (strong)"
+    )
 
-    def __post_init__(self) -> None:
-        self._check(_POSITIVE, _NOT_NEGATIVE)
-        for name in ("symmetry", "coverage"):
-            value = getattr(self, name)
-            if not (is_number(value) and 0 < value <= 1):
-                raise ParameterError(f"{name} is a share above 0 and at most 1, not {value!r}")
-        if not (is_number(self.max_slope) and self.max_slope >= 1):
-            raise ParameterError(f"max_slope must be at least 1, not {self.max_slope!r}")
-        for name, choices in _CHOICES.items():
-            if getattr(self, name) not in choices:
-                raise ParameterError(
-                    f"{name} must be {' or '.join(choices)}, not {getattr(self, name)!r}"
-                )
+    def analyze(
+        self,
+        features: ArrayLike,
+        *,
+        mirror: Mirror | None = None,
+        progress: Progress | None = None,
+    ) -> RegionsFound:
+        """Graph, activities, primitives, clusters; see `kineme.methods.region_growing.analysis`."""
+        from kineme.methods.region_growing.analysis import analyze_regions  # compiled code
+
+        return analyze_regions(features, self, mirror=mirror, progress=progress)
+
+    def for_signals(self) -> Self:
+        """The preset with its lengths in standard deviations of channels.
+
+        A radius of 19 cm over 15 channels, 4.9 cm for each, becomes 0.38
+        standard deviations. One that is in standard deviations is given back.
+        """
+        if self.unit == "standard deviations":
+            return self
+        per_channel = math.sqrt(POSE_CHANNELS * len(self.offsets)) * POSE_DEVIATION
+        lengths = {
+            name: value / per_channel
+            for name in ("radius", "growth_radius", "zero_cost")
+            if (value := getattr(self, name)) is not None
+        }
+        return replace(self, unit="standard deviations", **lengths)
 
 
-_POSITIVE = (
-    "working_fps", "radius", "max_neighbors", "max_lag", "bundling", "growth_radius",
-    "growth_neighbors", "growth_gap", "path_separation", "cluster_neighbors", "zero_cost",
-)  # fmt: skip
-_NOT_NEGATIVE = (
-    "skip_penalty", "diagonal_width", "growth_count", "growth_distance", "min_path",
-    "min_primitive", "cluster_min_path",
-)  # fmt: skip
-_CHOICES = {
-    "unit": ("metres", "standard deviations"),
-    "growth": ("squares", "scan_lines"),
-    "diagonal": ("band", "component"),
-    "connection": ("weak", "strong"),
-}
-
-VOEGELE2014 = RegionPreset(
+VOEGELE2014 = RegionGrowingPreset(
     name="voegele2014",
+    help="As published in 2014; to compare with.",
     offsets=(-1 / 6, 0.0, 1 / 6),  # V14 3: preceding and succeeding frame; program: 5 frames
     radius=0.64,  # V14 5: 64 cm
     max_neighbors=128,  # V14 5
@@ -140,8 +176,9 @@ VOEGELE2014 = RegionPreset(
     connection="strong",  # program; V14 4: connected components
 )
 
-KRUEGER2017 = RegionPreset(
+KRUEGER2017 = RegionGrowingPreset(
     name="krueger2017",
+    help="As published in 2017; to compare with.",
     offsets=(-1 / 3, -1 / 6, 0.0, 1 / 6, 1 / 3),  # K17 VI
     radius=0.19 * math.sqrt(5),  # program: generalised radius 19 cm; 30.2 cm without bundling
     max_neighbors=600,  # program

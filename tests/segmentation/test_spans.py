@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.graph import neighbor_graph
-from kineme.methods.presets import KINEME
-from kineme.segmentation.parts import Part, gaps_between, in_source_frames, in_time
-from kineme.segmentation.segmenter import segment_and_analysis
+from kineme.methods.recurrence.preset import KINEME
+from kineme.segmentation.segmenter import segment_and_found
+from kineme.segmentation.spans import Part, gaps_between, in_source_frames, in_time
 
 
 @st.composite
@@ -101,7 +101,7 @@ def test_a_gap_in_a_real_recording(data_dir: Path, tmp_path: Path) -> None:
     motion = kineme.read(data_dir / "cmu86" / "86_01.amc")
     whole = kineme.segment(motion)
     gap = (1500, 1900)  # inside a walk, 3.3 s of 38 s
-    broken, analysis = segment_and_analysis(replace(motion, gaps=(gap,)), KINEME)
+    broken, analysis = segment_and_found(replace(motion, gaps=(gap,)), KINEME)
     far = [cut for cut in whole.cuts() if not gap[0] - 120 <= cut <= gap[1] + 120]
     assert max(np.abs(broken.cuts() - cut).min() for cut in far) <= 0.2 * motion.fps
     before, after = (broken.per_frame("cluster", level="activity")[f] for f in (1499, 1900))

@@ -9,15 +9,15 @@ from hypothesis import strategies as st
 
 import naive
 from bands import one_sided
-from kineme.methods.numbering import by_first_appearance
 from kineme.methods.recurrence import _action_kernels as kernels
-from kineme.methods.recurrence.recurrence import Recurrence, recurrence
-from kineme.methods.recurrence.stretches import (
+from kineme.methods.recurrence.change_points import (
     change_points,
     link,
     merge_parts,
     repeating,
 )
+from kineme.methods.recurrence.recurrence import Recurrence, recurrence
+from kineme.methods.segments import by_first_appearance
 from loops import swing
 
 seconds = settings(max_examples=120)

@@ -1,4 +1,4 @@
-"""Compiled loops that judge one way to divide an activity into repetitions.
+"""Compiled loops that judge one division of an activity into repetitions.
 
 Poses are those of an activity, ``path`` their length of path up to each frame
 and to the end. Naive twins are in ``tests/naive.py``.
@@ -16,7 +16,7 @@ SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 
 @njit("int64(float64[:, ::1])", **OPTIONS)
 def matched_length(gains):
-    """Columns up to which the rows go along with them: the warped path of the largest gain.
+    """Columns up to which the rows follow them: the warped path of the largest gain.
 
     Paths begin before the first row and column and take steps of (1, 1),
     (1, 2) and (2, 1), weighed by their length. None if no path gains.
@@ -54,8 +54,8 @@ def poses_at(poses, path, lengths):
 
 
 @njit("int64(float64[:, ::1], float64[::1], float64[::1], float64[:, ::1], float64)", **SUMS)
-def along(poses, path, lengths, mean, near):
-    """Places of the mean that the poses at these lengths go along with.
+def followed(poses, path, lengths, mean, near):
+    """Places of the mean that the poses at these lengths follow.
 
     They gain by being nearer than ``near``, a squared distance.
     """
@@ -72,22 +72,22 @@ def along(poses, path, lengths, mean, near):
 
 
 @njit("float64[::1](float64[:, :, ::1])", **SUMS)
-def unlike(parts):
-    """What the mean of all others does not explain of each part, 0 to 1, size apart.
+def unexplained(repetitions):
+    """What the mean of all others does not explain of each repetition, 0 to 1, size apart.
 
-    Parts are (places, dims) each; 1 minus the square of a positive correlation.
+    Repetitions are (places, dims) each; 1 minus the square of a positive correlation.
     """
-    count, places, dims = parts.shape
+    count, places, dims = repetitions.shape
     rows = np.empty((count, places, dims))
     total = np.zeros((places, dims))
     for k in range(count):
         for d in range(dims):
             mean = 0.0
             for p in range(places):
-                mean += parts[k, p, d]
+                mean += repetitions[k, p, d]
             mean /= places
             for p in range(places):
-                rows[k, p, d] = parts[k, p, d] - mean
+                rows[k, p, d] = repetitions[k, p, d] - mean
                 total[p, d] += rows[k, p, d]
     found = np.empty(count)
     for k in range(count):
@@ -103,16 +103,16 @@ def unlike(parts):
 
 
 @njit("float64[:, :, ::1](float64[:, ::1], float64[::1], int64[::1], int64)", **OPTIONS)
-def parts_between(poses, path, visits, places):
-    """(parts, places, dims): poses evenly along the path from each visit to the next."""
-    parts = np.empty((len(visits) - 1, places, poses.shape[1]))
+def repetitions_between(poses, path, visits, places):
+    """(repetitions, places, dims): poses evenly along the path from each visit to the next."""
+    found = np.empty((len(visits) - 1, places, poses.shape[1]))
     lengths = np.empty(places)
-    for k in range(len(parts)):
+    for k in range(len(found)):
         first, last = path[visits[k]], path[visits[k + 1]]
         for p in range(places):
             lengths[p] = first + (last - first) * ((p + 0.5) / places)
-        found = poses_at(poses, path, lengths)
+        there = poses_at(poses, path, lengths)
         for p in range(places):
             for d in range(poses.shape[1]):
-                parts[k, p, d] = found[p, d]
-    return parts
+                found[k, p, d] = there[p, d]
+    return found

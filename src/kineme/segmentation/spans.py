@@ -1,9 +1,9 @@
-"""Recordings with gaps: the stretches that were seen are analysed as one, and put back in place.
+"""Recordings with gaps: the spans that were seen are analysed as one, and put back in place.
 
-Working frames, those of the analysis, count through the stretches as if there
-were nothing between them, so that what repeats itself is found wherever it is.
-Source frames are those of the recording. A segment that reaches over the end of
-a stretch becomes two, and each gap is a transition of its own.
+Samples, the frames of the analysis, count through the spans as if there were
+nothing between them, so that what repeats itself is found wherever it is. Frames
+are those of the recording. A segment that reaches over the end of a span becomes
+two, and each gap is a transition of its own.
 """
 
 from __future__ import annotations
@@ -11,75 +11,80 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, floor
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.methods.base import Columns
+
 if TYPE_CHECKING:
     from kineme.graph import NeighborGraph
 
-Columns = dict[str, NDArray[Any]]
 Spans = Sequence[tuple[int, int]]
 
 
 @dataclass(frozen=True)
-class Part:
-    """A stretch that was seen.
+class SeenSpan:
+    """A span of a recording that was seen.
 
-    Parameters
+    Attributes
     ----------
-    start, stop : its source frames
-    n_working : how many working frames it has
+    start, stop : int
+        Its frames of the recording.
+    n_samples : int
+        How many samples it has at the working rate.
     """
 
     start: int
     stop: int
-    n_working: int
+    n_samples: int
 
 
-def in_source_frames(
-    columns: Columns, parts: Sequence[Part], n_frames: int, ratio: float
-) -> Columns:
-    """The columns in source frames, cut at the ends of the parts, gaps filled with transitions.
+def in_frames(columns: Columns, seen: Sequence[SeenSpan], n_frames: int, ratio: float) -> Columns:
+    """The columns in frames, cut at the ends of what was seen, gaps filled with transitions.
 
-    Rows that vanish at the rate of the source are left out.
+    Rows that vanish at the rate of the recording are left out.
 
     Parameters
     ----------
-    columns : of a segment table, ``start_frame`` and ``stop_frame`` in working frames
-    parts : in time order
-    n_frames : of the recording
-    ratio : source frames in one working frame
+    columns : dict of str to array
+        Of a segment table, ``start_frame`` and ``stop_frame`` in samples.
+    seen : sequence of SeenSpan
+        In time order.
+    n_frames : int
+        Of the recording.
+    ratio : float
+        Frames in one sample.
     """
     rows: list[NDArray[np.intp]] = []
     starts: list[NDArray[np.int64]] = []
     stops: list[NDArray[np.int64]] = []
     first = 0
-    for part in parts:
-        last = first + part.n_working
+    for span in seen:
+        last = first + span.n_samples
         begin = np.maximum(columns["start_frame"], first)
         end = np.minimum(columns["stop_frame"], last)
         inside = np.flatnonzero(begin < end)
         begin, end = begin[inside], end[inside]
-        at = part.start + np.rint((begin - first) * ratio).astype(np.int64)
-        to = part.start + np.rint((end - first) * ratio).astype(np.int64)
+        at = span.start + np.rint((begin - first) * ratio).astype(np.int64)
+        to = span.start + np.rint((end - first) * ratio).astype(np.int64)
         rows.append(inside)
         starts.append(at)
-        stops.append(np.where(end == last, part.stop, to))
+        stops.append(np.where(end == last, span.stop, to))
         first = last
     row, start, stop = map(np.concatenate, (rows, starts, stops))
     # At low frame rates two borders may fall on the same frame.
     full = start < stop
     taken = {name: column[row[full]] for name, column in columns.items()}
     taken |= {"start_frame": start[full], "stop_frame": stop[full]}
-    return _with_gaps(taken, gaps_between(parts, n_frames))
+    return _with_gaps(taken, gaps_between(seen, n_frames))
 
 
-def gaps_between(parts: Sequence[Part], n_frames: int) -> Spans:
-    """What the parts leave of the recording: source frames [start, stop)."""
-    starts = [0, *(part.stop for part in parts)]
-    stops = [*(part.start for part in parts), n_frames]
+def gaps_between(seen: Sequence[SeenSpan], n_frames: int) -> Spans:
+    """What was not seen of the recording: frames [start, stop)."""
+    starts = [0, *(span.stop for span in seen)]
+    stops = [*(span.start for span in seen), n_frames]
     return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
 
 
@@ -88,14 +93,17 @@ def in_time(graph: NeighborGraph, gaps: Sequence[Sequence[int]], n_frames: int) 
 
     Parameters
     ----------
-    graph : of the stretches that were seen, at any rate
-    gaps : source frames [start, stop)
-    n_frames : of the recording
+    graph : NeighborGraph
+        Of the spans that were seen, at any rate.
+    gaps : sequence of pairs of int
+        Frames [start, stop).
+    n_frames : int
+        Of the recording.
     """
     from kineme.graph import NeighborGraph
 
-    seen = n_frames - sum(stop - start for start, stop in gaps)
-    per_frame = len(graph) / max(seen, 1)
+    known = n_frames - sum(stop - start for start, stop in gaps)
+    per_frame = len(graph) / max(known, 1)
     place = np.arange(len(graph))
     before = 0
     for start, stop in gaps:

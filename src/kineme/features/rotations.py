@@ -1,9 +1,9 @@
-"""What the baselines see of a pose: the rotations of 14 joints.
+"""How the joints of a body are turned: what the baselines see of a pose.
 
-Barbič et al. chose them and left the root out; Zhou et al. took them over.
-Their program maps the raw Euler angles of AMC files; `Motion.rotations` are the
-same rotations seen in other axes, constant per joint, which turns each log map
-as a whole and so changes no distance.
+Barbič et al. (2004) chose 14 joints and left the root out; Zhou et al. (2013)
+took them over. Their program maps the raw Euler angles of AMC files;
+``Motion.rotations`` are the same rotations seen in other axes, constant per
+joint, which turns each log map as a whole and so changes no distance.
 """
 
 from __future__ import annotations
@@ -26,13 +26,18 @@ JOINTS = (
 def joint_quaternions(motion: Motion) -> Floats:
     """Local rotations of the 14 joints, unit quaternions (w, x, y, z) with w >= 0.
 
+    Parameters
+    ----------
+    motion : Motion
+
     Returns
     -------
-    (frames, 14, 4)
+    (frames, 14, 4) array
 
     Raises
     ------
-    MotionError : the motion has no rotations, or not these joints
+    MotionError
+        The motion has no rotations, or not these joints.
     """
     if motion.rotations is None:
         raise MotionError("the motion has positions only; these methods need its rotations")
@@ -48,11 +53,16 @@ def joint_quaternions(motion: Motion) -> Floats:
 
 
 def log_maps(quaternions: Floats) -> Floats:
-    """Half the rotation vector of each quaternion, (frames, 3 x joints).
+    """Half the rotation vector of each quaternion.
 
     Parameters
     ----------
-    quaternions : (frames, joints, 4), w >= 0
+    quaternions : (frames, joints, 4) array
+        With w >= 0.
+
+    Returns
+    -------
+    (frames, 3 * joints) array
     """
     half = np.arccos(np.clip(quaternions[..., :1], -1, 1))
     logs = quaternions[..., 1:] / np.sinc(half / np.pi)

@@ -1,0 +1,160 @@
+"""The public names and their homes: read by type checkers, and by `kineme` itself."""
+
+__version__: str
+
+from .datasets import (
+    bundled_recording as bundled_recording,
+)
+from .errors import (
+    EndEffectorError as EndEffectorError,
+)
+from .errors import (
+    FileError as FileError,
+)
+from .errors import (
+    KinemeError as KinemeError,
+)
+from .errors import (
+    KinemeWarning as KinemeWarning,
+)
+from .errors import (
+    MissingDependencyError as MissingDependencyError,
+)
+from .errors import (
+    MotionError as MotionError,
+)
+from .errors import (
+    ParameterError as ParameterError,
+)
+from .errors import (
+    ReadError as ReadError,
+)
+from .errors import (
+    WriteError as WriteError,
+)
+from .features import (
+    end_effectors as end_effectors,
+)
+from .features import (
+    mirror as mirror,
+)
+from .features import (
+    mirror_features as mirror_features,
+)
+from .features import (
+    pose_features as pose_features,
+)
+from .features import (
+    stack as stack,
+)
+from .features.bundling import (
+    bundle as bundle,
+)
+from .features.emg import (
+    emg_envelope as emg_envelope,
+)
+from .formats import (
+    read as read,
+)
+from .formats import (
+    supported_formats as supported_formats,
+)
+from .formats import (
+    write as write,
+)
+from .formats.channels.reading import (
+    read_signals as read_signals,
+)
+from .graph import (
+    NeighborGraph as NeighborGraph,
+)
+from .graph import (
+    WarpingPaths as WarpingPaths,
+)
+from .graph import (
+    neighbor_graph as neighbor_graph,
+)
+from .graph import (
+    warping_paths as warping_paths,
+)
+from .labels import (
+    read_segments as read_segments,
+)
+from .labels import (
+    write_segments as write_segments,
+)
+from .methods import (
+    PRESETS as PRESETS,
+)
+from .methods import (
+    Found as Found,
+)
+from .methods import (
+    Preset as Preset,
+)
+from .plot import (
+    compare as compare,
+)
+from .plot import (
+    plot_matrix as plot_matrix,
+)
+from .plot import (
+    plot_segmentation as plot_segmentation,
+)
+from .plot import (
+    plot_timeline as plot_timeline,
+)
+from .recordings.motion import (
+    Motion as Motion,
+)
+from .recordings.motion import (
+    Provenance as Provenance,
+)
+from .recordings.motion import (
+    Skeleton as Skeleton,
+)
+from .recordings.operations import (
+    resample as resample,
+)
+from .recordings.signals import (
+    Signals as Signals,
+)
+from .report.page import (
+    write_report as write_report,
+)
+from .segmentation.estimator import (
+    Segmenter as Segmenter,
+)
+from .segmentation.segmenter import (
+    analyze as analyze,
+)
+from .segmentation.segmenter import (
+    segment as segment,
+)
+from .segmentation.segmenter import (
+    segment_and_found as segment_and_found,
+)
+from .segments.segmentation import (
+    Segmentation as Segmentation,
+)
+from .segments.table import (
+    Segment as Segment,
+)
+from .segments.table import (
+    SegmentTable as SegmentTable,
+)
+from .synthesis import (
+    MotionGraph as MotionGraph,
+)
+from .synthesis import (
+    motion_graph as motion_graph,
+)
+from .synthesis import (
+    synthesize as synthesize,
+)
+from .transfer import (
+    KnowledgeBase as KnowledgeBase,
+)
+from .transfer import (
+    transfer_labels as transfer_labels,
+)

@@ -1,0 +1,202 @@
+"""Constants: the fields of a preset, each with its meaning, unit and limits.
+
+A field made by `constant` carries all that command line, studio and docs say of
+it, so that a constant added to a preset appears in each of them. `check`
+holds a preset against its own fields: types, limits, choices.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Mapping
+from dataclasses import MISSING, dataclass, field, fields
+from functools import cache
+from types import NoneType
+from typing import Any, Literal, NamedTuple, cast, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from kineme.errors import ParameterError
+
+HOUR = 3600.0
+"""Seconds: no time that a method looks at is longer."""
+LONGEST = 1e4
+"""Metres, body sizes or standard deviations: no distance between two samples is larger."""
+MOST = 1_000_000
+"""Of whatever is counted."""
+
+
+class Limits(NamedTuple):
+    """Values that a number may take: from ``minimum``, or above it, to ``maximum``."""
+
+    minimum: float
+    maximum: float
+    above: bool = False
+
+    def allow(self, value: object) -> bool:
+        """Whether ``value`` is a number within the limits."""
+        if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+            return False
+        number = float(value)
+        if not math.isfinite(number):
+            return False
+        return self.minimum <= number <= self.maximum and not (
+            self.above and number == self.minimum
+        )
+
+    def describe(self) -> str:
+        """The limits in words."""
+        low = f"above {self.minimum:g}" if self.above else f"from {self.minimum:g}"
+        return f"a number {low} to {self.maximum:g}"
+
+
+TIME = Limits(0.0, HOUR)
+SOME_TIME = Limits(0.0, HOUR, above=True)
+LENGTH = Limits(0.0, LONGEST)
+SOME_LENGTH = Limits(0.0, LONGEST, above=True)
+COUNT = Limits(0, MOST)
+SOME = Limits(1, MOST)
+SHARE = Limits(0.0, 1.0)
+SOME_SHARE = Limits(0.0, 1.0, above=True)
+FACTOR = Limits(0.0, 1000.0)
+SOME_FACTOR = Limits(0.0, 1000.0, above=True)
+
+
+class Slider(NamedTuple):
+    """The range within which a page offers to change a constant, and in which steps."""
+
+    minimum: float
+    maximum: float
+    step: float
+
+
+@dataclass(frozen=True)
+class Constant:
+    """One constant of a preset, as people are shown it.
+
+    Parameters
+    ----------
+    name : str
+        Of the field, and of the option with ``-`` for ``_``.
+    help : str
+        What it does, in a phrase.
+    unit : str
+        ``s``, ``Hz``, ``body sizes``, ``metres``, or empty.
+    value : Any
+        Of the preset at hand.
+    hint : Any
+        Its type.
+    limits : Limits, optional
+        Of numbers.
+    slider : Slider, optional
+        For the few that pages offer.
+    fine : bool
+        Whether it is one that hardly anybody needs to change.
+    """
+
+    name: str
+    help: str
+    unit: str
+    value: Any
+    hint: Any
+    limits: Limits | None
+    slider: Slider | None
+    fine: bool
+
+
+def constant(
+    text: str,
+    *,
+    unit: str = "",
+    limits: Limits | None = None,
+    slider: tuple[float, float, float] | None = None,
+    fine: bool = False,
+    default: Any = MISSING,
+) -> Any:
+    """A field of a preset, with what people are told of it.
+
+    Parameters
+    ----------
+    text : str
+        What it does, in a phrase.
+    unit : str
+        As in `Constant`.
+    limits : Limits, optional
+        Of a number, or of each in a tuple.
+    slider : tuple of float, optional
+        Smallest and largest value that a page offers, and the step.
+    fine : bool
+        Whether hardly anybody needs to change it.
+    default : Any
+        Of all presets of the class; none if each has to say.
+    """
+    told = {
+        "help": text,
+        "unit": unit,
+        "limits": limits,
+        "slider": None if slider is None else Slider(*slider),
+        "fine": fine,
+    }
+    return field(default=default, metadata={"constant": told})
+
+
+def constants_of(preset: Any) -> tuple[Constant, ...]:
+    """The constants of a preset, in the order of its fields."""
+    hints = _hints(preset.__class__)
+    return tuple(
+        Constant(name, value=getattr(preset, name), hint=hints[name], **told)
+        for name, told in _told(preset.__class__).items()
+    )
+
+
+def check(preset: Any) -> None:
+    """ParameterError for the first constant whose value it cannot take."""
+    for known in constants_of(preset):
+        _check(known.name, known.value, known.hint, known.limits)
+
+
+def _check(name: str, value: Any, hint: Any, limits: Limits | None) -> None:
+    members = get_args(hint)
+    if NoneType in members:
+        if value is None:
+            return
+        hint = next(member for member in members if member is not NoneType)
+        members = get_args(hint)
+    if get_origin(hint) is Literal:
+        if value not in members:
+            raise ParameterError(f"{name} must be {' or '.join(members)}, not {value!r:.60}")
+    elif get_origin(hint) is tuple:
+        _check_tuple(name, value, hint, limits)
+    elif hint is bool:
+        if not isinstance(value, bool):
+            raise ParameterError(f"{name} must be true or false, not {value!r:.60}")
+    elif limits is not None:
+        if hint is int and isinstance(value, float) and not value.is_integer():
+            raise ParameterError(f"{name} must be a whole number, not {value!r:.60}")
+        if not limits.allow(value):
+            raise ParameterError(f"{name} must be {limits.describe()}, not {value!r:.60}")
+
+
+def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None) -> None:
+    members = get_args(hint)
+    if not isinstance(value, tuple) or not value:
+        raise ParameterError(f"{name} must be a tuple of numbers, not {value!r:.60}")
+    fixed = Ellipsis not in members
+    if fixed and len(value) != len(members):
+        raise ParameterError(f"{name} must be {len(members)} numbers, not {value!r:.60}")
+    for each in value:
+        _check(f"each of {name}", each, members[0], limits)
+
+
+@cache
+def _told(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
+    return {
+        known.name: known.metadata["constant"]
+        for known in fields(cast(Any, kind))
+        if "constant" in known.metadata
+    }
+
+
+@cache
+def _hints(kind: Hashable) -> dict[str, Any]:
+    return get_type_hints(cast(Any, kind))

@@ -1,0 +1,185 @@
+"""Change points: a recording divided where its samples stop being similar.
+
+1. Borders are the change points of the phase-blurred similarity: the cheapest
+   division into segments whose samples are similar.
+2. A segment that repeats less within itself than in its neighbour is part of
+   that neighbour (one slow repetition of several).
+3. Segments whose samples are similar belong to one action, wherever they are.
+
+Sources: kernel change-point detection after Arlot, Celisse and Harchaoui 2019;
+the rest is ours. See ``docs/method.md`` for what each step contributes.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._threads import map_threads
+from kineme.methods.recurrence import _action_kernels, _distance_kernels
+from kineme.methods.recurrence import _recurrence_kernels as kernels
+from kineme.methods.recurrence.recurrence import Recurrence
+from kineme.methods.segments import by_first_appearance
+
+Samples = NDArray[np.int64]
+
+
+def change_points(recurrence: Recurrence, *, penalty: float, min_length: int) -> Samples:
+    """Borders of the segments whose samples are most similar, ends included.
+
+    Parameters
+    ----------
+    recurrence : Recurrence
+    penalty : float
+        Samples of similarity that a border must gain.
+    min_length : int
+        Shortest segment, samples.
+
+    Returns
+    -------
+    (segments + 1,) array
+        From 0 to the number of samples.
+    """
+    borders: Samples = _action_kernels.change_points(recurrence.similarity, penalty, min_length)
+    return borders
+
+
+def merge_neighbors(
+    borders: Samples, recurrence: Recurrence, *, gap: int, softness: float, least: float
+) -> Samples:
+    """Borders without those between a segment and the neighbour in which it recurs.
+
+    A border falls if one side recurs in the other more than in itself, and by
+    at least ``least``; the clearest first.
+
+    Parameters
+    ----------
+    borders : array of int
+        Samples, ends included.
+    recurrence : Recurrence
+    gap : int
+        Samples; what is no farther away does not count as recurrence.
+    softness : float
+        Scales at which recurrence has fallen to 1/e.
+    least : float
+        Share of the segment that must recur.
+    """
+    cuts = borders.tolist()
+
+    def covered(g: int, h: int) -> float:
+        share: float = kernels.coverage(
+            recurrence.near, recurrence.scales, cuts[g], cuts[g + 1], cuts[h], cuts[h + 1],
+            gap, softness,
+        )  # fmt: skip
+        return share
+
+    def gain(left: int) -> float:
+        pairs = ((left, left + 1), (left + 1, left))
+        return max(covered(g, h) / max(covered(g, g), least) for g, h in pairs)
+
+    gains = [gain(left) for left in range(len(cuts) - 2)]
+    while gains and max(gains) >= 1:
+        best = int(np.argmax(gains))
+        del cuts[best + 1], gains[best]
+        for left in (best - 1, best):
+            if 0 <= left < len(gains):
+                gains[left] = gain(left)
+    return np.array(cuts, np.int64)
+
+
+def link(
+    borders: Samples,
+    recurrence: Recurrence,
+    poses: NDArray[np.float32],
+    *,
+    similarity: float,
+    softness: float,
+    samples: int,
+    least: float,
+    max_lag: int | None,
+) -> Samples:
+    """One label per segment: equal where the samples of two segments are similar.
+
+    Average linkage on the mean similarity of two segments, relative to that
+    within each.
+
+    Parameters
+    ----------
+    borders : array of int
+        Samples, ends included.
+    recurrence : Recurrence
+    poses : (frames, dims) array
+        By which segments are compared, in the unit of the scales.
+    similarity : float
+        Relative similarity from which segments are one action, 0 to 1.
+    softness : float
+        Scales at which similarity has fallen to 1/e.
+    samples : int
+        Segments are compared by so many of their samples at most.
+    least : float
+        A segment is taken to be at least so similar within.
+    max_lag : int, optional
+        Samples; segments farther apart are not compared, and differ.
+    """
+    from scipy.cluster.hierarchy import fcluster, linkage
+    from scipy.spatial.distance import squareform
+
+    k = len(borders) - 1
+    if k == 1:
+        return np.zeros(1, np.int64)
+    reach = borders[-1] if max_lag is None else max_lag
+    within_reach = np.searchsorted(borders[:-1], borders[1:] + reach, side="right")
+    step = recurrence.step
+    gap = recurrence.phase * step
+    reaches = step * np.array(recurrence.phases)
+    chosen = [_spread(start, stop, samples) for start, stop in pairwise(borders.tolist())]
+    scales = [recurrence.scales[each] for each in chosen]
+    frames = [step * each for each in chosen]
+    mean = np.zeros((k, k))
+
+    def compare(g: int) -> None:
+        for h in range(g, within_reach[g]):
+            mean[g, h] = mean[h, g] = _distance_kernels.mean_similarity(
+                poses, frames[g], frames[h], reaches, scales[g], scales[h],
+                softness, gap,
+            )  # fmt: skip
+
+    map_threads(compare, range(k))
+    within = np.sqrt(np.maximum(mean.diagonal(), least))
+    distance = 1 - np.clip(mean / np.outer(within, within), 0, 1)
+    np.fill_diagonal(distance, 0)
+    tree = linkage(squareform(distance, checks=False), "average")
+    return by_first_appearance(fcluster(tree, 1 - similarity, "distance"))
+
+
+def _spread(start: int, stop: int, most: int) -> Samples:
+    """Samples of a segment, evenly spread."""
+    n = min(stop - start, most)
+    return start + (2 * np.arange(n) + 1) * (stop - start) // (2 * n)
+
+
+def repeating(
+    borders: Samples, labels: Samples, recurrence: Recurrence, *, softness: float, least: float
+) -> NDArray[np.bool_]:
+    """Which segments repeat: within themselves, or in another segment of their action.
+
+    Parameters
+    ----------
+    borders, labels : array of int
+        Segments and their actions.
+    recurrence : Recurrence
+    softness : float
+        Scales at which recurrence has fallen to 1/e.
+    least : float
+        Share of a segment that must recur within it.
+    """
+    shared = np.bincount(labels)[labels] > 1
+    within = [
+        kernels.coverage(
+            recurrence.near, recurrence.scales, start, stop, start, stop, recurrence.phase, softness
+        )
+        for start, stop in pairwise(borders.tolist())
+    ]
+    return shared | (np.array(within) >= least)

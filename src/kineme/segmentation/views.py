@@ -1,0 +1,35 @@
+"""A view: what a method is given of a recording, and where that lies in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.methods.base import Mirror
+from kineme.segmentation.spans import SeenSpan
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """The features of a recording at the working rate of a preset.
+
+    Attributes
+    ----------
+    features : sequence of (samples, dims) arrays
+        One of each span that was seen.
+    seen : sequence of SeenSpan
+    notes : sequence of str
+        What is to be known of them.
+    mirror : callable, optional
+        Exchanges left and right in the features, where they have these.
+    """
+
+    features: Sequence[Floats]
+    seen: Sequence[SeenSpan]
+    notes: Sequence[str]
+    mirror: Mirror | None = None
