@@ -15,7 +15,7 @@ from kineme.cli.graph import graph
 from kineme.cli.info import info
 from kineme.cli.label import label
 from kineme.cli.preset_options import with_preset_options
-from kineme.cli.reading import with_reading_options
+from kineme.cli.reading import BODY, with_reading_options
 from kineme.cli.report import report
 from kineme.cli.segment import segment
 from kineme.cli.split import split
@@ -38,11 +38,11 @@ app.command()(with_reading_options(info))
 app.command()(demo)
 app.command()(evaluate)
 app.command()(data)
-app.command()(with_reading_options(label))
-app.command()(with_reading_options(transfer))
-app.command()(with_reading_options(graph))
+app.command()(with_reading_options(label, BODY))
+app.command()(with_reading_options(transfer, BODY))
+app.command()(with_reading_options(graph, BODY))
 app.command()(synthesize)
-app.command()(with_reading_options(studio))
+app.command()(with_reading_options(studio, BODY))
 
 
 def _show_version(wanted: bool) -> None:

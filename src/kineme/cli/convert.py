@@ -9,7 +9,6 @@ import typer
 
 from kineme.cli.inputs import Batch, Recursive
 from kineme.cli.request import Request
-from kineme.cli.signals import Columns
 from kineme.cli.targets import make_folder_of
 from kineme.errors import WriteError
 from kineme.labels import FORMATS, read_segments, write_segments
@@ -68,7 +67,6 @@ def convert(
         int | None, typer.Option(help="Length of the recording, where labels end before it.")
     ] = None,
     recursive: Recursive = False,
-    columns: Columns = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Turn segments into labels of another program and back, or a recording into another format.
@@ -80,7 +78,7 @@ def convert(
     if len(files) < 2:
         raise typer.BadParameter("give what to read and the file to write", param_hint="FROM… TO")
     *sources, target = files
-    request = Request.of(reading=reading, columns=columns)
+    request = Request.of(reading=reading)
     batch = Batch(sources, recursive=recursive)
     several = not batch.single or "{" in target.name
     if several and (target.is_dir() or not target.suffix):
@@ -94,7 +92,7 @@ def convert(
                 raise WriteError(place, "is there already: remove it or name another file")
             if several:
                 make_folder_of(place)
-            if from_format is None and (columns is not None or _is_recording(path)):
+            if from_format is None and ("columns" in request.reading or _is_recording(path)):
                 _convert_recording(request, path, place)
             else:
                 segments = read_segments(
@@ -115,4 +113,4 @@ def _convert_recording(request: Request, path: Path, target: Path) -> None:
     else:
         from kineme.formats.channels.writing import write_signals
 
-        write_signals(recording, target, columns=request.signals.columns)
+        write_signals(recording, target, columns=request.reading.get("columns"))

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 from kineme.cli.reading import effector_names
-from kineme.cli.signals import SignalOptions
 from kineme.errors import ParameterError, ReadError
-from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
 
 if TYPE_CHECKING:
@@ -27,50 +25,66 @@ Stage = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Request:
-    """The options of a command, checked; see `of`."""
+    """The options of a command, checked.
 
-    preset: Preset
-    overrides: dict[str, Any]
+    Parameters
+    ----------
+    preset : str
+        Name of the preset.
+    constants : dict of str to object
+        Those of the preset that were given.
+    reading : dict of str to object
+        Keywords of `kineme.read` that were given.
+    effectors : joints, optional
+        For head, hands and feet.
+    """
+
+    preset: str
+    constants: dict[str, Any]
     reading: dict[str, Any]
-    signals: SignalOptions
     effectors: Names | None
 
     @classmethod
     def of(
         cls,
         preset: str = DEFAULT,
-        overrides: dict[str, Any] | None = None,
+        constants: dict[str, Any] | None = None,
         reading: dict[str, Any] | None = None,
         effectors: str | None = None,
-        columns: str | None = None,
-        *,
-        emg: bool = False,
     ) -> Request:
         """The options as they were typed; typer.BadParameter where one makes no sense."""
-        overrides, reading = overrides or {}, reading or {}
         try:
-            chosen = resolve_preset(preset, **overrides)
+            resolve_preset(preset, **(constants or {}))
         except ParameterError as error:
             raise typer.BadParameter(str(error)) from error
-        signals = SignalOptions.of(columns, reading.get("fps"), emg=emg)
-        return cls(chosen, overrides, reading, signals, effector_names(effectors))
+        return cls(preset, constants or {}, reading or {}, effector_names(effectors))
+
+    @property
+    def emg(self) -> bool:
+        """Whether channels are those of muscles."""
+        return bool(self.reading.get("emg"))
 
     def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, of the kind that it is or was said to be."""
-        if self.signals.mean(path):
-            return self.signals.read(path)
+        from kineme.formats.channels.reading import is_signal_file
+
+        if self.emg or "columns" in self.reading or is_signal_file(path):
+            from kineme.formats.channels.reading import read_signals
+
+            known = {"columns", "emg", "fps"} & set(self.reading)
+            return read_signals(path, **{name: self.reading[name] for name in known})
         from kineme.formats import read
 
         return read(path, **self.reading)
 
     def read_motion(self, path: Path) -> Motion:
         """The motion in a file; ReadError for signals, which have no body to compare."""
-        from kineme.formats import read
-        from kineme.formats.channels.reading import is_signal_file
+        from kineme.recordings.motion import Motion
 
-        if is_signal_file(path):
+        recording = self.read(path)
+        if not isinstance(recording, Motion):
             raise ReadError(path, "holds signals without a skeleton, where a motion is needed")
-        return read(path, **self.reading)
+        return recording
 
     def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
         """The segments, and what was found on the way to them."""
@@ -78,11 +92,11 @@ class Request:
 
         return segment_and_found(
             recording,
-            preset=self.preset.name,
+            preset=self.preset,
             effectors=self.effectors,
-            emg=self.signals.emg,
+            emg=self.emg,
             progress=stage,
-            **self.overrides,
+            **self.constants,
         )
 
     def segments(
@@ -97,6 +111,10 @@ class Request:
 
     def drawn(self, recording: Motion | Signals) -> Motion | Signals:
         """The recording as a page compares its frames: muscles by their envelopes."""
-        from kineme.recordings.motion import Motion
+        from kineme.recordings.signals import Signals
 
-        return recording if isinstance(recording, Motion) else self.signals.drawn(recording)
+        if not (self.emg and isinstance(recording, Signals)):
+            return recording
+        from kineme.features.emg import emg_envelope
+
+        return replace(recording, values=emg_envelope(recording.values, recording.fps))
