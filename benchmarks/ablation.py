@@ -50,7 +50,7 @@ STAGES: dict[str, tuple[dict[str, Any], list[Any]]] = {
     "no phase window": ({"phase": 0.0}, []),
     "one scale for all": ({"min_scale": 0.12, "max_scale": 0.12}, []),
     "parts not merged": ({}, [patch.object(stretches, "merge_parts", lambda b, *_, **__: b)]),
-    "actions not linked": ({"likeness": 1.0}, []),
+    "actions not linked": ({"link_similarity": 1.0}, []),
     "linked at one pace": ({"any_pace": False}, []),
     "moments not given anew": ({}, [patch.object(action_analysis, "refine", not_refined)]),
     "no transitions at ends": ({"max_transition": 0.0}, []),

@@ -104,7 +104,7 @@ def compare(data: Path, configuration: str, trial: str) -> dict[str, Agreement]:
         features = motion_features(kineme.read(data / "cmu86" / f"{trial}.amc"), preset)
     found = analyze_regions(features, preset, mirror=mirror_features)
     activities = set((found.activity_cuts.all + 1).tolist())
-    inner = set((found.segments[1:-1] + 1).tolist()) - activities
+    inner = set((found.primitives[1:-1] + 1).tolist()) - activities
     return {
         "activities": _cuts(activities, set(reference["activity_cuts"])),
         "primitives": _cuts(inner, {*reference["all_cuts"]} - {*reference["activity_cuts"]}),
@@ -121,7 +121,7 @@ def _cuts(ours: set[int], theirs: set[int]) -> Agreement:
 
 
 def _clusters(found: RegionsFound, reference: dict[str, Any]) -> Agreement:
-    borders = (found.segments + 1).tolist()
+    borders = (found.primitives + 1).tolist()
     borders[-1] = reference["frames"]
     ours = dict(zip(pairwise(borders), found.clustering.labels.tolist(), strict=True))
     spans = pairwise([1, *reference["all_cuts"], reference["frames"]])

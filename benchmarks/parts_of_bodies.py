@@ -15,13 +15,12 @@ import warnings
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from kineme.segmentation.from_features import segment_features
 
 import kineme
 from _recordings import Case, annotation, hdm05, subject_86
 from kineme.datasets import Action, synthesize
 from kineme.evaluation import evaluate_segmentation
-from kineme.features import body_frame, body_size, end_effectors, offsets_in_frames, stack
+from kineme.features import body_frame, body_size, end_effectors
 from kineme.methods.recurrence.preset import KINEME
 from kineme.recordings.motion import Motion, Skeleton
 from kineme.recordings.operations import resample
@@ -57,9 +56,10 @@ def in_the_bodys_frame(motion: Motion, joints: list[int]) -> Segmentation:
     """The segments by the positions of these joints, seen from the pelvis."""
     looked, ends = resample(motion, KINEME.working_fps), end_effectors(motion)
     seen = body_frame(looked, tuple(joints), effectors=ends).reshape(looked.n_frames, -1)
-    features = stack(seen, offsets_in_frames(KINEME.offsets, KINEME.working_fps))
-    features /= body_size(motion, ends) * np.sqrt(len(KINEME.offsets))
-    return segment_features(features, KINEME, n_frames=motion.n_frames, fps=motion.fps)[0]
+    unit = body_size(motion, ends) / np.sqrt(seen.shape[1])
+    return kineme.segment(
+        motion, features=seen, feature_fps=KINEME.working_fps, unit=unit, any_pace=True
+    )
 
 
 def leg_exercises(seeds: int) -> Iterator[Case]:

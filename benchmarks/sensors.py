@@ -29,10 +29,8 @@ from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
 from kineme.evaluation.tables import markdown, shown
 from kineme.evaluation.trials import find_folder, load_trials
 from kineme.features import end_effectors, pose_features
-from kineme.methods.presets import PRESETS
 from kineme.recordings.motion import Motion, world_rotations
 from kineme.recordings.operations import resample
-from kineme.segmentation import channels
 
 Floats = NDArray[np.float64]
 Recording = tuple[Annotation, Signals]
@@ -80,10 +78,13 @@ KINDS: dict[str, Callable[[Motion], Signals]] = {
 }
 
 
-def scores(recordings: Iterable[Recording], preset: str) -> str:
+OWN = ("kineme", "voegele2014", "krueger2017")
+
+
+def scores(recordings: Iterable[Recording], preset: str, **constants: float) -> str:
     """Border F1 within 0.25 s / frames in the right class, means over the recordings."""
     found = [
-        evaluate_segmentation(truth, segment(signals, preset=preset))
+        evaluate_segmentation(truth, segment(signals, preset=preset, **constants))
         for truth, signals in recordings
     ]
     means = (np.mean([f[key] for f in found]) for key in ("border_f1", "one_to_one"))
@@ -102,7 +103,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Segments from body-worn sensors.")
     default = os.environ.get("KINEME_DATA", "../shared/data")
     parser.add_argument("--data", type=Path, default=default)
-    parser.add_argument("--units", action="store_true", help="other values of RECURS_AT")
+    parser.add_argument("--units", action="store_true", help="other values of recurs_at")
     options = parser.parse_args()
     trials = load_trials(find_folder(options.data))
     for title, sets in (
@@ -122,13 +123,11 @@ def main() -> None:
 def table(title: str, sets: dict[str, list[Recording]], *, units: bool) -> str:
     """A row per set of sensors, a column per preset or per value of the unit."""
     if not units:
-        rows = [[kind, *(scores(found, name) for name in PRESETS)] for kind, found in sets.items()]
-        return markdown([title, *PRESETS], rows)
+        rows = [[kind, *(scores(found, name) for name in OWN)] for kind, found in sets.items()]
+        return markdown([title, *OWN], rows)
     rows = []
     for kind, found in sets.items():
-        cells = []
-        for channels.RECURS_AT in UNITS:
-            cells.append(scores(found, "kineme"))
+        cells = [scores(found, "kineme", recurs_at=unit) for unit in UNITS]
         rows.append([kind, *cells])
     return markdown([title, *map(str, UNITS)], rows)
 

@@ -42,7 +42,7 @@ ZOOMED = 2  # the activity shown in the picture of the primitives: squats
 
 def main() -> None:
     motion = kineme.read(kineme.bundled_recording())
-    segments, found = kineme.segment_and_found(motion, KINEME)
+    segments, found = kineme.segment_and_found(motion, preset=KINEME)
 
     figure = _figure(7.6, 6.6)
     plot_matrix(segments, found.graph, ax=figure.add_subplot())
@@ -64,7 +64,7 @@ def main() -> None:
     draw_bundling(figure.subplots(1, 2, sharex=True, sharey=True), motion, segments)
     _save(figure, "bundling")
 
-    published, analysis = kineme.segment_and_found(motion, PRESET)
+    published, analysis = kineme.segment_and_found(motion, preset=PRESET)
 
     figure = _figure(9, 4.6)
     draw_regions(figure.subplots(1, 2, sharey=True), analysis)

@@ -14,5 +14,9 @@ import lazy_loader
 
 from kineme._version import __version__
 
-__getattr__, __dir__, _names = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, _, _names = lazy_loader.attach_stub(__name__, __file__)
 __all__ = ["__version__", *_names]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -10,19 +10,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from kineme import PRESETS, Segmenter, Signals, segment
+from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
 from kineme.features.emg import emg_envelope
 from kineme.methods import resolve_preset
 from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
 from kineme.segmentation.channels import (
-    RECURS_AT,
     at_rate,
-    recurrence_unit,
-    search_vectors,
+    view_of_signals,
 )
 from kineme.segmentation.channels import standardized as standard
+from presets import OWN
 
 VALUES = arrays.arrays(
     np.float64, st.tuples(st.integers(1, 40), st.integers(1, 4)), elements=st.floats(-1e3, 1e3)
@@ -32,7 +31,7 @@ RATES = st.floats(5, 500)
 
 @given(VALUES, RATES, RATES)
 def test_resampled_values_are_means_of_what_is_there(values, fps, new) -> None:
-    found = at_rate(values, fps, new)
+    found = at_rate(values, fps, new, smoothing=0.1)
     assert len(found) == int((len(values) - 1) * new / fps + 1e-9) + 1
     assert (found >= values.min(axis=0) - 1e-6).all()
     assert (found <= values.max(axis=0) + 1e-6).all()
@@ -65,7 +64,7 @@ def test_resampling_is_what_it_says(values, fps, new, smoothing) -> None:
 def test_what_is_too_fast_for_the_new_rate_does_not_fold_back() -> None:
     t = np.arange(5000) / 1000
     hum = np.sin(2 * np.pi * 59 * t)[:, None]  # every 33rd sample of it would look like 1 Hz
-    assert np.abs(at_rate(hum, 1000, 30)[3:-3]).max() < 0.1
+    assert np.abs(at_rate(hum, 1000, 30, smoothing=0.1)[3:-3]).max() < 0.1
 
 
 @given(VALUES)
@@ -121,7 +120,7 @@ def test_lengths_of_published_presets_are_those_of_a_body() -> None:
     assert resolve_preset("kineme", signals=True, any_pace=True) == KINEME
 
 
-@pytest.mark.parametrize("name", PRESETS)
+@pytest.mark.parametrize("name", OWN)
 def test_a_preset_made_for_signals_is_used_as_it_is(name: str) -> None:
     made = resolve_preset(name, signals=True)
     assert resolve_preset(made, signals=True) == made
@@ -144,27 +143,28 @@ def test_what_a_preset_object_says_is_kept() -> None:
 
 def test_the_unit_of_lengths_is_in_the_provenance_and_is_not_an_option() -> None:
     x = Signals(recording(), 60)
-    units = {name: segment(x, preset=name).provenance["parameters"]["unit"] for name in PRESETS}
+    units = {name: segment(x, preset=name).provenance["parameters"]["unit"] for name in OWN}
     assert units == {
-        "kineme": "sizes",
+        "kineme": "body sizes",
         "voegele2014": "standard deviations",
         "krueger2017": "standard deviations",
     }
-    with pytest.raises(ParameterError, match="krueger2017 has no parameter 'unit'"):
+    with pytest.raises(ParameterError, match="unit must be a number above 0, not 'metres'"):
         segment(x, preset="krueger2017", unit="metres")
-    with pytest.raises(ParameterError, match="unit must be metres or standard deviations"):
+    with pytest.raises(ParameterError, match="metres or standard deviations in krueger2017"):
         replace(KRUEGER2017, unit="inches")
-    with pytest.raises(ParameterError, match="unit must be sizes in kineme"):
+    with pytest.raises(ParameterError, match="unit must be body sizes in kineme"):
         replace(KINEME, unit="metres")
 
 
 def test_the_unit_of_kineme_is_the_distance_of_recurrence() -> None:
-    features, _ = search_vectors(Signals(recording(), 60), KINEME)
-    unit = recurrence_unit(features, KINEME)
-    assert recurrence_unit(features / unit, KINEME) == pytest.approx(1, rel=1e-4)
-    assert recurrence_unit(features[:20], KINEME) == 1
-    assert recurrence_unit(np.zeros_like(features), KINEME) == pytest.approx(0.1)
-    assert KINEME.max_scale < RECURS_AT
+    view = view_of_signals(Signals(recording(), 60), KINEME, unit=1.0)
+    features = np.concatenate(view.features)
+    unit = KINEME.signal_unit(features)
+    assert KINEME.signal_unit(features / unit) == pytest.approx(1, rel=1e-4)
+    assert KINEME.signal_unit(features[:20]) == 1
+    assert KINEME.signal_unit(np.zeros_like(features)) == pytest.approx(0.1)
+    assert KINEME.max_scale < KINEME.recurs_at
 
 
 def test_a_gap_is_a_transition_and_what_lies_around_it_is_compared() -> None:

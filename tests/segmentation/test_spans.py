@@ -14,20 +14,20 @@ from kineme.datasets import bundled_recording
 from kineme.graph import neighbor_graph
 from kineme.methods.recurrence.preset import KINEME
 from kineme.segmentation.segmenter import segment_and_found
-from kineme.segmentation.spans import Part, gaps_between, in_source_frames, in_time
+from kineme.segmentation.spans import SeenSpan, gaps_between, in_frames, in_time
 
 
 @st.composite
-def recordings(draw: st.DrawFn) -> tuple[list[Part], dict[str, np.ndarray], int, int]:
+def recordings(draw: st.DrawFn) -> tuple[list[SeenSpan], dict[str, np.ndarray], int, int]:
     """Parts, a table over their working frames, source frames, and how many make a working one."""
     ratio = draw(st.integers(1, 4))
     parts, at = [], draw(st.integers(0, 5))
     for _ in range(draw(st.integers(1, 4))):
         n = draw(st.integers(1, 12))
-        parts.append(Part(at, at + n * ratio - draw(st.integers(0, ratio - 1)), n))
+        parts.append(SeenSpan(at, at + n * ratio - draw(st.integers(0, ratio - 1)), n))
         at = parts[-1].stop + draw(st.integers(1, 9))
     n_frames = parts[-1].stop + draw(st.integers(0, 5))
-    working = sum(part.n_working for part in parts)
+    working = sum(part.n_samples for part in parts)
     inner = draw(st.sets(st.integers(1, working - 1))) if working > 1 else set()
     cuts = np.array([0, *sorted(inner), working])
     n = len(cuts) - 1
@@ -45,17 +45,17 @@ def recordings(draw: st.DrawFn) -> tuple[list[Part], dict[str, np.ndarray], int,
 @given(recordings())
 def test_every_working_frame_keeps_its_segment(recording: tuple) -> None:
     parts, columns, n_frames, ratio = recording
-    placed = in_source_frames(columns, parts, n_frames, ratio)
+    placed = in_frames(columns, parts, n_frames, ratio)
     table = kineme.Segmentation.from_columns(placed, n_frames=n_frames, fps=30)
     found = table.per_frame("cluster")
     of_working = np.repeat(columns["cluster"], columns["stop_frame"] - columns["start_frame"])[
-        : sum(part.n_working for part in parts)
+        : sum(part.n_samples for part in parts)
     ]
     first = 0
     for part in parts:
-        at = part.start + ratio * np.arange(part.n_working)
-        assert np.array_equal(found[at], of_working[first : first + part.n_working])
-        first += part.n_working
+        at = part.start + ratio * np.arange(part.n_samples)
+        assert np.array_equal(found[at], of_working[first : first + part.n_samples])
+        first += part.n_samples
     for start, stop in gaps_between(parts, n_frames):
         assert (found[start:stop] == -1).all()
         row = table.activities.start_frame.tolist().index(start)
@@ -65,7 +65,7 @@ def test_every_working_frame_keeps_its_segment(recording: tuple) -> None:
 
 def test_a_graph_in_time_has_nothing_where_the_gaps_are() -> None:
     graph = neighbor_graph(np.zeros((10, 1)), radius=1.0)
-    spaced = in_time(graph, [(0, 8), (20, 28)], 56)  # four source frames in one of the graph
+    spaced = in_time(graph, [(0, 8), (20, 28)], 56)  # four frames in one of the graph
     assert len(spaced) == 14
     filled = np.flatnonzero(spaced.counts)
     assert filled.tolist() == [2, 3, 4, 7, 8, 9, 10, 11, 12, 13]
@@ -101,7 +101,7 @@ def test_a_gap_in_a_real_recording(data_dir: Path, tmp_path: Path) -> None:
     motion = kineme.read(data_dir / "cmu86" / "86_01.amc")
     whole = kineme.segment(motion)
     gap = (1500, 1900)  # inside a walk, 3.3 s of 38 s
-    broken, analysis = segment_and_found(replace(motion, gaps=(gap,)), KINEME)
+    broken, analysis = segment_and_found(replace(motion, gaps=(gap,)), preset=KINEME)
     far = [cut for cut in whole.cuts() if not gap[0] - 120 <= cut <= gap[1] + 120]
     assert max(np.abs(broken.cuts() - cut).min() for cut in far) <= 0.2 * motion.fps
     before, after = (broken.per_frame("cluster", level="activity")[f] for f in (1499, 1900))

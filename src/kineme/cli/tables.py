@@ -16,8 +16,8 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
 _NOTHING_FOUND = (
-    "no activity found: nothing stays alike or repeats for long enough; of a recording of a few "
-    "seconds --min-action 0.5 --min-stretch 0.3 or --preset krueger2017 may tell more"
+    "no activity found: nothing stays similar or repeats for long enough; of a recording of a few "
+    "seconds --min-action 0.5 --min-segment 0.3 or --preset krueger2017 may tell more"
 )
 
 

@@ -93,6 +93,8 @@ class Preset(ABC):
     view: ClassVar[View] = "poses"
     """What it sees of a body: where five points are, or how joints are turned."""
 
+    units: ClassVar[tuple[Unit, ...]]
+    """What its lengths can be in."""
     signal_defaults: ClassVar[Mapping[str, Any]] = {}
     """Constants with other values for signals, where the preset is given by name."""
 
@@ -120,6 +122,10 @@ class Preset(ABC):
 
     def __post_init__(self) -> None:
         check(self)
+        if self.unit not in self.units:
+            raise ParameterError(
+                f"unit must be {' or '.join(self.units)} in {self.name}, not {self.unit!r:.60}"
+            )
 
     @abstractmethod
     def analyze(

@@ -72,9 +72,8 @@ def plot_matrix(
     >>> import kineme
     >>> angle = np.linspace(0, 16 * np.pi, 480)
     >>> circles = kineme.Signals(np.column_stack([np.sin(angle), np.cos(angle)]), 30.0)
-    >>> graph = kineme.neighbor_graph(circles.values, radius=0.3)
-    >>> segments = kineme.segment_signals(circles)
-    >>> kineme.plot_matrix(segments, graph, ax=Figure().add_subplot()).get_ylabel()
+    >>> segments, found = kineme.segment_and_found(circles)
+    >>> kineme.plot_matrix(segments, found, ax=Figure().add_subplot()).get_ylabel()
     'seconds'
     """
     check_type(segmentation, Segmentation, "plot_matrix", "kineme.segment gives one")

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._checks import as_features
+from kineme._checks import as_features, is_number
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.features.effectors import Names
@@ -60,7 +60,9 @@ def segment(
     emg : bool
         Of signals: take the envelopes of muscle signals, see `kineme.features.emg_envelope`.
     features : (rows, dims) array, optional
-        To look at in place of the recording's own, such as an embedding of each frame.
+        To look at in place of the recording's own, such as an embedding of each frame. They
+        are stacked and taken to the working rate as channels are, and averaged over time only
+        if `smoothing` says so.
     feature_fps : float, optional
         Rows of `features` per second; that of the recording by default.
     unit : float, optional
@@ -135,9 +137,14 @@ def segment_and_found(
             f"segment takes a Motion or Signals, not {type(recording).__name__}: "
             f"kineme.read(path) gives one; arrays go to Segmenter"
         )
+    for name, value in (("unit", unit), ("feature_fps", feature_fps)):
+        if value is not None and not (is_number(value) and value > 0):
+            raise ParameterError(f"{name} must be a number above 0, not {value!r:.60}")
     if progress is not None:
         progress("features")
     seen = recording if features is None else _outside(recording, features, feature_fps)
+    if features is not None:
+        constants = {"smoothing": 0.0, **constants}
     chosen = resolve_preset(preset, signals=isinstance(seen, Signals), **constants)
     if isinstance(seen, Signals):
         scaled = features is None if standardize is None else standardize

@@ -36,7 +36,7 @@ def analysis_of(seed: int) -> RecurrenceFound:
 
 
 def assert_same(found: RecurrenceFound, expected: RecurrenceFound) -> None:
-    for name in ("blocks", "labels", "segments"):
+    for name in ("borders", "labels", "primitives"):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
     for name in ("confidence", "agreement"):
         np.testing.assert_allclose(getattr(found, name), getattr(expected, name), atol=1e-3)
@@ -86,7 +86,7 @@ def test_an_action_that_returns_after_minutes_is_known_again() -> None:
     assert repetitions_of(found) == [12, 50, 12, 12, 12]
 
 
-def test_likeness_is_looked_for_no_farther_away_than_asked() -> None:
+def test_similarity_is_looked_for_no_farther_away_than_asked() -> None:
     walk, turn = swing(12, period=1), swing(12, period=1.2, axis=2)
     rows = np.concatenate([walk, turn, walk])
     near = analyze_actions(rows, KINEME.replace(max_lag=8.0))
@@ -111,8 +111,8 @@ PRINT_DIGEST = """
 import hashlib, numpy as np
 from kineme.datasets import random_recording
 from kineme.methods.recurrence.analysis import analyze_actions
-from kineme.methods.presets import KINEME
-from kineme.segmentation.segmenter import motion_features
+from kineme.methods.recurrence.preset import KINEME
+from kineme.segmentation.bodies import motion_features
 for _ in range(2):
     found = analyze_actions(motion_features(random_recording(2).motion, KINEME), KINEME)
     digest = hashlib.sha256()
@@ -205,14 +205,14 @@ def constants(draw: st.DrawFn) -> dict[str, float | None]:
         "phase": none_or_some,
         "recurrence_time": some,
         "min_scale": st.sampled_from([1e-6, 0.1]),
-        "max_scale": st.sampled_from([0.1, 1e6]),
+        "max_scale": st.sampled_from([0.1, 1e4]),
         "softness": st.sampled_from([0.01, 1.0, 100.0]),
         "border_cost": none_or_some,
-        "min_stretch": none_or_some,
-        "part_gap": none_or_some,
-        "part_softness": some,
-        "part_share": st.sampled_from([0.01, 1.0]),
-        "likeness": st.sampled_from([0.01, 0.5, 1.0]),
+        "min_segment": none_or_some,
+        "merge_gap": none_or_some,
+        "merge_softness": some,
+        "merge_share": st.sampled_from([0.01, 1.0]),
+        "link_similarity": st.sampled_from([0.01, 0.5, 1.0]),
         "min_repetition": none_or_some,
         "switch_cost": none_or_some,
         "no_action_cost": none_or_some,
@@ -240,8 +240,8 @@ def test_segments_tile_whatever_the_constants(overrides, frames) -> None:
         ("softness", float("nan")),
         ("phase", -0.1),
         ("min_scale", 0.5),
-        ("likeness", 0),
-        ("likeness", 1.5),
+        ("link_similarity", 0),
+        ("link_similarity", 1.5),
         ("radius", 0.64),
     ],
 )

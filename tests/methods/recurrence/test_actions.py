@@ -5,11 +5,26 @@ from __future__ import annotations
 import numpy as np
 
 from kineme.methods.recurrence.actions import refine
-from kineme.methods.recurrence.recurrence import Recurrence, recurrence
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
 from loops import swing
 
-OPTIONS = {"step": 3, "width": 600, "phase": 12, "rank": 30, "low": 0.08, "high": 0.16}
-COSTS = {"switch_cost": 6.0, "no_action_cost": 0.55, "min_length": 10}
+OPTIONS = {
+    "step": 3,
+    "width": 600,
+    "phases": phase_windows(12, KINEME.phase_shares),
+    "rank": 30,
+    "low": 0.08,
+    "high": 0.16,
+}
+COSTS = {
+    "least_similarity": 0.2,
+    "least_own": 0.05,
+    "rounds": 2,
+    "switch_cost": 6.0,
+    "no_action_cost": 0.55,
+    "min_length": 10,
+}
 
 
 def measured(*parts: np.ndarray, **overrides: int) -> Recurrence:

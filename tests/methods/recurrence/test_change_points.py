@@ -13,10 +13,11 @@ from kineme.methods.recurrence import _action_kernels as kernels
 from kineme.methods.recurrence.change_points import (
     change_points,
     link,
-    merge_parts,
+    merge_neighbors,
     repeating,
 )
-from kineme.methods.recurrence.recurrence import Recurrence, recurrence
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
 from kineme.methods.segments import by_first_appearance
 from loops import swing
 
@@ -24,7 +25,7 @@ seconds = settings(max_examples=120)
 
 
 @st.composite
-def likeness(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
+def similarities(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
     """Symmetric, from 0 to 1, each moment alike to itself."""
     n = draw(st.integers(1, max_bins))
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
@@ -34,7 +35,7 @@ def likeness(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
     return alike
 
 
-@given(likeness(), st.integers(0, 9), st.integers(0, 4), st.sampled_from([0.0, 0.3, 1.0, 5.0]))
+@given(similarities(), st.integers(0, 9), st.integers(0, 4), st.sampled_from([0.0, 0.3, 1.0, 5.0]))
 @seconds
 def test_no_division_is_cheaper(alike, width, shortest, penalty) -> None:
     width = min(width, len(alike) - 1)
@@ -45,7 +46,9 @@ def test_no_division_is_cheaper(alike, width, shortest, penalty) -> None:
     assert naive.division_cost(alike, found, penalty) == pytest.approx(min(costs), abs=1e-4)
 
 
-@given(likeness(max_bins=12), st.integers(0, 12), st.integers(0, 5), st.integers(1, 4), st.data())
+@given(
+    similarities(max_bins=12), st.integers(0, 12), st.integers(0, 5), st.integers(1, 4), st.data()
+)
 @seconds
 def test_affinities_are_those_of_the_naive_version(alike, width, gap, min_count, data) -> None:
     n = len(alike)
@@ -76,7 +79,14 @@ def test_labels_are_counted_by_first_appearance(labels) -> None:
 
 
 def measured(*parts: np.ndarray) -> Recurrence:
-    options = {"step": 3, "width": 600, "phase": 12, "rank": 30, "low": 0.08, "high": 0.16}
+    options = {
+        "step": 3,
+        "width": 600,
+        "phases": phase_windows(12, KINEME.phase_shares),
+        "rank": 30,
+        "low": 0.08,
+        "high": 0.16,
+    }
     return recurrence(np.concatenate(parts), **options, softness=1.6)
 
 
@@ -89,17 +99,19 @@ def test_borders_are_where_the_movement_changes() -> None:
 def test_two_slow_repetitions_are_parts_of_one_stretch() -> None:
     found = measured(swing(2, period=6), swing(8, period=1.2, axis=2))
     parts = np.array([0, 60, 120, len(found)])
-    merged = merge_parts(parts, found, gap=8, softness=2.0, least=0.3)
+    merged = merge_neighbors(parts, found, gap=8, softness=2.0, least=0.3)
     assert merged.tolist() == [0, 120, len(found)]
     # Nothing is left to merge.
-    assert merge_parts(merged, found, gap=8, softness=2.0, least=0.3).tolist() == merged.tolist()
+    assert (
+        merge_neighbors(merged, found, gap=8, softness=2.0, least=0.3).tolist() == merged.tolist()
+    )
 
 
 def test_an_action_is_known_again() -> None:
     walk, turn = swing(8, period=1), swing(10, period=1.2, axis=2)
     found = measured(walk, turn, walk, turn, turn)
     borders = np.array([0, 80, 200, 280, 400, 520])
-    options = {"likeness": 0.6, "softness": 1.3}
+    options = {"similarity": 0.6, "softness": 1.3, "samples": 20, "least": 0.05}
     linked = link(borders, found, found.features, **options, max_lag=None)
     assert linked.tolist() == [0, 1, 0, 1, 1]
     # 12 s away is too far to be compared, 0 s is not.

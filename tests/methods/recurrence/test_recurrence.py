@@ -11,7 +11,8 @@ import naive
 from bands import one_sided, points, to_matrix, two_sided
 from kineme.methods.recurrence import _distance_kernels as distant
 from kineme.methods.recurrence import _recurrence_kernels as kernels
-from kineme.methods.recurrence.recurrence import recurrence
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.recurrence.recurrence import phase_windows, recurrence
 from loops import swing
 
 seconds = settings(max_examples=120)
@@ -106,8 +107,8 @@ def test_stretches_are_as_alike_as_in_the_naive_version(poses, reaches, gap, dat
         np.testing.assert_allclose(found, expected, rtol=1e-6)
     scales = np.linspace(0.5, 2, len(poses)).astype(np.float32)
     given_to_both = reaches, scales[frames], scales[others], 1.5, gap
-    likeness = distant.mean_similarity(poses, frames, others, np.array(reaches), *given_to_both[1:])
-    assert likeness == pytest.approx(
+    found = distant.mean_similarity(poses, frames, others, np.array(reaches), *given_to_both[1:])
+    assert found == pytest.approx(
         naive.mean_similarity(poses, frames, others, *given_to_both), abs=1e-5
     )
 
@@ -118,11 +119,12 @@ def stretch(data: st.DataObject, bins: int) -> range:
 
 
 OPTIONS = {
-    "step": 3, "width": 600, "phase": 12, "rank": 30, "low": 0.08, "high": 0.16, "softness": 1.6,
+    "step": 3, "width": 600, "rank": 30, "low": 0.08, "high": 0.16, "softness": 1.6,
+    "phases": phase_windows(12, KINEME.phase_shares),
 }  # fmt: skip
 
 
-def test_moments_of_one_movement_are_alike_whatever_their_phase() -> None:
+def test_samples_of_one_movement_are_similar_whatever_their_phase() -> None:
     rows = np.concatenate([swing(8, period=1.2), swing(8, period=1.2, axis=2)])
     alike = to_matrix(recurrence(rows, **OPTIONS).similarity)
     assert alike[:84, :84].min() > 0.5

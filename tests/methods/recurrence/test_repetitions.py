@@ -13,6 +13,7 @@ import naive
 from bands import points
 from kineme.methods.recurrence import _candidate_kernels as candidate_kernels
 from kineme.methods.recurrence import _distance_kernels as kernels
+from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from loops import nod, swing
 
@@ -47,7 +48,7 @@ def test_dips_are_those_of_the_naive_version(row, least) -> None:
 
 def count(rows: np.ndarray) -> Repetitions:
     frames = len(rows)
-    return repetitions(rows.astype(np.float32), 0, frames, smoothing=2)
+    return repetitions(rows.astype(np.float32), 0, frames, KINEME)
 
 
 movements = pytest.mark.parametrize("movement", [swing, nod])
@@ -169,13 +170,17 @@ def test_ways_are_judged_as_by_the_naive_versions(seed: int) -> None:
     expected = naive.poses_at(poses, path, lengths)
     np.testing.assert_array_equal(candidate_kernels.poses_at(poses, path, lengths), expected)
     parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
-    np.testing.assert_allclose(candidate_kernels.unlike(parts), naive.unlike(parts), atol=1e-12)
-    best, ends = naive.along(poses, path, lengths, parts[0], 4.0)
-    length = candidate_kernels.along(poses, path, lengths, parts[0], 4.0)
+    np.testing.assert_allclose(
+        candidate_kernels.unexplained(parts), naive.unexplained(parts), atol=1e-12
+    )
+    best, ends = naive.followed(poses, path, lengths, parts[0], 4.0)
+    length = candidate_kernels.followed(poses, path, lengths, parts[0], 4.0)
     assert length in ends if best > 0 else length == 0
     visits = np.array([1, 5, 9])
     for part, (a, b) in zip(
-        candidate_kernels.parts_between(poses, path, visits, 4), pairwise(path[visits]), strict=True
+        candidate_kernels.repetitions_between(poses, path, visits, 4),
+        pairwise(path[visits]),
+        strict=True,
     ):
         places = a + (b - a) * (np.arange(4) + 0.5) / 4
         np.testing.assert_array_equal(part, naive.poses_at(poses, path, places))

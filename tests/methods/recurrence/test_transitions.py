@@ -5,11 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from kineme.methods.recurrence.actions import Actions
-from kineme.methods.recurrence.recurrence import Recurrence, recurrence
+from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
 from kineme.methods.recurrence.transitions import activity_ends, leading
 from loops import swing
 
-OPTIONS = {"step": 3, "width": 600, "phase": 12, "rank": 30, "low": 0.08, "high": 0.16}
+OPTIONS = {
+    "step": 3,
+    "width": 600,
+    "phases": phase_windows(12, KINEME.phase_shares),
+    "rank": 30,
+    "low": 0.08,
+    "high": 0.16,
+}
+ENDS = {"factor": 1.15, "spread": 0.3, "usual": 0.9, "largest_share": 0.25}
 WALK, TURN = swing(8, period=1), swing(10, period=1.2, axis=2)
 
 
@@ -28,7 +37,7 @@ def actions(*borders: int, labels: tuple[int, ...] = (0, 1)) -> Actions:
 
 
 def ends(found: Actions, recording: Recurrence, longest: int) -> tuple[int, int]:
-    (end,), (begin,) = activity_ends(found, recording, factor=1.15, longest=longest)
+    (end,), (begin,) = activity_ends(found, recording, longest=longest, **ENDS)
     return int(end), int(begin)
 
 
@@ -74,7 +83,7 @@ def test_a_rest_that_both_explain_is_cut_where_it_is_stillest() -> None:
 def test_a_stretch_of_no_action_has_the_ends_its_neighbours_leave_it() -> None:
     recording = measured(WALK, leap(3), TURN)
     found = actions(0, 84, 106, 230, labels=(0, -1, 1))
-    stops, starts = activity_ends(found, recording, factor=1.15, longest=8)
+    stops, starts = activity_ends(found, recording, longest=8, **ENDS)
     np.testing.assert_array_equal(stops, starts)
     np.testing.assert_allclose(stops, [244, 328], atol=6)
 

@@ -32,6 +32,7 @@ class BaselinePreset(Preset):
     """What the baselines share: how they see a recording."""
 
     method: ClassVar[str] = "baselines"
+    units: ClassVar[tuple[Unit, ...]] = ("any",)
     view: ClassVar[View] = "quaternions"
 
     unit: Unit = "any"

@@ -39,6 +39,7 @@ class RecurrencePreset(Preset):
     """Constants of the ``kineme`` method: recurrence, change points, actions, repetitions."""
 
     method: ClassVar[str] = "recurrence"
+    units: ClassVar[tuple[Unit, ...]] = ("body sizes",)
     # Few channels at one sample tell little, so pace counts: what is the same at another
     # pace is another action, as running is to a sensor that walks.
     signal_defaults: ClassVar[Mapping[str, Any]] = {"any_pace": False}

@@ -46,6 +46,7 @@ class RegionGrowingPreset(Preset):
     """Constants of the published methods: growing regions and warping paths."""
 
     method: ClassVar[str] = "region_growing"
+    units: ClassVar[tuple[Unit, ...]] = ("metres", "standard deviations")
 
     unit: Unit = "metres"
     radius: float = constant(

@@ -1,0 +1,8 @@
+"""The presets that segment by themselves; the others have to be told the number of actions."""
+
+from __future__ import annotations
+
+from kineme.methods import PRESETS
+
+OWN = ("kineme", "voegele2014", "krueger2017")
+ALL = tuple(PRESETS)
