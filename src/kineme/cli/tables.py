@@ -72,7 +72,7 @@ def _activity_rows(segmentation: Segmentation) -> Table:
             *_span(number, row), count, _cluster(row.cluster), row.label, style=_style(row)
         )
     if any("+" in str(cell) for cell in table.columns[5].cells):
-        table.caption = "(+n): pieces of the activity that are in other clusters, or in none"
+        table.caption = "(+n): primitives of the activity that are in other clusters, or in none"
         table.caption_justify = "left"
     return _without_empty_labels(table, segmentation.activities.label.tolist())
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from html import escape
+from typing import TYPE_CHECKING
 
-from kineme.segments.table import Segment, SegmentTable
 from kineme.segments.timeline import segment_color, timeline_svg
+
+if TYPE_CHECKING:
+    from kineme.segments.table import Segment, SegmentTable
 
 ROWS = 8
 """Shown of a table."""

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._colors import cluster_color
-from kineme.segments.table import Segment, SegmentTable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from kineme.segments.table import Segment, SegmentTable
 
 BAND = 0.8
 """Height of a row's bars; the rest parts it from the next."""
