@@ -7,16 +7,20 @@ from typing import Annotated, Any
 
 import typer
 
+from kineme.cli.help import LABELS
 from kineme.cli.inputs import Batch, Recursive
 from kineme.cli.request import Request
 from kineme.cli.targets import make_folder_of
 from kineme.errors import WriteError
-from kineme.labels import FORMATS, read_segments, write_segments
 from kineme.segments.table import Level
 
 
 def _known(name: str | None) -> str | None:
-    if name not in (None, *FORMATS):
+    if name is None:
+        return None
+    from kineme.labels import FORMATS
+
+    if name not in FORMATS:
         raise typer.BadParameter(f"{name!r} is not one of {', '.join(FORMATS)}")
     return name
 
@@ -54,7 +58,7 @@ def convert(
     ],
     from_format: Annotated[
         str | None,
-        typer.Option("--from", callback=_known, help=f"Format read: {', '.join(FORMATS)}."),
+        typer.Option("--from", callback=_known, help=f"Format read: {LABELS}."),
     ] = None,
     to_format: Annotated[
         str | None,
@@ -78,6 +82,8 @@ def convert(
     if len(files) < 2:
         raise typer.BadParameter("give what to read and the file to write", param_hint="FROM… TO")
     *sources, target = files
+    from kineme.labels import read_segments, write_segments
+
     request = Request.of(reading=reading)
     batch = Batch(sources, recursive=recursive)
     several = not batch.single or "{" in target.name

@@ -120,7 +120,9 @@ def _checked(given: dict[str, Any]) -> dict[str, Any]:
     """Keywords for `kineme.read`, before any file is opened."""
     from kineme.formats import ReadOptions
 
-    said = {name: value for name, value in given.items() if value is not None and value is not False}
+    said = {
+        name: value for name, value in given.items() if value is not None and value is not False
+    }
     with suppress(KeyError, ValueError):
         said["unit"] = float(said["unit"])
     if "columns" in said:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme.cli.help import TABLES
 from kineme.cli.inputs import Batch, Files, Recursive
 from kineme.cli.preset_options import PresetName
 from kineme.cli.reading import Effectors, Json, Quiet
@@ -29,8 +30,7 @@ def segment(
         typer.Option(
             "--output",
             "-o",
-            help="Segment table (.csv, .json, .parquet) or labels (.eaf, .TextGrid, .tsv, .txt); "
-            "a folder; or a name with {name} in it.",
+            help=f"Segment table or labels: {TABLES}; a folder; or a name with {{name}} in it.",
         ),
     ] = None,
     plot: Annotated[
