@@ -18,7 +18,7 @@ import kineme
 from kineme.datasets import ACTIONS, Action, Exercise, exercise_sequence, synthesize
 from kineme.evaluation import Annotation, labelling_of
 from kineme.evaluation.trials import find_folder, load_trials
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))

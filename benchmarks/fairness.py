@@ -30,7 +30,7 @@ from _recordings import CONDITIONS, DATA, Case, hdm05, subject_86, synthetic
 from kineme.evaluation import Annotation, Labelling, evaluate, evaluate_segmentation
 from kineme.methods.baselines.uniform import uniform
 from kineme.methods.presets import PRESETS
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import resample, scale, turn
 from kineme.segments.segmentation import Segmentation
 

@@ -22,7 +22,7 @@ from kineme.datasets import Action, synthesize
 from kineme.evaluation import evaluate_segmentation
 from kineme.features import body_frame, body_size, end_effectors
 from kineme.methods.recurrence.preset import KINEME
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 from kineme.recordings.operations import resample
 from kineme.segments.segmentation import Segmentation
 

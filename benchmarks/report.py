@@ -25,7 +25,7 @@ import numpy as np
 import kineme
 from _measure import verdict
 from kineme.datasets import bundled_recording
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 from kineme.recordings.operations import turn
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation

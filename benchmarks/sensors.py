@@ -22,14 +22,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme import Signals, read_signals, segment
+from kineme import Signals, read, segment
 from kineme import _rotations as rot
 from kineme.datasets import random_recording
 from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
 from kineme.evaluation.tables import markdown, shown
 from kineme.evaluation.trials import find_folder, load_trials
 from kineme.features import end_effectors, pose_features
-from kineme.recordings.motion import Motion, world_rotations
+from kineme.recordings import Motion
+from kineme.recordings.kinematics import world_rotations
 from kineme.recordings.operations import resample
 
 Floats = NDArray[np.float64]
@@ -48,7 +49,7 @@ def sensors(motion: Motion, places: Iterable[int], *, gyroscopes: bool = True) -
     rng = np.random.default_rng(0)
     ends = end_effectors(motion).indices
     worn = resample(motion, FPS)
-    turned = world_rotations(worn)
+    turned = world_rotations(worn.skeleton, worn.rotations)
     columns: list[Floats] = []
     for place in places:
         joint = ends[place]
@@ -115,7 +116,7 @@ def main() -> None:
     ):
         print(table(title, sets, units=options.units))
     for path in sorted((options.data / "timeseries").glob("WalkJogRun*.txt")):
-        found = segment(read_signals(path, fps=FPS))
+        found = segment(read(path, fps=FPS))
         borders = ", ".join(map(str, found.cuts().tolist()))
         print(f"{path.stem}: {borders} of {found.n_frames} frames")
 

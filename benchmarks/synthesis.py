@@ -20,7 +20,7 @@ import numpy as np
 import kineme
 from _recordings import DATA, TRIALS
 from kineme.features import end_effectors
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.synthesis import (
     MotionGraph,
     Placement,

@@ -24,7 +24,7 @@ import numpy as np
 
 import kineme
 from _recordings import ACTORS, DATA, subject_86
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer import (
     THRESHOLD,

@@ -41,7 +41,7 @@ def test_listing_names_loads_nothing_heavy() -> None:
 def test_errors_and_the_table_need_no_compiler() -> None:
     statement = "import kineme; kineme.KinemeError, kineme.Segmentation, kineme.read"
     assert not loaded_by(statement) & {"numba", "matplotlib", "sklearn"}
-    statement = "import kineme; kineme.read_signals, kineme.Signals, kineme.segment"
+    statement = "import kineme; kineme.read, kineme.Signals, kineme.segment"
     assert not loaded_by(statement) & {"numba", "matplotlib", "sklearn"}
 
 
@@ -83,7 +83,7 @@ def public_doors(folder: Path) -> list[tuple[Callable[..., object], list[Any], d
         (kineme.write, [motion, folder / "a.bvh"], {}),
         (kineme.read_segments, [table], dict.fromkeys(("format", "fps", "n_frames"))),
         (kineme.write_segments, [found, table], dict.fromkeys(("format", "level"))),
-        (kineme.read_signals, [folder / "b.csv"], {"fps": 30.0, "columns": None}),
+        (kineme.read, [folder / "b.csv"], {"fps": 30.0, "columns": None}),
         (kineme.segment, [motion], {"preset": "voegele2014", "effectors": None, "radius": 0.6}),
         (kineme.segment, [motion], {"window": 10.0, "offsets": (0.0,), "any_pace": True}),
         (kineme.segment_and_found, [motion], {"preset": "krueger2017", "effectors": None}),

@@ -62,9 +62,6 @@ from .formats import (
 from .formats import (
     write as write,
 )
-from .formats.channels.reading import (
-    read_signals as read_signals,
-)
 from .graph import (
     NeighborGraph as NeighborGraph,
 )
@@ -104,20 +101,26 @@ from .plot import (
 from .plot import (
     plot_timeline as plot_timeline,
 )
-from .recordings.motion import (
+from .recordings import (
     Motion as Motion,
 )
-from .recordings.motion import (
+from .recordings import (
+    Note as Note,
+)
+from .recordings import (
     Provenance as Provenance,
 )
-from .recordings.motion import (
+from .recordings import (
+    Recording as Recording,
+)
+from .recordings import (
+    Signals as Signals,
+)
+from .recordings import (
     Skeleton as Skeleton,
 )
 from .recordings.operations import (
     resample as resample,
-)
-from .recordings.signals import (
-    Signals as Signals,
 )
 from .report.page import (
     write_report as write_report,

@@ -43,7 +43,7 @@ def test_columns_rate_and_constants_are_options(kineme, phone) -> None:
     assert data["provenance"]["parameters"]["radius"] == 0.3
     assert data["provenance"]["notes"][0].startswith("channels: acc_y, acc_x,")
     same = package.segment(
-        package.read_signals(phone, columns=["acc_y", "acc_x"], fps=50),
+        package.read(phone, columns=["acc_y", "acc_x"], fps=50),
         preset="krueger2017",
         radius=0.3,
     )

@@ -11,13 +11,13 @@ import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kineme.formats.channels.writing import write_signals
 
 import kineme
 from kineme.clips.loops import Carry, loop
 from kineme.clips.split import split
 from kineme.errors import MotionError, ParameterError, WriteError
-from kineme.recordings.motion import Motion
+from kineme.formats.channels.writing import write_signals
+from kineme.recordings import Motion
 from kineme.recordings.operations import cut, move, turn
 
 
@@ -208,13 +208,13 @@ def test_clips_of_arrays_hold_their_values_and_gaps(tmp_path) -> None:
     assert back.columns.tolist() == ["time", "a", "b"]
     values[40:45] = np.nan
     assert np.array_equal(back[["a", "b"]].to_numpy(), values, equal_nan=True)
-    assert kineme.read_signals(paths[1]).fps == 30
+    assert kineme.read(paths[1]).fps == 30
 
 
 def test_changed_channels_are_written_as_they_were_changed(tmp_path) -> None:
     (tmp_path / "imu.csv").write_text(
         "time,acc_x\n" + "".join(f"{i / 10},{i}\n" for i in range(30))
     )
-    signals = kineme.read_signals(tmp_path / "imu.csv")
+    signals = kineme.read(tmp_path / "imu.csv")
     write_signals(replace(signals, values=np.multiply(2, signals.values)), tmp_path / "twice.csv")
     assert pd.read_csv(tmp_path / "twice.csv").acc_x.tolist() == [2 * i for i in range(30)]

@@ -11,7 +11,7 @@ import pytest
 from kineme.datasets import Action, synthesize
 from kineme.datasets.sequences import Exercise, exercise_sequence
 from kineme.errors import ParameterError
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import resample, scale
 
 FPS = 60.0

@@ -13,7 +13,7 @@ from scipy.spatial.distance import cdist
 from kineme.datasets import ACTIONS, Action, SyntheticRecording, random_recording, synthesize
 from kineme.errors import ParameterError
 from kineme.features import pose_features, stack
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 FPS = 60.0
 EXERCISES = [name for name in ACTIONS if name != "stand"]

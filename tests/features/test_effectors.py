@@ -11,7 +11,7 @@ from kineme.datasets import Action, synthesize
 from kineme.datasets.figure import figure
 from kineme.errors import EndEffectorError
 from kineme.features import end_effectors
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 # Left ankle, right ankle, head, left wrist, right wrist.
 SCHEMES = {

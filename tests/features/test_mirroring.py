@@ -14,7 +14,8 @@ import naive
 from kineme.datasets import Action, bundled_recording, random_recording, synthesize
 from kineme.errors import MotionError, ParameterError
 from kineme.features import end_effectors, mirror, mirror_features, pose_features, stack
-from kineme.recordings.motion import Motion, Skeleton, forward_kinematics
+from kineme.recordings import Motion, Skeleton
+from kineme.recordings.kinematics import forward_kinematics
 
 KICKS = synthesize([Action("walk", 2), Action("kick", 3, side="left")], fps=30, seed=4).motion
 few = settings(max_examples=10)

@@ -23,7 +23,7 @@ from kineme.features import (
     pose_features,
     stack,
 )
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 RECORDING = synthesize([Action("walk", 2), Action("kick", 2)], fps=30, seed=3).motion
 OFFSETS = st.lists(st.integers(-40, 40), min_size=1, max_size=6, unique=True)

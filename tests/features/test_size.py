@@ -10,7 +10,7 @@ import pytest
 from kineme.datasets import Action, synthesize
 from kineme.errors import MotionError
 from kineme.features import body_size, end_effectors
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import move, scale, turn
 
 

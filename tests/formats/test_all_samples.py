@@ -9,12 +9,10 @@ import pytest
 
 import kineme
 from kineme.errors import ReadError
-from kineme.formats.channels.reading import is_signal_file, read_signals
 from kineme.recordings.operations import cut
 
 REFUSED = {
     ".asf": "is a skeleton without a motion: give the AMC file",
-    ".mot": "segment them as plain signals",
 }
 """What cannot be a motion, and what the user is told to do instead."""
 
@@ -25,9 +23,10 @@ def test_every_sample(data_dir: Path, folder: str) -> None:
     files = sorted(path for path in (data_dir / folder).iterdir() if path.is_file())
     assert files
     for path in files:
-        if is_signal_file(path):
-            assert read_signals(path, fps=100 if path.suffix == ".txt" else None).n_frames > 50
-        if folder == "timeseries":
+        if path.suffix in (".txt", ".mot"):
+            signals = kineme.read(path, fps=100 if path.suffix == ".txt" else None)
+            assert isinstance(signals, kineme.Signals)
+            assert signals.n_frames > 50
             continue
         reason = REFUSED.get(path.suffix.lower())
         if reason is None:

@@ -9,7 +9,7 @@ from format_samples import AMC, ASF
 import naive
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 CMU_UNIT = 0.0254 / 0.45
 

@@ -155,9 +155,9 @@ def test_files_that_are_not_there_or_not_known(tmp_path: Path) -> None:
         read(tmp_path / "nothing.bvh")
     with pytest.raises(ReadError, match="cannot be opened"):
         read(tmp_path)
-    (tmp_path / "a.txt").write_text("hello")
-    with pytest.raises(ReadError, match="neither its content nor its suffix '.txt' is known"):
-        read(tmp_path / "a.txt")
+    (tmp_path / "a.xyz").write_text("hello")
+    with pytest.raises(ReadError, match="neither its content nor its suffix '.xyz' is known"):
+        read(tmp_path / "a.xyz")
     lonely = tmp_path / "lonely.amc"
     lonely.write_text(AMC)
     with pytest.raises(ReadError, match="no ASF skeleton found beside it.*skeleton="):

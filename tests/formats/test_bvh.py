@@ -11,7 +11,7 @@ import naive
 from kineme.errors import KinemeWarning
 from kineme.formats import read, write
 from kineme.formats.units import UNITS, rate_from_period
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 REAL = [
     ("formats/PyMO_AV_8Walk", "inch", 120.0),

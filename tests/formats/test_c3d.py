@@ -25,7 +25,7 @@ from marker_samples import (
 import kineme
 from kineme.errors import KinemeError, KinemeWarning, ReadError
 from kineme.features import pose_features
-from kineme.formats.files import Source, load
+from kineme.formats.files import FileContent, load
 from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings.operations import split_at_gaps
 
@@ -34,7 +34,7 @@ POINTS = z_up_millimetres(walking())
 
 
 def parse(data: bytes):
-    return parse_c3d(Source(Path("a.c3d"), data))
+    return parse_c3d(FileContent(Path("a.c3d"), data))
 
 
 def read(folder: Path, data: bytes, **options):
@@ -292,10 +292,10 @@ def laboratory(folder: Path, labels, **parameters) -> Path:
 )
 def test_muscles_of_a_laboratory(tmp_path, labels, more, muscles) -> None:
     path = laboratory(tmp_path, labels, **more)
-    signals = kineme.read_signals(path, emg=True)
+    signals = kineme.read(path, emg=True)
     assert list(signals.names) == muscles
     left = ", ".join(name for name in labels if name not in muscles)
     said = f"channels taken for muscles: {', '.join(muscles)}; left out: {left}"
     assert signals.provenance.notes == (said,)
-    assert list(kineme.read_signals(path).names) == labels
-    assert list(kineme.read_signals(path, columns=labels[:1], emg=True).names) == labels[:1]
+    assert list(kineme.read(path, columns=()).names) == labels
+    assert list(kineme.read(path, columns=labels[:1], emg=True).names) == labels[:1]

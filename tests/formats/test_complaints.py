@@ -12,7 +12,7 @@ from marker_samples import PLUG_IN_GAIT, c3d_bytes, walking, z_up_millimetres
 
 import kineme
 from kineme.errors import KinemeWarning
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 from kineme.formats.markers.c3d_file import parse_c3d
 
 
@@ -57,7 +57,7 @@ def test_analog_channels_without_a_rate_of_their_own() -> None:
     """ezc3d#52: Xsens leaves out ANALOG:RATE."""
     analog = np.zeros((60, 4, 2))
     data = c3d_bytes(z_up_millimetres(walking()), PLUG_IN_GAIT, analog=analog)
-    file = parse_c3d(Source(Path("a.c3d"), data))
+    file = parse_c3d(FileContent(Path("a.c3d"), data))
     assert file.parameters.number("ANALOG", "RATE", usual=-1.0) == -1.0
     assert file.analog_rate == 400
 

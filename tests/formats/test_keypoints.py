@@ -27,7 +27,6 @@ from keypoint_samples import (
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError
-from kineme.formats.channels.reading import is_signal_file
 
 
 def read(folder: Path, name: str, content: str | bytes | list | dict, **options):
@@ -287,7 +286,6 @@ def test_mediapipe_csv(tmp_path: Path, pattern: str, first: int) -> None:
     text = _wide(pattern, first, time=[i / 25 for i in range(30)], **{"class": ["wave"] * 30})
     motion = read(tmp_path, "a.csv", text)
     assert (motion.provenance.format, motion.fps, motion.n_frames) == ("MediaPipe", 25, 30)
-    assert not is_signal_file(tmp_path / "a.csv")
     assert stands(motion)
     assert waves(motion) == pytest.approx(0.8, abs=0.05)
     text = _wide(pattern, first, frame=[*range(20), *range(22, 32)])

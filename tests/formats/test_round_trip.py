@@ -12,8 +12,8 @@ from hypothesis import given
 
 from kineme.errors import WriteError
 from kineme.formats import read, supported_formats, write
+from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import world_rotations
-from kineme.recordings.motion import Motion, Skeleton
 
 
 def written_and_read(motion: Motion, suffix: str) -> Motion:
@@ -28,7 +28,10 @@ def written_and_read(motion: Motion, suffix: str) -> Motion:
 def assert_same_joints(one: Motion, other: Motion, names: list[str]) -> None:
     ours, theirs = [one.joint(n) for n in names], [other.joint(n) for n in names]
     np.testing.assert_allclose(one.positions[:, ours], other.positions[:, theirs], atol=1e-7)
-    dots = (world_rotations(one)[:, ours] * world_rotations(other)[:, theirs]).sum(axis=2)
+    dots = (
+        world_rotations(one.skeleton, one.rotations)[:, ours]
+        * world_rotations(other.skeleton, other.rotations)[:, theirs]
+    ).sum(axis=2)
     np.testing.assert_allclose(np.abs(dots), 1, atol=1e-9)
     assert other.fps == pytest.approx(one.fps, rel=1e-12)
 
@@ -93,7 +96,9 @@ def test_what_cannot_be_written_leaves_nothing_behind(tmp_path: Path, suffix: st
 
 def test_unknown_suffix(tmp_path: Path) -> None:
     skeleton = Skeleton(("a",), (-1,), np.zeros((1, 3)))
-    with pytest.raises(WriteError, match=r"no writer for the suffix '.xyz': use one of .amc, .bvh"):
+    with pytest.raises(
+        WriteError, match=r"no writer of a motion for the suffix '.xyz': use one of .amc, .bvh"
+    ):
         write(Motion(skeleton, np.zeros((1, 1, 3)), 30), tmp_path / "a.xyz")
 
 

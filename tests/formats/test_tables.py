@@ -17,6 +17,7 @@ from marker_samples import PLUG_IN_GAIT, walking
 
 import kineme
 from kineme.errors import KinemeError, KinemeWarning, ReadError
+from kineme.formats import read_motion
 from kineme.formats.arrays.amass import smpl_skeleton
 from kineme.formats.marker_sets import TABLE, find_body, plain
 
@@ -275,10 +276,11 @@ def test_npy_without_names(tmp_path: Path) -> None:
     assert np.allclose(motion.positions, body())
 
 
-def test_mot_is_refused_with_what_to_do(tmp_path: Path) -> None:
-    text = "Coordinates\nversion=1\nendheader\ntime\thip_flexion_r\tknee_angle_r\n0\t1\t2\n"
-    with pytest.raises(ReadError, match=r"\(hip_flexion_r, knee_angle_r\).*give the TRC"):
-        read(tmp_path, "a.mot", text)
+def test_who_needs_a_body_is_told_that_there_is_none(tmp_path: Path) -> None:
+    head = "Coordinates\nversion=1\nendheader\ntime\thip_flexion_r\tknee_angle_r\n"
+    assert isinstance(read(tmp_path, "a.mot", head + "0\t1\t2\n0.01\t1\t3\n"), kineme.Signals)
+    with pytest.raises(ReadError, match="signals without a skeleton, where a motion is needed"):
+        read_motion(tmp_path / "a.mot")
 
 
 @settings(max_examples=50)
@@ -411,11 +413,6 @@ def test_real_trc(data_dir: Path, name: str) -> None:
     assert motion.n_frames > 90
     if name == "subject01_walk.trc":
         assert kineme.pose_features(motion)[:, 7].mean() == pytest.approx(0.65, abs=0.1)
-
-
-def test_real_mot(data_dir: Path) -> None:
-    with pytest.raises(ReadError, match="pelvis_tilt, .*give the TRC of its markers"):
-        kineme.read(data_dir / "formats" / "subject01_walk_IK.mot")
 
 
 def test_a_walk_of_markers_has_the_size_of_a_person() -> None:

@@ -15,7 +15,7 @@ import pytest
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.errors import ParameterError, WriteError
-from kineme.recordings.signals import Signals
+from kineme.recordings import Signals
 from kineme.report.page import filled, write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS

@@ -218,7 +218,7 @@ def test_signals_that_contradict_themselves() -> None:
         Signals(np.zeros(4), 0)
     with pytest.raises(ParameterError, match="different names"):
         Signals(np.zeros((4, 2)), 10, ["a", "a"])
-    with pytest.raises(ParameterError, match="in time order inside 4 frames"):
+    with pytest.raises(ParameterError, match="gap 2 to 1 is not a span of 4 frames"):
         Signals(np.zeros(4), 10, gaps=[(2, 1)])
     with pytest.raises(ParameterError, match="leave nothing"):
         Signals(np.zeros(4), 10, gaps=[(0, 4)])
@@ -236,7 +236,7 @@ def test_signals_that_contradict_themselves() -> None:
     assert signals.names == ("1", "2", "3")
     assert signals.select(["3", "1"]).names == ("3", "1")
     with pytest.raises(ParameterError, match="no channel '4'; there are 1, 2, 3"):
-        signals.select("4")
+        signals.select(["4"])
 
 
 def test_a_rate_beyond_all_measure_is_refused() -> None:

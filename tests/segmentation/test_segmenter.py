@@ -17,7 +17,7 @@ from kineme.errors import ParameterError
 from kineme.features import end_effectors
 from kineme.methods import resolve_preset
 from kineme.methods.presets import PRESETS
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import cut, move, resample, turn
 from kineme.segmentation.bodies import motion_features
 from kineme.segmentation.segmenter import analyze, segment, segment_and_found

@@ -15,7 +15,7 @@ from kineme.datasets import Action, SyntheticRecording, synthesize
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
 from kineme.methods.presets import PRESETS
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 from kineme.segmentation.segmenter import segment
 from kineme.segments.segmentation import Segmentation
 

@@ -274,7 +274,7 @@ def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> N
     assert studio.get(f"/api/recordings/{studio.id}/motion").content == b""
     assert studio.get(f"/api/recordings/{studio.id}/matrix/0/0/0").status_code == 200
     again = studio.done(message["revision"], "segment", preset="kineme", parameters={"phase": 0.5})
-    signals = kineme.read_signals(folder / "imu.csv")
+    signals = kineme.read(folder / "imu.csv")
     stored = kineme.read_segments(folder / "imu.segments.json")
     assert stored.table == kineme.segment(signals, preset="kineme", phase=0.5).table
     assert stored.provenance["parameters"]["any_pace"] is False

@@ -7,7 +7,7 @@ import pytest
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.datasets.bundled import bundled_truth
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.synthesis import MotionGraph, motion_graph
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import kineme
 from kineme.errors import ParameterError
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.synthesis import MotionGraph, line_route, motion_graph, parse_line, synthesize
 
 

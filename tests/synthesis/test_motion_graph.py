@@ -15,7 +15,7 @@ import kineme
 from kineme.datasets.bundled import bundled_truth
 from kineme.errors import ParameterError
 from kineme.features.point_clouds import cloud_distances, fit_clouds
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import cut, move, turn
 from kineme.synthesis import (
     Edge,

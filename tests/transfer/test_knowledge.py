@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from kineme.datasets import Action, synthesize
 from kineme.errors import KinemeError, ParameterError, ReadError, WriteError
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer import KnowledgeBase
 

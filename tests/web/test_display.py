@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import kineme
 from kineme.datasets import bundled_recording
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 from kineme.web.display import bones, display_motion, encode, sampled
 from kineme.web.messages import MotionHead
 

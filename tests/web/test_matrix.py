@@ -12,7 +12,7 @@ from PIL import Image
 import kineme
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import ParameterError
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 from kineme.web.matrix import (
     MOST_CELLS,
     TILE,

@@ -27,24 +27,26 @@ def _known(name: str | None) -> str | None:
 
 def _is_recording(path: Path) -> bool:
     """Whether a file is a recording and no labels, by its suffix and how it begins."""
-    from kineme.formats.listing import holds_motion
+    from kineme.formats.listing import holds_recording
 
     suffix = path.suffix.lower()
     if suffix == ".txt":
         return _names_channels(path)
-    return path.is_dir() or holds_motion(path) or suffix in (".asf", ".dat")
+    return path.is_dir() or holds_recording(path) or suffix in (".asf", ".dat")
 
 
 def _names_channels(path: Path) -> bool:
     """Whether a text file is a table of channels: these name columns, labels begin with a time."""
-    from kineme.formats.channels.reading import is_signal_file
-    from kineme.formats.channels.text_table import TextTable
+    from kineme.errors import ReadError
+    from kineme.formats.channels.sensors import hold_channels
+    from kineme.formats.channels.text import TextTable
     from kineme.formats.files import load
 
-    if not is_signal_file(path):
+    try:
+        table = TextTable.of(load(path))
+    except ReadError:
         return False
-    table = TextTable.of(load(path))
-    return table.names[0] != "1" and bool(table.numeric())
+    return hold_channels(table.names) and table.names[0] != "1" and bool(table.numeric())
 
 
 def convert(
@@ -109,7 +111,7 @@ def convert(
 
 
 def _convert_recording(request: Request, path: Path, target: Path) -> None:
-    from kineme.recordings.motion import Motion
+    from kineme.recordings import Motion
 
     recording = request.read(path)
     if isinstance(recording, Motion):

@@ -126,12 +126,12 @@ def _score_file(
 ) -> list[dict[str, Any]]:
     from kineme.cli.scores import show_one
     from kineme.evaluation.inputs import read_result, read_truth, recording_of, score
-    from kineme.formats import read
+    from kineme.formats import read_motion
 
     found = read_result(path, fps=fps)
     truth = read_truth(labels, found, fps=fps, trial=trials[0] if trials else None)
     source = recording or recording_of(found)
-    scores = score(truth, found, read(source) if source else None)
+    scores = score(truth, found, read_motion(source) if source else None)
     if not quiet:
         show_one(path.name, scores)
         if source is None:

@@ -15,7 +15,7 @@ from kineme.cli.request import Request
 from kineme.cli.targets import check_place, check_writable
 
 if TYPE_CHECKING:
-    from kineme.recordings.motion import Motion
+    from kineme.recordings import Motion
     from kineme.segments.segmentation import Segmentation
     from kineme.synthesis import MotionGraph
 

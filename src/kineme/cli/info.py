@@ -14,8 +14,7 @@ from kineme.errors import EndEffectorError
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.recordings.motion import Motion
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Motion, Signals
 
 Facts = dict[str, Any]
 
@@ -44,7 +43,7 @@ def info(
 
 def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
     """What is told of a recording, by name: of its file, then of its body or its channels."""
-    from kineme.recordings.motion import Motion
+    from kineme.recordings import Motion
 
     source = recording.provenance
     facts: Facts = {
@@ -86,7 +85,7 @@ def _with_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
 def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
     """Print the facts for people."""
     from kineme.cli.tables import show_facts
-    from kineme.recordings.motion import Motion
+    from kineme.recordings import Motion
 
     length = f"{facts['frames']} frames at {facts['fps']:g} Hz, {facts['seconds']:.2f} s"
     if isinstance(recording, Motion):

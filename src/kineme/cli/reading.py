@@ -130,7 +130,7 @@ def _checked(given: dict[str, Any]) -> dict[str, Any]:
         if not said["columns"]:
             raise typer.BadParameter("names no column", param_hint="--columns")
     try:
-        ReadOptions(**{name: value for name, value in said.items() if name in BODY})
+        ReadOptions(**said)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
     return said

@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from kineme.cli.reading import effector_names
-from kineme.errors import ParameterError, ReadError
+from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT, resolve_preset
 
 if TYPE_CHECKING:
     from kineme.features import Names
     from kineme.methods.base import Found
-    from kineme.recordings.motion import Motion
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
 Stage = Callable[[str], None]
@@ -66,25 +65,15 @@ class Request:
 
     def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, of the kind that it is or was said to be."""
-        from kineme.formats.channels.reading import is_signal_file
-
-        if self.emg or "columns" in self.reading or is_signal_file(path):
-            from kineme.formats.channels.reading import read_signals
-
-            known = {"columns", "emg", "fps"} & set(self.reading)
-            return read_signals(path, **{name: self.reading[name] for name in known})
         from kineme.formats import read
 
         return read(path, **self.reading)
 
     def read_motion(self, path: Path) -> Motion:
         """The motion in a file; ReadError for signals, which have no body to compare."""
-        from kineme.recordings.motion import Motion
+        from kineme.formats import read_motion
 
-        recording = self.read(path)
-        if not isinstance(recording, Motion):
-            raise ReadError(path, "holds signals without a skeleton, where a motion is needed")
-        return recording
+        return read_motion(path, **self.reading)
 
     def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
         """The segments, and what was found on the way to them."""
@@ -111,7 +100,7 @@ class Request:
 
     def drawn(self, recording: Motion | Signals) -> Motion | Signals:
         """The recording as a page compares its frames: muscles by their envelopes."""
-        from kineme.recordings.signals import Signals
+        from kineme.recordings import Signals
 
         if not (self.emg and isinstance(recording, Signals)):
             return recording

@@ -27,8 +27,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme.recordings import Motion
 from kineme.recordings.kinematics import forward_kinematics, local_translations
-from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
 
@@ -76,7 +76,9 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
         return replace(motion, positions=positions, provenance=provenance), carry
     roots = np.array(motion.skeleton.parents) < 0
     rotations = _closed_rotations(motion.rotations, carry, roots)
-    translations = _closed_places(local_translations(motion), carry, roots)
+    translations = _closed_places(
+        local_translations(motion.skeleton, motion.positions, motion.rotations), carry, roots
+    )
     positions = forward_kinematics(motion.skeleton, rotations, translations=translations)
     return Motion(motion.skeleton, positions, motion.fps, rotations, provenance), carry
 

@@ -1,7 +1,7 @@
 """Segments as clips: a folder with a file each, and a manifest of them.
 
 A clip of a motion is a BVH; a CSV of joint positions where it has no rotations
-(see :mod:`kineme.formats.tables.tables`). A clip of signals is rows of their own file
+(see :mod:`kineme.formats.tables.text`). A clip of signals is rows of their own file
 (see :mod:`kineme.formats.channels.writing`). Clips are called
 ``RECORDING_NUMBER_TEXT``, with the text of
 :mod:`kineme.labels.spans` and ``_`` for what file systems dislike.
@@ -36,9 +36,8 @@ from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.formats import write
 from kineme.formats.channels.writing import rows_of
 from kineme.labels.spans import text_of
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import cut
-from kineme.recordings.signals import Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 

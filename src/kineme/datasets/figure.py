@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.recordings.motion import Skeleton
+from kineme.recordings import Skeleton
 
 Floats = NDArray[np.float64]
 

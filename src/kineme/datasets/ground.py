@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from kineme import _rotations as rot
+from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import world_rotations
-from kineme.recordings.motion import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def _contacts(skeleton: Skeleton, rotations: Floats, fps: float) -> Floats:
     """(frames, 6, 3): heels, balls and tips of the feet, from a root at the origin."""
     at_origin = np.zeros((len(rotations), 3))
     motion = Motion.from_rotations(skeleton, rotations, fps, at_origin)
-    world = world_rotations(motion)
+    world = world_rotations(motion.skeleton, motion.rotations)
     points = []
     for side in ("Left", "Right"):
         ankle, ball = skeleton.joint(f"{side}Foot"), skeleton.joint(f"{side}ToeBase")

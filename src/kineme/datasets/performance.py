@@ -10,7 +10,7 @@ from kineme import _rotations as rot
 from kineme.datasets.actions import ACTIONS, mirrored
 from kineme.datasets.figure import ANGLES, joint_rotations
 from kineme.datasets.timeline import Part, phase_of, weight_of
-from kineme.recordings.motion import Skeleton
+from kineme.recordings import Skeleton
 
 Floats = NDArray[np.float64]
 

@@ -25,7 +25,8 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
-from kineme.recordings.motion import Motion, Provenance, local_translations
+from kineme.recordings import Motion, Provenance
+from kineme.recordings.kinematics import local_translations
 from kineme.recordings.operations import move, turn
 from kineme.segments.segmentation import Segmentation
 
@@ -99,9 +100,7 @@ def exercise_sequence(
         for exercise in _draw(of_name[name], int(rng.integers(repeats[0], repeats[1] + 1)), rng)
     ]
     motion, starts, halves = _joined([exercise.motion for exercise in parts], join)
-    provenance = Provenance(
-        format="sequence", notes=(f"{len(parts)} exercises joined, seed {seed}",)
-    )
+    provenance = Provenance(format="sequence").noted(f"{len(parts)} exercises joined, seed {seed}")
     truth = _truth(parts, starts, halves, motion.fps)
     return SyntheticRecording(replace(motion, provenance=provenance), truth)
 
@@ -143,7 +142,9 @@ def _joined(motions: list[Motion], join: float) -> tuple[Motion, NDArray[np.int6
     for motion in motions[1:]:
         placed.append(_placed_after(placed[-1], motion))
     rotations = [np.array(motion.rotations) for motion in placed]
-    translations = [local_translations(motion) for motion in placed]
+    translations = [
+        local_translations(motion.skeleton, motion.positions, motion.rotations) for motion in placed
+    ]
     halves = []
     for before, after in pairwise(range(len(placed))):
         shorter = min(len(rotations[before]), len(rotations[after]))

@@ -23,7 +23,7 @@ from kineme.datasets.ground import root_path
 from kineme.datasets.performance import perform, shaken
 from kineme.datasets.timeline import Action, schedule, true_segments
 from kineme.errors import ParameterError
-from kineme.recordings.motion import Motion, Provenance
+from kineme.recordings import Motion, Provenance
 from kineme.segments.segmentation import Segmentation
 
 
@@ -75,7 +75,7 @@ def synthesize(
     if noise:
         rotations = shaken(skeleton, rotations, noise, rng)
         path = path + rng.normal(0, noise, path.shape)
-    provenance = Provenance(format="synthetic", notes=(f"synthetic recording, seed {seed}",))
+    provenance = Provenance(format="synthetic").noted(f"synthetic recording, seed {seed}")
     motion = Motion.from_rotations(skeleton, rotations, fps, path, provenance=provenance)
     return SyntheticRecording(motion, true_segments(parts, fps))
 

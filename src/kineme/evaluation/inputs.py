@@ -24,7 +24,7 @@ from kineme.evaluation.labelling import Annotation, Labelling
 from kineme.evaluation.scores import evaluate, evaluate_segmentation, labelling_of
 from kineme.evaluation.trials import FPS
 from kineme.labels import read_segments
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import resample
 from kineme.segments.segmentation import Segmentation
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from kineme.errors import KinemeError
 from kineme.graph import NeighborGraph, neighbor_graph
 from kineme.methods.region_growing.preset import VOEGELE2014
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segmentation.bodies import motion_features
 
 MIN_LENGTH_S = 8.0
@@ -74,9 +74,9 @@ def _returns(graph: NeighborGraph, frame: int, gap: int) -> bool:
 
 
 def _read(path: Path) -> Motion | None:
-    from kineme.formats import read
+    from kineme.formats import read_motion
 
     try:
-        return read(path)
+        return read_motion(path)
     except KinemeError:
         return None

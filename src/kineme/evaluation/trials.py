@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
 from kineme.evaluation.annotations import read_trials
 from kineme.evaluation.labelling import Annotation
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
@@ -112,13 +112,13 @@ def load_trials(
 
 
 def _trial(path: Path, truths: dict[str, Annotation]) -> Trial:
-    from kineme.formats import read
+    from kineme.formats import read_motion
 
     if not path.is_file():
         raise ReadError(path, f"not at hand; {FETCH}")
     if path.stem not in truths:
         raise ReadError(path, "the annotations do not know this trial")
-    motion, truth = read(path), truths[path.stem]
+    motion, truth = read_motion(path), truths[path.stem]
     frames = int((motion.n_frames - 1) * FPS / motion.fps) + 1
     if frames != truth.frames:
         raise ReadError(

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.errors import MotionError
 from kineme.features.effectors import EndEffectors, end_effectors
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 

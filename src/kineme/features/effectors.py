@@ -25,7 +25,7 @@ from kineme._checks import check_type, is_one_of
 from kineme.errors import EndEffectorError
 from kineme.features.naming import find_by_name, words_of
 from kineme.features.topology import find_by_shape
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 PARTS = ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist")
 Names = Mapping[str, str] | Sequence[str]

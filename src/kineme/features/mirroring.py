@@ -20,7 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._checks import as_floats
 from kineme.errors import MotionError, ParameterError
 from kineme.features.effectors import PARTS
-from kineme.recordings.motion import Motion, Skeleton, check_motion
+from kineme.recordings import Motion, Skeleton
+from kineme.recordings.motion import check_motion
 
 Floats = NDArray[np.float64]
 

@@ -17,7 +17,8 @@ from kineme._checks import as_floats, as_indices
 from kineme.errors import ParameterError
 from kineme.features.body_frame import body_frame
 from kineme.features.effectors import EndEffectors, Names, end_effectors
-from kineme.recordings.motion import Motion, check_motion
+from kineme.recordings import Motion
+from kineme.recordings.motion import check_motion
 
 Floats = NDArray[np.float64]
 

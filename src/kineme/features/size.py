@@ -6,7 +6,7 @@ import numpy as np
 
 from kineme.errors import MotionError
 from kineme.features.effectors import EndEffectors
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 
 def body_size(motion: Motion, effectors: EndEffectors) -> float:

@@ -1,39 +1,55 @@
 """Reading and writing recordings.
 
 `read` picks a reader by what the file holds and by its suffix; `write` picks a
-writer by suffix. Every reader gives a `Motion` in metres, y up, and says in
-its provenance what the file did not tell and had to be inferred. One module
-per format; `register` adds more.
+writer by suffix. Every reader gives a `Motion` in metres, y up, or `Signals`,
+and says in the provenance what the file did not tell and had to be inferred.
+One module per format; `register` adds more.
 """
 
-from kineme.formats.arrays import arrays, mat
+from kineme.formats.arrays import mat, numpy_files
+from kineme.formats.channels import opensim
 from kineme.formats.keypoints import pose_json, sleap
-from kineme.formats.markers import c3d, mot, trc
+from kineme.formats.markers import c3d, trc
 from kineme.formats.registry import (
     Format,
     ReadOptions,
     read,
+    read_motion,
+    read_quietly,
     register,
     supported_formats,
     write,
 )
 from kineme.formats.skeletons import amc, bvh
-from kineme.formats.tables import tables
+from kineme.formats.tables import parquet, text
 
-register(amc.SKELETON)
-register(amc.FORMAT)
-register(bvh.FORMAT)
-register(c3d.FORMAT)
-register(trc.FORMAT)
-register(mot.FORMAT)
-register(tables.FORMAT)
-register(tables.PARQUET)
-register(arrays.NPZ)
-register(arrays.NPY)
-register(mat.FORMAT)
-register(sleap.FORMAT)
-register(pose_json.MEDIAPIPE)
-register(pose_json.COCO)
-register(pose_json.OPENPOSE)
+for _format in (
+    amc.SKELETON,
+    amc.FORMAT,
+    bvh.FORMAT,
+    c3d.FORMAT,
+    trc.FORMAT,
+    opensim.FORMAT,
+    text.TEXT,
+    text.FORMAT,
+    parquet.FORMAT,
+    numpy_files.NPZ,
+    numpy_files.NPY,
+    mat.FORMAT,
+    sleap.FORMAT,
+    pose_json.MEDIAPIPE,
+    pose_json.COCO,
+    pose_json.OPENPOSE,
+):
+    register(_format)
 
-__all__ = ["Format", "ReadOptions", "read", "register", "supported_formats", "write"]
+__all__ = [
+    "Format",
+    "ReadOptions",
+    "read",
+    "read_motion",
+    "read_quietly",
+    "register",
+    "supported_formats",
+    "write",
+]

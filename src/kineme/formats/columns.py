@@ -22,12 +22,12 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import ReadOptions
 from kineme.formats.timing import UNITS_OF_TIME, Timing, is_date, seconds, timing_of
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
@@ -50,7 +50,7 @@ _RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
 
 
 def columns_to_motion(
-    source: Source,
+    content: FileContent,
     name: str,
     columns: Mapping[str, ArrayLike],
     options: ReadOptions,
@@ -69,11 +69,11 @@ def columns_to_motion(
     ------
     ReadError : no joints are found, columns differ in length, or nothing tells the rate
     """
-    names, positions, sure = _joints(source, columns)
+    names, positions, sure = _joints(content, columns)
     limit = limit if options.confidence is None else options.confidence
     positions[sure < limit] = np.nan
     flat = all(len(axes) == 2 for axes in _axes(columns).values())
-    timing = timed(source, columns, options.fps)
+    timing = timed(content, columns, options.fps)
     notes = list(timing.notes)
     if (sure < limit).any():
         notes.append(f"{int((sure < limit).sum())} positions less sure than {limit:g} not used")
@@ -82,7 +82,7 @@ def columns_to_motion(
         notes.append("two-dimensional: z is 0, and image rows count downwards")
         unit, up = unit or "pixel", up or "-y"
     points = Points(names, positions, timing.fps, unit, up)
-    return split_at(to_motion(points, source.provenance(name, notes)), timing.gaps)
+    return split_at(to_motion(points, content.provenance(name, notes)), timing.gaps)
 
 
 def is_used(column: str) -> bool:
@@ -107,7 +107,7 @@ def dated(names: Sequence[str], cells: Sequence[str]) -> list[int]:
     return [i for i, (name, cell) in pairs if _TIME.fullmatch(name.strip()) and is_date(cell)]
 
 
-def timed(source: Source, columns: Mapping[str, ArrayLike], fps: float | None) -> Timing:
+def timed(content: FileContent, columns: Mapping[str, ArrayLike], fps: float | None) -> Timing:
     """Frames per second, pauses, and what was seen of the times.
 
     Parameters
@@ -123,12 +123,14 @@ def timed(source: Source, columns: Mapping[str, ArrayLike], fps: float | None) -
         return Timing(fps)
     for column in columns:
         if _RATE.fullmatch(column.strip()):
-            return Timing(_one_rate(source, _column(source, columns, column)))
+            return Timing(_one_rate(content, _column(content, columns, column)))
     for column in columns:
         match = _TIME.fullmatch(column.strip())
         if match:
-            return _in_seconds(source, timing_of(source, _times(source, columns, column, match[2])))
-    raise source.error("no column 'time' or 'fps' found: give fps= (--fps)")
+            return _in_seconds(
+                content, timing_of(content, _times(content, columns, column, match[2]))
+            )
+    raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
 
 
 def _axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
@@ -142,66 +144,70 @@ def _axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
     return {joint: axes for joint, axes in found.items() if {"x", "y"} <= axes.keys()}
 
 
-def _joints(source: Source, columns: Mapping[str, ArrayLike]) -> tuple[list[str], Floats, Floats]:
+def _joints(
+    content: FileContent, columns: Mapping[str, ArrayLike]
+) -> tuple[list[str], Floats, Floats]:
     """Names, positions (rows, joints, 3) and confidences (rows, joints)."""
     joints = _axes(columns)
     if not joints:
         shown = ", ".join(list(columns)[:8])
-        raise source.error(
+        raise content.error(
             "no columns JOINT_x, JOINT_y and JOINT_z found, so there are no positions "
-            f"(columns: {shown or 'none'}); channels are named with --columns (read_signals)"
+            f"(columns: {shown or 'none'}); channels are named with columns= (--columns)"
         )
     sureness = {
         match[1]: column for column in columns if (match := _CONFIDENCE.fullmatch(column.strip()))
     }
-    rows = len(_column(source, columns, next(iter(next(iter(joints.values())).values()))))
+    rows = len(_column(content, columns, next(iter(next(iter(joints.values())).values()))))
     positions = np.zeros((rows, len(joints), 3))
     sure = np.ones((rows, len(joints)))
     for j, (joint, axes) in enumerate(joints.items()):
         for axis, column in axes.items():
-            positions[:, j, "xyz".index(axis)] = _column(source, columns, column, rows)
+            positions[:, j, "xyz".index(axis)] = _column(content, columns, column, rows)
         if joint in sureness:
-            sure[:, j] = _column(source, columns, sureness[joint], rows)
+            sure[:, j] = _column(content, columns, sureness[joint], rows)
     positions[np.isinf(positions)] = np.nan
     return list(joints), positions, sure
 
 
 def _column(
-    source: Source, columns: Mapping[str, ArrayLike], name: str, rows: int | None = None
+    content: FileContent, columns: Mapping[str, ArrayLike], name: str, rows: int | None = None
 ) -> Floats:
     try:
         values = np.asarray(columns[name], np.float64)
     except (ValueError, TypeError):
-        raise source.error(f"column {name!r} does not hold numbers") from None
+        raise content.error(f"column {name!r} does not hold numbers") from None
     if values.ndim != 1 or len(values) == 0 or len(values) != (rows or len(values)):
-        raise source.error(f"column {name!r} has shape {values.shape}, not one value per row")
+        raise content.error(f"column {name!r} has shape {values.shape}, not one value per row")
     return values
 
 
-def _times(source: Source, columns: Mapping[str, ArrayLike], name: str, unit: str | None) -> Floats:
+def _times(
+    content: FileContent, columns: Mapping[str, ArrayLike], name: str, unit: str | None
+) -> Floats:
     """(rows,): a column of times in seconds."""
     try:
         times = seconds(columns[name], unit and unit.lower())
     except (ValueError, TypeError) as error:
-        raise source.error(f"column {name!r} does not tell times: {error}") from None
-    return _column(source, {name: times}, name)
+        raise content.error(f"column {name!r} does not tell times: {error}") from None
+    return _column(content, {name: times}, name)
 
 
-def _in_seconds(source: Source, timing: Timing) -> Timing:
+def _in_seconds(content: FileContent, timing: Timing) -> Timing:
     """What the times tell, refused where they are so far apart that they are hardly seconds."""
     rate = timing.fps
     if rate <= _SLOWEST:
-        raise source.error(
+        raise content.error(
             f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
             f"(--fps; {1000 * rate:g} for milliseconds)"
         )
     return timing
 
 
-def _one_rate(source: Source, rates: Sequence[float] | Floats) -> float:
+def _one_rate(content: FileContent, rates: Sequence[float] | Floats) -> float:
     rate = float(rates[0])
     if not (np.isfinite(rate) and rate > 0) or np.ptp(rates) > 0:
-        raise source.error(
+        raise content.error(
             f"the frame rate is not one positive number ({rate:g} first): give fps= (--fps)"
         )
     return rate

@@ -10,7 +10,7 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.files import Source, numbers, warn
+from kineme.formats.files import FileContent, numbers
 from kineme.formats.timing import date_seconds
 
 EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "-"})
@@ -18,7 +18,7 @@ EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "-"})
 
 
 def rows_of(
-    source: Source,
+    content: FileContent,
     lines: Sequence[str],
     first: int,
     separator: str,
@@ -55,16 +55,16 @@ def rows_of(
             if len(cells) < width or any(map(str.strip, cells[width:])):
                 reason = f"{len(cells)} cells, but {width} columns"
                 if reader.line_num < len(lines) or len(cells) > width:
-                    raise source.error(reason, line)
-                warn(f"{source.path}, line {line}: {reason}: the last row breaks off, left out")
+                    raise content.error(reason, line)
+                content.warn(f"{reason}: the last row breaks off, left out", line)
                 break
             for i in dated:
-                cells[i] = _seconds(source, cells[i].strip(), line)
-            values.extend(_numbers(source, [cells[i] for i in wanted], line))
+                cells[i] = _seconds(content, cells[i].strip(), line)
+            values.extend(_numbers(content, [cells[i] for i in wanted], line))
     except csv.Error as error:
-        raise source.error(str(error), first + reader.line_num - 1) from None
+        raise content.error(str(error), first + reader.line_num - 1) from None
     if not values:
-        raise source.error("no row of numbers found: there is no motion")
+        raise content.error("no row of numbers found: there is no motion")
     return np.array(values).reshape(-1, len(wanted))
 
 
@@ -79,15 +79,15 @@ def separator_of(line: str) -> str:
     return max("\t;,", key=line.count)
 
 
-def _seconds(source: Source, cell: str, line: int) -> str:
+def _seconds(content: FileContent, cell: str, line: int) -> str:
     """A date as a number in text; what is empty stays so."""
     try:
         return cell if cell.lower() in EMPTY else repr(date_seconds(cell))
     except ValueError as error:
-        raise source.error(str(error), line) from None
+        raise content.error(str(error), line) from None
 
 
-def _numbers(source: Source, cells: list[str], line: int) -> list[float]:
+def _numbers(content: FileContent, cells: list[str], line: int) -> list[float]:
     try:
         return numbers(cells)
     except ValueError:
@@ -95,5 +95,5 @@ def _numbers(source: Source, cells: list[str], line: int) -> list[float]:
     try:
         found = iter(numbers([cell for cell, hole in zip(cells, empty, strict=True) if not hole]))
     except ValueError as error:
-        raise source.error(str(error), line) from None
+        raise content.error(str(error), line) from None
     return [nan if hole else next(found) for hole in empty]

@@ -5,10 +5,9 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
-from itertools import count
 from math import isfinite
 from os import PathLike
 from pathlib import Path
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 
 from kineme._files import atomic_write
 from kineme.errors import KinemeWarning, ReadError
-from kineme.recordings.motion import Provenance
+from kineme.recordings import Note, Provenance
 
 MOST_EXPANSION = 100
 """Times that a compressed file may grow in memory; recordings compress to a half or a tenth."""
@@ -28,11 +27,20 @@ HEAD = 4096
 
 
 @dataclass(frozen=True)
-class Source:
-    """A file's path and all of its bytes."""
+class FileContent:
+    """A file's path and all of its bytes, and what its reader remarks on the way.
+
+    Parameters
+    ----------
+    path : Path
+    data : bytes
+    remarks : list of Note
+        Filled by `warn`; part of every `provenance` made from then on.
+    """
 
     path: Path
     data: bytes
+    remarks: list[Note] = field(default_factory=list, compare=False)
 
     @cached_property
     def digest(self) -> str:
@@ -43,8 +51,14 @@ class Source:
         """The bytes as text; in files this old a stray byte is only ever in a comment or name."""
         return self.data.decode("utf-8", errors="replace").removeprefix("\ufeff")
 
+    def warn(self, reason: str, line: int | None = None) -> None:
+        """Remark on what is unusual but was understood: a note of severity "warning"."""
+        where = "" if line is None else f"line {line}: "
+        self.remarks.append(Note(f"{where}{reason}", "warning"))
+
     def provenance(self, name: str, notes: Iterable[str]) -> Provenance:
-        return Provenance(str(self.path), name, self.digest, tuple(notes))
+        """Where a recording in this file comes from, with the remarks so far and these notes."""
+        return Provenance(str(self.path), name, self.digest).noted(*self.remarks, *notes)
 
     def line_at(self, offset: int) -> int:
         """The line, counted from 1, that a byte stands in."""
@@ -54,10 +68,10 @@ class Source:
         return ReadError(self.path, reason, line=line)
 
 
-def load(path: str | PathLike[str]) -> Source:
+def load(path: str | PathLike[str]) -> FileContent:
     """The file as it is on disk; ReadError if there is none or it may not be read."""
     try:
-        return Source(Path(path), Path(path).read_bytes())
+        return FileContent(Path(path), Path(path).read_bytes())
     except OSError as error:
         raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
     except ValueError as error:  # a null byte in the name
@@ -108,11 +122,15 @@ def table(values: NDArray[np.float64]) -> list[str]:
 
 def unique(names: Iterable[str]) -> list[str]:
     """The names, those that repeat an earlier one with a number behind them."""
-    given: list[str] = []
+    given: dict[str, None] = {}
+    tried: dict[str, int] = {}  # the last number behind each name
     for name in names:
-        tries = (name if i == 1 else f"{name}_{i}" for i in count(1))
-        given.append(next(new for new in tries if new and new not in given))
-    return given
+        new = name
+        while not new or new in given:
+            tried[name] = tried.get(name, 1) + 1
+            new = f"{name}_{tried[name]}"
+        given[new] = None
+    return list(given)
 
 
 def _is_number(word: str | bytes) -> bool:

@@ -15,7 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.recordings.motion import Motion
+from kineme._interpolation import bridge_line
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 Spans = NDArray[np.intp]
@@ -72,10 +73,8 @@ def bridge(
         if point not in gaps.open:
             continue
         hidden = covered(gaps.open[point].tolist(), n)
-        seen = np.flatnonzero(~hidden)
         for axis in range(points.shape[2]):
-            track = points[:, point, axis]
-            track[hidden] = np.interp(np.flatnonzero(hidden), seen, track[seen])
+            bridge_line(points[:, point, axis], hidden)
         missing |= hidden
     for start, stop in spans_of(~missing).tolist():
         if missing.any() and stop - start <= longest:

@@ -1,22 +1,38 @@
-"""Which files are recordings, which hold labels, which a knowledge base: by suffix and head.
+"""Which files of a folder are recordings: by suffix, and by head where that tells too little.
 
-No file is read whole: a folder of hours of recordings is listed at once.
+No file is read whole, and most are not opened: a folder of hours of recordings
+is listed at once. Opened are
+
+- tables, whose rows are frames unless their columns name spans or events (``start_s``,
+  ``onset``);
+- npz archives, whose directory names ``poses``, ``positions``, a time, a rate or the
+  coordinates of a joint;
+- JSON and text, which may hold anything and are recordings only if a format knows their
+  first bytes.
+
+A file that cannot be judged (damaged, gone, closed to us) is passed over with its name and
+the reason; it never ends the listing.
 """
 
 from __future__ import annotations
 
 import os
 import zipfile
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from kineme.formats.files import HEAD, head_of
+from kineme.formats.columns import is_timing, joint_names
+from kineme.formats.files import HEAD
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.registry import supported_formats
 
-LABELS = (".csv", ".tsv", ".json", ".parquet", ".txt", ".eaf", ".textgrid")
-LABEL_COLUMNS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
-LABEL_WORDS = (b'"kineme.segments/', b'"trials"', b'"seq_ann"', b'"frame_ann"', b"seg_id")
+SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
+"""Columns of tables whose rows are spans or events, in lower case."""
+
+_TAIL = 1 << 16  # bytes at the end of a Parquet file, where it names its columns
+_SKELETONS = {".asf"}  # belong to the AMC beside them
+_ANYTHING = {".json", ".txt", ".dat"}
 
 
 @dataclass(frozen=True)
@@ -30,7 +46,8 @@ class Listing:
     folders : list of Path
         Folders in it that were not looked into.
     passed_over : list of (Path, str)
-        What was left out, and why: folders that cannot be opened, frames beside recordings.
+        What was left out, and why: files and folders that cannot be opened or are damaged,
+        frames beside recordings.
     """
 
     recordings: list[Path]
@@ -39,20 +56,40 @@ class Listing:
 
 
 def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
-    """The recordings in a folder; with ``recursive`` those of its folders, too.
+    """The recordings in a folder.
 
     A folder with nothing but the frames of a video, a file each, is one recording.
+
+    Parameters
+    ----------
+    folder : Path
+    recursive : bool
+        Look into its folders, too.
+
+    Returns
+    -------
+    Listing
+
+    Examples
+    --------
+    >>> from kineme import bundled_recording
+    >>> [path.name for path in recordings_in(bundled_recording().parent).recordings]
+    ['exercises.bvh']
     """
     found = Listing([], [], [])
 
     def closed(error: OSError) -> None:
-        reason = f"cannot be opened: {error.strerror or error}"
-        found.passed_over.append((Path(error.filename), reason))
+        found.passed_over.append((Path(error.filename), _reason(error)))
 
-    for place, names, _ in os.walk(folder, onerror=closed):
+    for place, names, files in os.walk(folder, onerror=closed):
         names[:] = sorted(name for name in names if not name.startswith("."))
         here = Path(place)
-        recordings, frames = [f for f in files_in(here) if holds_motion(f)], frame_files(here)
+        recordings = list(_judged(here, files, found))
+        try:
+            frames = frame_files(here)
+        except OSError as error:
+            closed(error)
+            frames = []
         if frames and recordings:
             reason = (
                 f"{len(frames)} frames of OpenPose beside other recordings: give them a folder "
@@ -72,55 +109,80 @@ def files_in(folder: Path) -> list[Path]:
     return sorted((path for path in found if path.is_file()), key=lambda path: path.name)
 
 
-def holds_motion(path: Path) -> bool:
-    """Whether a file is a recording: by its suffix, and where labels have the same, its head."""
+def holds_recording(path: Path) -> bool:
+    """Whether a file is a recording, as far as its suffix and head tell.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    bool
+        False where the file cannot be opened or is damaged.
+    """
+    try:
+        return _is_recording(path)
+    except Exception:  # noqa: BLE001 (whatever is wrong with a file, it is no recording)
+        return False
+
+
+def _judged(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
+    """The recordings among files; what cannot be judged is noted in ``found``."""
+    for name in sorted(names):
+        path = folder / name
+        if name.startswith("."):
+            continue
+        try:
+            if path.is_file() and _is_recording(path):
+                yield path
+        except Exception as error:  # noqa: BLE001 (one file never ends a listing)
+            found.passed_over.append((path, _reason(error)))
+
+
+def _is_recording(path: Path) -> bool:
     suffix = path.suffix.lower()
     formats = [known for known in supported_formats() if known.read and suffix in known.suffixes]
-    if not formats or suffix == ".asf":  # the skeleton of an AMC beside it
+    if not formats or suffix in _SKELETONS:
         return False
-    if suffix == ".json":  # which may hold anything
-        return any(known.recognises(head_of(path)) for known in formats)
-    if suffix in LABELS:
-        return not _speaks_of_labels(path)
-    return not (suffix == ".npz" and holds_knowledge(path))
+    if suffix in _ANYTHING:
+        head = _first_bytes(path)
+        return any(known.recognises(head) for known in formats)
+    if suffix in (".csv", ".tsv"):
+        return not _names_spans(_first_bytes(path))
+    if suffix == ".parquet":
+        tail = _last_bytes(path)
+        return not any(name in tail for name in SPANS[:2])
+    return suffix != ".npz" or _names_motion(path)
 
 
-def holds_labels(path: Path) -> bool:
-    """Whether a file is one that labels are kept in."""
-    suffix = path.suffix.lower()
-    if suffix in (".eaf", ".textgrid", ".txt"):
-        return True
-    if path.name.endswith(".provenance.json"):  # of the table beside it
-        return False
-    return suffix in LABELS and _speaks_of_labels(path)
-
-
-def holds_knowledge(path: Path) -> bool:
-    """Whether a file is a knowledge base of :mod:`kineme.transfer`."""
-    if path.suffix.lower() != ".npz":
-        return False
-    try:
-        with zipfile.ZipFile(path) as parts:
-            return {"head.npy", "lengths.npy", "labels.npy"} <= set(parts.namelist())
-    except (OSError, zipfile.BadZipFile):
-        return False
-
-
-def _speaks_of_labels(path: Path) -> bool:
-    head = head_of(path)
-    if path.suffix.lower() == ".json":
-        return any(word in head for word in LABEL_WORDS)
-    if path.suffix.lower() == ".parquet":
-        return b"kineme.segments" in _tail(path)
+def _names_spans(head: bytes) -> bool:
     first = head.removeprefix(b"\xef\xbb\xbf").split(b"\n", 1)[0].lower().replace(b"\t", b",")
-    return any(name.strip(b' "\r') in LABEL_COLUMNS for name in first.split(b","))
+    return any(name.strip(b' "\r') in SPANS for name in first.split(b","))
 
 
-def _tail(path: Path) -> bytes:
-    """The last bytes, where Parquet keeps what it knows of itself."""
-    try:
-        with path.open("rb") as file:
-            file.seek(max(0, path.stat().st_size - 16 * HEAD))
-            return file.read()
-    except OSError:
-        return b""
+def _names_motion(path: Path) -> bool:
+    with zipfile.ZipFile(path) as archive:
+        names = [name.removesuffix(".npy") for name in archive.namelist()]
+    return (
+        not {"poses", "positions"}.isdisjoint(names)
+        or any(map(is_timing, names))
+        or bool(joint_names(names))
+    )
+
+
+def _first_bytes(path: Path) -> bytes:
+    with path.open("rb") as file:
+        return file.read(HEAD)
+
+
+def _last_bytes(path: Path) -> bytes:
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - _TAIL))
+        return file.read()
+
+
+def _reason(error: Exception) -> str:
+    if isinstance(error, OSError):
+        return f"cannot be opened: {error.strerror or error}"
+    return f"is damaged: {' '.join(str(error).split()) or type(error).__name__}"

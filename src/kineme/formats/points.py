@@ -20,11 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ReadError
-from kineme.formats.files import unique, warn
+from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
 from kineme.formats.units import UNITS, metres, upright
-from kineme.recordings.motion import Motion, Provenance, Skeleton
+from kineme.recordings import Motion, Note, Provenance, Skeleton
 
 Floats = NDArray[np.float64]
 Body = dict[str, tuple[int, ...]]
@@ -70,7 +70,8 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     names, subjects = of_one_subject([name.strip() or "point" for name in points.names])
     names = unique(names)
     if len(subjects) > 1:
-        warn(f"{path}: {len(subjects)} subjects: the body is that of {subjects[0]!r}")
+        said = f"{len(subjects)} subjects: the body is that of {subjects[0]!r}"
+        provenance = provenance.noted(Note(said, "warning"))
     positions = np.array(points.positions, np.float64)
     gaps = fill_gaps(positions, points.fps)
     body = _least_broken(names, gaps, len(positions))
@@ -84,9 +85,9 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
         which = _listed([names[i] for i in sorted(used & gaps.open.keys())])
         raise ReadError(path, f"the body is whole in no frame: {which} are never seen together")
     kept = sorted([*kept, *_gone_with_the_body(positions, gaps, used, seen, points.fps)])
-    notes = _said_of_gaps(path, names, gaps, kept, len(positions))
-    notes += _said_of_splits(path, names, gaps, used, missing, points.fps)
-    scale, note = _scale(path, points.unit, positions[seen][:, kept])
+    notes = _said_of_gaps(names, gaps, kept, len(positions))
+    notes += _said_of_splits(names, gaps, used, missing, points.fps)
+    scale, note = _scale(points.unit, positions[seen][:, kept])
     notes += note
     up, note = _up(points, positions[seen], body)
     notes += note
@@ -141,7 +142,7 @@ def _missing(body: Body, hidden: dict[int, NDArray[np.bool_]]) -> int:
 
 
 def _said_of_splits(
-    path: str, names: list[str], gaps: Gaps, used: set[int], missing: Spans, fps: float
+    names: list[str], gaps: Gaps, used: set[int], missing: Spans, fps: float
 ) -> list[str]:
     if not missing:
         return []
@@ -151,14 +152,11 @@ def _said_of_splits(
         f"the body is not seen whole in {_listed(spans)}, for gaps above {LONGEST_S} s in "
         f"{_listed(which)}: the recording is split there"
     )
-    warn(f"{path}: {note}")
-    return [note]
+    return [Note(note, "warning")]
 
 
-def _said_of_gaps(
-    path: str, names: list[str], gaps: Gaps, kept: list[int], n_frames: int
-) -> list[str]:
-    notes = []
+def _said_of_gaps(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) -> list[str]:
+    notes: list[str] = []
     if gaps.filled:
         most = max(gaps.filled, key=lambda point: gaps.filled[point])
         notes.append(
@@ -174,12 +172,12 @@ def _said_of_gaps(
         said = [
             f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken
         ]
-        notes.append(f"left out for gaps above {LONGEST_S} s: {_listed(said)}")
-        warn(f"{path}: {notes[-1]}")
+        left_out = f"left out for gaps above {LONGEST_S} s: {_listed(said)}"
+        notes.append(Note(left_out, "warning"))
     return notes
 
 
-def _scale(path: str, unit: str | float | None, positions: Floats) -> tuple[float, list[str]]:
+def _scale(unit: str | float | None, positions: Floats) -> tuple[float, list[str]]:
     """Metres in one unit of the positions, and what was inferred."""
     if unit is not None and unit != "pixel":
         return metres(unit), []
@@ -194,10 +192,11 @@ def _scale(path: str, unit: str | float | None, positions: Floats) -> tuple[floa
         found = fits[0]
     else:
         found = "m" if spread < 1 else "mm"
-        warn(
-            f"{path}: markers {spread:.3g} units apart are in no unit those of a person: "
-            f"{found} assumed; give unit="
+        said = (
+            f"markers {spread:.3g} units apart are in no unit those of a person: "
+            f"{found} assumed; give unit= (--unit)"
         )
+        return sizes[found], [Note(said, "warning")]
     return sizes[found], [
         f"unit {found} inferred: the points then spread over {spread * sizes[found]:.2f} m"
     ]

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S, spans_of
 
 Floats = NDArray[np.float64]
@@ -50,7 +50,7 @@ class Timing(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def timing_of(source: Source, times: Floats) -> Timing:
+def timing_of(content: FileContent, times: Floats) -> Timing:
     """The frame rate, the pauses, and what was seen of uneven times.
 
     A rate within a millionth of whole thousandths of a hertz is taken as such, and so is
@@ -66,15 +66,15 @@ def timing_of(source: Source, times: Floats) -> Timing:
     """
     known = np.isfinite(times)
     if known.sum() < 2 or known.mean() < 0.5:
-        raise source.error("the times are too few or not numbers: give fps= (--fps)")
+        raise content.error("the times are too few or not numbers: give fps= (--fps)")
     rows = np.arange(len(times))
     times = np.interp(rows, rows[known], times[known])
     steps = np.diff(times)
     if not (steps > 0).any():
         row = int(steps.argmin()) + 1
-        raise source.error(f"times do not increase: row {row + 1} has {times[row]:g} s")
+        raise content.error(f"times do not increase: row {row + 1} has {times[row]:g} s")
     if (steps < 0).mean() > _SHUFFLED:
-        raise source.error(
+        raise content.error(
             f"its rows are in no order of time, {(steps < 0).sum()} of {len(steps)} steps go "
             "back: sort them, or give fps= (--fps) if their order is right"
         )
@@ -84,7 +84,7 @@ def timing_of(source: Source, times: Floats) -> Timing:
     duration = float(times[-1] - times[0])
     period = duration / len(steps) if even else _period(steps, jumps)
     if not period > 0:
-        raise source.error("the times do not tell a rate: give fps= (--fps)")
+        raise content.error("the times do not tell a rate: give fps= (--fps)")
     jumps &= np.abs(steps - period) > 0.75 * period  # at low rates a frame may come late
     doubt = 2 * np.spacing(np.abs(times).max()) / (period * len(steps))
     fps = _rounded(len(steps) / duration if even else 1 / period, max(1e-6, float(doubt)))

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.formats.files import warn
-from kineme.recordings.motion import Motion, Provenance, Skeleton, forward_kinematics
+from kineme.recordings import Motion, Note, Provenance, Skeleton
+from kineme.recordings.kinematics import forward_kinematics
 
 Floats = NDArray[np.float64]
 
@@ -83,7 +83,7 @@ def place(
     unit, up : of the file; None to infer them
     """
     if unit is None:
-        unit, note = infer_unit(skeleton, translations, provenance.path)
+        unit, note = infer_unit(skeleton, translations)
         provenance = provenance.noted(note)
     else:
         tall = _height(skeleton, translations) * metres(unit)
@@ -119,31 +119,27 @@ def up_rotation(up: str) -> Floats:
     return np.array(_TO_Y[up])
 
 
-def infer_unit(
-    skeleton: Skeleton, translations: Floats, path: str | None = None
-) -> tuple[str, str]:
-    """The unit that makes this a body of human size, and the sentence that says so.
+def infer_unit(skeleton: Skeleton, translations: Floats) -> tuple[str, Note]:
+    """The unit that makes this a body of human size, and the note that says so.
 
     The height is taken as three quarters of the longest way along the bones,
     hand to foot; in nine skeletons (CMU, HDM05, PyMO, aitviewer) that is
-    within 7 % of the way along the bones from head to toes. Warns if no unit
-    fits, and takes the nearest.
+    within 7 % of the way along the bones from head to toes. If no unit fits the
+    nearest is taken, and the note is a warning.
     """
     height = _height(skeleton, translations)
     fits = {name: HEIGHTS[0] <= height * size <= HEIGHTS[1] for name, size in UNITS.items()}
     if any(fits.values()):
         unit = next(name for name, fit in fits.items() if fit)
-    else:
-        tall = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
-        unit = list(UNITS)[int(np.abs(tall).argmin())]
-        warn(
-            f"{path}: in no unit is this skeleton, about {height:.3g} units tall, of human size: "
-            f"{unit} assumed; give unit= (--unit)"
-        )
-    return (
-        unit,
-        f"unit {unit} inferred: the skeleton is then about {height * UNITS[unit]:.2f} m tall",
+        tall = height * UNITS[unit]
+        return unit, Note(f"unit {unit} inferred: the skeleton is then about {tall:.2f} m tall")
+    off = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
+    unit = list(UNITS)[int(np.abs(off).argmin())]
+    said = (
+        f"in no unit is this skeleton, about {height:.3g} units tall, of human size: "
+        f"{unit} assumed; give unit= (--unit)"
     )
+    return unit, Note(said, "warning")
 
 
 def _height(skeleton: Skeleton, translations: Floats) -> float:

@@ -23,11 +23,11 @@ from numpy.typing import NDArray
 
 from kineme.errors import MissingDependencyError, ParameterError, ReadError
 from kineme.formats.columns import SURE
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import Timing, timing_of
-from kineme.recordings.motion import Motion, Provenance
+from kineme.recordings import Motion, Provenance
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -125,7 +125,7 @@ def from_movement(
         sure = np.asarray(person["confidence"].transpose("time", "keypoints"), np.float64)
         places[sure < confidence] = np.nan
     attributes = dataset.attrs
-    source = Source(Path(str(attributes.get("source_file") or "dataset")), b"")
+    source = FileContent(Path(str(attributes.get("source_file") or "dataset")), b"")
     timing = _timed(source, dataset, fps)
     flat = "z" not in axes
     points = Points(
@@ -136,7 +136,7 @@ def from_movement(
         up or attributes.get("up") or ("-y" if flat else None),
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
-    said = Provenance(str(source.path), name, None, (*timing.notes, *notes))
+    said = Provenance(str(source.path), name).noted(*timing.notes, *notes)
     return split_at(to_motion(points, said), timing.gaps)
 
 
@@ -156,7 +156,7 @@ def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
     return dataset.isel(individuals=0 if name is None else known.index(name))
 
 
-def _timed(source: Source, dataset: xr.Dataset, fps: float | None) -> Timing:
+def _timed(source: FileContent, dataset: xr.Dataset, fps: float | None) -> Timing:
     rate = fps or dataset.attrs.get("fps")
     if rate:
         return Timing(float(rate))

@@ -22,7 +22,7 @@ from kineme._colors import cluster_color
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ParameterError
 from kineme.labels.spans import text_of
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:

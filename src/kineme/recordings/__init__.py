@@ -1,1 +1,9 @@
 """What is read from a file and segmented: the motion of a body, or signals."""
+
+from kineme.recordings.motion import Motion
+from kineme.recordings.provenance import Note, Provenance
+from kineme.recordings.recording import Recording
+from kineme.recordings.signals import Signals
+from kineme.recordings.skeleton import Skeleton
+
+__all__ = ["Motion", "Note", "Provenance", "Recording", "Signals", "Skeleton"]

@@ -1,6 +1,6 @@
 """Where the joints are, from how they are turned, and back.
 
-The conventions are those of `kineme.recordings.motion`::
+The conventions are those of `kineme.recordings.skeleton`::
 
     G[j] = G[parent] * R[j]
     p[j] = p[parent] + G[parent] @ offset[j]
@@ -11,16 +11,12 @@ Quaternions measure faster here than 3 x 3 matrices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme import _rotations as rot
 from kineme.errors import MotionError
-
-if TYPE_CHECKING:
-    from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 
@@ -32,15 +28,28 @@ def forward_kinematics(
     *,
     translations: ArrayLike | None = None,
 ) -> Floats:
-    """Joint positions, (frames, joints, 3), from rotations local to the parent.
+    """Where the joints are, from how they are turned.
 
     Parameters
     ----------
     skeleton : Skeleton
-    rotations : (frames, joints, 4) unit quaternions; an end site's is not used
-    root_positions : (frames, 3), where the root is; its offset if not given
-    translations : (frames, joints, 3), in place of the skeleton's offsets, for
-        joints that slide as well as turn (a root's is its position)
+    rotations : array_like, shape (frames, joints, 4)
+        Unit quaternions (w, x, y, z), local to the parent; an end site's is not used.
+    root_positions : array_like, shape (frames, 3), optional
+        Where the root is; its offset by default.
+    translations : array_like, shape (frames, joints, 3), optional
+        In place of the skeleton's offsets, for joints that slide as well as turn (a root's
+        is its position).
+
+    Returns
+    -------
+    ndarray, shape (frames, joints, 3)
+
+    Examples
+    --------
+    >>> arm = Skeleton(("shoulder", "hand"), (-1, 0), [[0, 1.4, 0], [0.6, 0, 0]])
+    >>> forward_kinematics(arm, [[[1, 0, 0, 0], [1, 0, 0, 0]]]).tolist()
+    [[[0.0, 1.4, 0.0], [0.6, 1.4, 0.0]]]
     """
     # One contiguous row per joint and component: the loop below is then bound
     # by arithmetic and not by memory.
@@ -66,30 +75,59 @@ def forward_kinematics(
     return positions.transpose(2, 0, 1)
 
 
-def world_rotations(motion: Motion) -> Floats:
-    """Each joint's rotation to the world, (frames, joints, 4); end sites take their parent's.
+def world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> Floats:
+    """How each joint is turned in the world; end sites take their parent's.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+    rotations : array_like, shape (frames, joints, 4)
+        Local to the parent; None, as a motion of positions only has them, is refused.
+
+    Returns
+    -------
+    ndarray, shape (frames, joints, 4)
 
     Raises
     ------
-    MotionError : the motion has no rotations
+    MotionError
+        There are no rotations.
     """
-    if motion.rotations is None:
+    if rotations is None:
         raise MotionError("this motion has positions only: it has no rotations to work with")
-    world = np.array(motion.rotations)
-    for j, parent in enumerate(motion.skeleton.parents):
+    world = np.array(rotations, np.float64)
+    for j, parent in enumerate(skeleton.parents):
         if parent >= 0:
             world[:, j] = rot.multiply(world[:, parent], world[:, j])
     return world
 
 
-def local_translations(motion: Motion) -> Floats:
-    """From parent to joint in the parent's frame, (frames, joints, 3); a root's position.
+def local_translations(
+    skeleton: Skeleton, positions: Floats, rotations: ArrayLike | None
+) -> Floats:
+    """From parent to joint in the parent's frame; a root's position.
 
     Equal to the skeleton's offsets wherever bones are rigid.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+    positions : ndarray, shape (frames, joints, 3)
+    rotations : array_like, shape (frames, joints, 4)
+        Local to the parent.
+
+    Returns
+    -------
+    ndarray, shape (frames, joints, 3)
+
+    Raises
+    ------
+    MotionError
+        There are no rotations.
     """
-    world, positions = world_rotations(motion), motion.positions
+    world = world_rotations(skeleton, rotations)
     local = np.array(positions)
-    for j, parent in enumerate(motion.skeleton.parents):
+    for j, parent in enumerate(skeleton.parents):
         if parent >= 0:
             step = positions[:, j] - positions[:, parent]
             local[:, j] = rot.rotate(rot.conjugate(world[:, parent]), step)

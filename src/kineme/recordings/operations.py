@@ -1,4 +1,4 @@
-"""Motions made from motions: another frame rate, a stretch, another size or place.
+"""Recordings made from recordings: other frames, another rate, another size or place.
 
 Each function leaves its argument as it is and adds a sentence to the
 provenance of what it returns.
@@ -7,18 +7,22 @@ provenance of what it returns.
 from __future__ import annotations
 
 from dataclasses import replace
-from math import ceil, cos, floor, isfinite, sin
+from math import ceil, cos, floor, sin
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme import _rotations as rot
 from kineme._checks import check_rates, is_number
+from kineme._interpolation import at_frames
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.kinematics import forward_kinematics, local_translations
 from kineme.recordings.motion import Motion, check_motion
+from kineme.recordings.signals import Signals
 
 Floats = NDArray[np.float64]
+AnyRecording = TypeVar("AnyRecording", Motion, Signals)
 
 
 def resample(motion: Motion, fps: float) -> Motion:
@@ -31,12 +35,26 @@ def resample(motion: Motion, fps: float) -> Motion:
     rotations are interpolated in a line. No filter is applied: a motion that
     shakes faster than fps / 2 should be smoothed first.
 
+    Parameters
+    ----------
+    motion : Motion
+    fps : float
+        Frames per second.
+
+    Returns
+    -------
+    Motion
+        The same one where it has this rate already.
+
     Raises
     ------
-    ParameterError : ``fps`` is not a positive number, or beyond all measure
+    ParameterError
+        ``fps`` is not a positive number, or beyond all measure.
 
-    Source: [V14], section 5 works at 30 Hz; at whole ratios the spline of the
-    authors' program amounts to taking every fourth frame as well.
+    Notes
+    -----
+    [V14], section 5 works at 30 Hz; at whole ratios the spline of the authors' program
+    amounts to taking every fourth frame as well.
     """
     check_motion(motion, "resample")
     if not (is_number(fps) and fps > 0):
@@ -53,54 +71,82 @@ def resample(motion: Motion, fps: float) -> Motion:
     provenance = motion.provenance.noted(note)
     gaps = _gaps(motion, 0, ratio, n)
     if motion.rotations is None:
-        return Motion(motion.skeleton, _between(motion.positions, at), fps, None, provenance, gaps)
+        return Motion(motion.skeleton, at_frames(motion.positions, at), fps, None, provenance, gaps)
     rotations = _slerp(motion.rotations, at)
-    translations = _between(local_translations(motion), at)
+    translations = at_frames(
+        local_translations(motion.skeleton, motion.positions, motion.rotations), at
+    )
     positions = forward_kinematics(motion.skeleton, rotations, translations=translations)
     return Motion(motion.skeleton, positions, fps, rotations, provenance, gaps)
 
 
-def cut(motion: Motion, start: int, stop: int) -> Motion:
-    """The frames start, ..., stop - 1, and the events marked in them.
+def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
+    """The frames start, ..., stop - 1, and the gaps and events in them.
+
+    As ``recording[start:stop]``, but frames that are not there are refused.
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+    start, stop : int
+        Frames.
+
+    Returns
+    -------
+    Motion or Signals
 
     Raises
     ------
-    ParameterError : unless 0 <= start < stop <= n_frames
+    ParameterError
+        Unless 0 <= start < stop <= n_frames.
     """
-    if not 0 <= start < stop <= motion.n_frames:
+    if not 0 <= start < stop <= recording.n_frames:
         raise ParameterError(
-            f"frames {start} to {stop} are not a stretch of a motion of {motion.n_frames} frames"
+            f"frames {start} to {stop} are not a span of a recording of {recording.n_frames} frames"
         )
-    part = _frames(motion, slice(start, stop), motion.fps, f"cut to frames {start} to {stop}")
-    first, last = start / motion.fps, stop / motion.fps
-    events = [(at - first, name) for at, name in part.provenance.events if first <= at < last]
-    return replace(part, provenance=part.provenance.marked(events))
+    return recording[start:stop]
 
 
-def split_at_gaps(motion: Motion) -> list[tuple[int, Motion]]:
-    """The stretches between a motion's gaps, each after the frame at which it starts.
+def split_at_gaps(recording: AnyRecording) -> list[tuple[int, AnyRecording]]:
+    """What the gaps leave, each after the frame at which it starts.
 
-    A motion without gaps is the only one, as it is.
+    Parameters
+    ----------
+    recording : Motion or Signals
+        One without gaps is the only one, as it is.
+
+    Returns
+    -------
+    list of (int, Motion or Signals)
 
     Raises
     ------
-    MotionError : the whole motion is a gap
+    MotionError
+        The whole motion is a gap.
     """
-    if not motion.gaps:
-        return [(0, motion)]
-    starts = [0, *(stop for _, stop in motion.gaps)]
-    stops = [*(start for start, _ in motion.gaps), motion.n_frames]
-    spans = zip(starts, stops, strict=True)
-    parts = [(start, cut(motion, start, stop)) for start, stop in spans if start < stop]
-    if not parts:
+    if not recording.gaps:
+        return [(0, recording)]
+    found = [(start, recording[start:stop]) for start, stop in recording.spans()]
+    if not found:
         raise MotionError("the body is not seen in any frame of this motion")
-    return parts
+    return found
 
 
 def scale(motion: Motion, factor: float) -> Motion:
-    """The motion of a body ``factor`` times as large, on ways as much longer."""
-    if not (isfinite(factor) and factor > 0):
-        raise ParameterError(f"factor is {factor}: give a number above 0")
+    """The motion of a body ``factor`` times as large, which goes as much farther.
+
+    Parameters
+    ----------
+    motion : Motion
+    factor : float
+        Above 0.
+
+    Returns
+    -------
+    Motion
+    """
+    if not (is_number(factor) and factor > 0):
+        raise ParameterError(f"factor is {factor!r:.60}: give a number above 0")
     return replace(
         motion,
         skeleton=replace(motion.skeleton, offsets=factor * motion.skeleton.offsets),
@@ -110,9 +156,20 @@ def scale(motion: Motion, factor: float) -> Motion:
 
 
 def turn(motion: Motion, angle: float) -> Motion:
-    """The motion turned about the vertical through the origin by ``angle`` radians."""
-    if not isfinite(angle):
-        raise ParameterError(f"angle is {angle}: give radians")
+    """The motion turned about the vertical through the origin.
+
+    Parameters
+    ----------
+    motion : Motion
+    angle : float
+        Radians.
+
+    Returns
+    -------
+    Motion
+    """
+    if not is_number(angle):
+        raise ParameterError(f"angle is {angle!r:.60}: give radians")
     about_y = np.array([cos(angle / 2), 0.0, sin(angle / 2), 0.0])
     rotations = motion.rotations
     if rotations is not None:
@@ -128,7 +185,18 @@ def turn(motion: Motion, angle: float) -> Motion:
 
 
 def move(motion: Motion, offset: ArrayLike) -> Motion:
-    """The motion with ``offset``, three metres, added to every position."""
+    """The motion with an offset added to every position.
+
+    Parameters
+    ----------
+    motion : Motion
+    offset : array_like, shape (3,)
+        Metres.
+
+    Returns
+    -------
+    Motion
+    """
     step = np.asarray(offset, float)
     if step.shape != (3,) or not np.isfinite(step).all():
         raise ParameterError(f"offset is {offset!r}: give three numbers in metres")
@@ -160,15 +228,6 @@ def _gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, 
         if begin < end:
             spans.append((begin, end))
     return tuple(spans)
-
-
-def _between(values: Floats, at: Floats) -> Floats:
-    """Values at fractional frames, interpolated in a line."""
-    before = np.minimum(at.astype(int), len(values) - 2) if len(values) > 1 else at.astype(int)
-    after = np.minimum(before + 1, len(values) - 1)
-    share = (at - before)[:, None, None]
-    mixed: Floats = (1 - share) * values[before] + share * values[after]
-    return mixed
 
 
 def _slerp(rotations: Floats, at: Floats) -> Floats:

@@ -8,28 +8,46 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._checks import as_floats, as_spans, as_texts, is_number
+from kineme._checks import as_floats, as_texts
 from kineme.errors import ParameterError
-from kineme.recordings.motion import Provenance
+from kineme.recordings.arrays import as_rate, assign, frozen
+from kineme.recordings.notebook import channels_svg
+from kineme.recordings.provenance import Provenance
+from kineme.recordings.recording import Recording, Spans, as_gaps
 
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
-class Signals:
+@dataclass(frozen=True, eq=False, repr=False)
+class Signals(Recording):
     """Channels of one recording, taken at the same times.
 
     Parameters
     ----------
-    values : (frames, channels), finite, in any units
-    fps : frames per second
-    names : one per channel, unique; numbers from 1 by default
-    gaps : stretches [start, stop) in which nothing was recorded, whatever the values there
+    values : array_like, shape (frames, channels)
+        Finite, in any units; one channel may come as a vector.
+    fps : float
+        Frames per second.
+    names : sequence of str, optional
+        One per channel, unique; numbers from 1 by default.
+    gaps : sequence of (int, int)
+        Frames [start, stop) in which nothing was recorded, whatever the values there.
     provenance : Provenance
+        Where they came from, and what had to be inferred.
 
     Raises
     ------
-    ParameterError : shapes disagree, no frames or channels, values that are not finite
+    ParameterError
+        Shapes disagree, no frames or channels, values that are not finite, or gaps that
+        are out of order or leave nothing.
+
+    Examples
+    --------
+    >>> signals = Signals([[0.0, 9.8], [0.1, 9.7]], 50, ["x", "y"])
+    >>> signals
+    <Signals of 2 frames (0.0 s) at 50 Hz: 2 channels>
+    >>> signals.select(["y"]).values.tolist()
+    [[9.8], [9.7]]
     """
 
     values: Floats
@@ -44,11 +62,7 @@ class Signals:
             values = values[:, None]
         if values.ndim != 2 or 0 in values.shape:
             raise ParameterError(f"signals are frames x channels, not of shape {values.shape}")
-        if not np.isfinite(values).all():
-            frame = int(np.argmin(np.isfinite(values).all(axis=1)))
-            raise ParameterError(f"signals hold a value that is not finite, first in frame {frame}")
-        if not (is_number(self.fps) and self.fps > 0):
-            raise ParameterError(f"the frame rate is {self.fps!r}: it must be a positive number")
+        assign(self, values=frozen(values, "signals"), fps=as_rate(self.fps))
         names = as_texts(self.names, "names of channels") or tuple(
             str(i) for i in range(1, values.shape[1] + 1)
         )
@@ -56,11 +70,15 @@ class Signals:
             raise ParameterError(
                 f"{values.shape[1]} channels need as many different names, not {', '.join(names)}"
             )
-        values.flags.writeable = False
-        object.__setattr__(self, "values", values)
-        object.__setattr__(self, "fps", float(self.fps))
-        object.__setattr__(self, "names", names)
-        object.__setattr__(self, "gaps", _checked(self.gaps, len(values)))
+        assign(self, names=names, gaps=as_gaps(self.gaps, len(values)))
+        if not self.spans():
+            raise ParameterError("the gaps leave nothing of the recording")
+
+    def __repr__(self) -> str:
+        return (
+            f"<Signals of {self.n_frames} frames ({self.duration:.1f} s) at {self.fps:g} Hz: "
+            f"{self.n_channels} channel{'s' if self.n_channels > 1 else ''}>"
+        )
 
     @property
     def n_frames(self) -> int:
@@ -70,36 +88,36 @@ class Signals:
     def n_channels(self) -> int:
         return len(self.names)
 
-    @property
-    def duration(self) -> float:
-        """Seconds: frames / fps."""
-        return self.n_frames / self.fps
-
     def select(self, names: Iterable[str]) -> Signals:
-        """Some of the channels, in the order given; ParameterError if one is not there."""
-        wanted = list(names)
+        """Some of the channels.
+
+        Parameters
+        ----------
+        names : iterable of str
+            In the order wanted.
+
+        Returns
+        -------
+        Signals
+
+        Raises
+        ------
+        ParameterError
+            There is no channel of a name.
+        """
+        wanted = as_texts(names, "names of channels")
         for name in wanted:
             if name not in self.names:
                 raise ParameterError(f"no channel {name!r}; there are {', '.join(self.names)}")
         at = [self.names.index(name) for name in wanted]
         return replace(self, values=self.values[:, at], names=wanted)
 
-    def noted(self, *sentences: str) -> Signals:
-        """The same with sentences added to the provenance."""
-        return replace(self, provenance=self.provenance.noted(*sentences))
+    def _sliced(self, start: int, stop: int, gaps: Spans, provenance: Provenance) -> Signals:
+        return replace(self, values=self.values[start:stop], gaps=gaps, provenance=provenance)
 
-    def stretches(self) -> list[tuple[int, int]]:
-        """What the gaps leave of the recording: frames [start, stop)."""
-        starts = [0, *(stop for _, stop in self.gaps)]
-        stops = [*(start for start, _ in self.gaps), self.n_frames]
-        return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
+    def _facts(self) -> list[tuple[str, str]]:
+        shown = ", ".join(self.names[:8]) + (", …" if self.n_channels > 8 else "")
+        return [("channels", f"{self.n_channels}: {shown}")]
 
-
-def _checked(gaps: Sequence[tuple[int, int]], n_frames: int) -> tuple[tuple[int, int], ...]:
-    found = as_spans(gaps)
-    borders = [0, *(frame for gap in found for frame in gap), n_frames]
-    if sorted(borders) != borders or any(start == stop for start, stop in found):
-        raise ParameterError(f"gaps must be stretches in time order inside {n_frames} frames")
-    if sum(stop - start for start, stop in found) == n_frames:
-        raise ParameterError("the gaps leave nothing of the recording")
-    return found
+    def _picture(self) -> str:
+        return channels_svg(self.values)

@@ -20,7 +20,7 @@ from kineme.features.distances import SIZE
 from kineme.features.effectors import Names
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.base import Preset
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import resample, split_at_gaps
 from kineme.segmentation.spans import SeenSpan
 from kineme.segmentation.views import View

@@ -17,10 +17,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import check_rates
+from kineme._interpolation import at_frames
 from kineme.features import offsets_in_frames, stack
 from kineme.features.emg import emg_envelope
 from kineme.methods.base import Preset
-from kineme.recordings.signals import Signals
+from kineme.recordings import Signals
 from kineme.segmentation.spans import SeenSpan
 from kineme.segmentation.views import View
 
@@ -55,7 +56,7 @@ def view_of_signals(
     """
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     rows, seen = [], []
-    for start, stop in signals.stretches():
+    for start, stop in signals.spans():
         row = at_rate(
             values[start:stop], signals.fps, preset.working_fps, smoothing=preset.smoothing
         )
@@ -111,7 +112,7 @@ def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> F
     half = max(smoothing, 1 / fps, 1 / new) / 2
     starts = np.clip((times - half) * fps + 0.5, 0, len(held))
     stops = np.clip((times + half) * fps + 0.5, 0, len(held))
-    means = (_at(sums, stops) - _at(sums, starts)) / (stops - starts)[:, None]
+    means = (at_frames(sums, stops) - at_frames(sums, starts)) / (stops - starts)[:, None]
     return np.asarray(means + middle, np.float64)
 
 

@@ -15,7 +15,7 @@ from sklearn.utils.validation import validate_data
 
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
-from kineme.recordings.signals import Signals
+from kineme.recordings import Signals
 from kineme.segmentation.segmenter import segment
 
 

@@ -20,8 +20,7 @@ from kineme.features.effectors import Names
 from kineme.methods.base import Found, Mirror, Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.methods.stages import Progress
-from kineme.recordings.motion import Motion
-from kineme.recordings.signals import Signals
+from kineme.recordings import Motion, Signals
 from kineme.segmentation.bodies import view_of_motion
 from kineme.segmentation.channels import view_of_signals
 from kineme.segmentation.spans import gaps_between, in_frames

@@ -11,7 +11,7 @@ from kineme.clips.split import split
 from kineme.errors import ParameterError
 from kineme.features import Names
 from kineme.labels import FORMATS, write_segments
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level

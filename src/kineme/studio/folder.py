@@ -10,7 +10,8 @@ from collections.abc import Iterable
 from hashlib import blake2b
 from pathlib import Path
 
-from kineme.formats.listing import files_in, holds_knowledge, holds_labels, holds_motion
+from kineme.formats.listing import files_in, holds_recording
+from kineme.labels.listing import holds_labels
 from kineme.studio.storage import usual_tables
 
 
@@ -41,10 +42,12 @@ class Folder:
         """The recordings by id, in the order of their names, or as given."""
         if self._files is not None:
             return {file_id(path): path for path in self._files if path.is_file()}
-        return {file_id(path): path for path in self._listed() if holds_motion(path)}
+        return {file_id(path): path for path in self._listed() if holds_recording(path)}
 
     def knowledge_bases(self) -> dict[str, Path]:
         """The knowledge bases by id."""
+        from kineme.transfer.knowledge_file import holds_knowledge
+
         return {file_id(path): path for path in self._listed() if holds_knowledge(path)}
 
     def annotations(self) -> dict[str, Path]:

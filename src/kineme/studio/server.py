@@ -145,12 +145,12 @@ def make_ready(documents: Documents, ended: threading.Event) -> None:
 def load_code(ended: threading.Event) -> None:
     """Show and segment the bundled recording; by the default preset first."""
     from kineme.datasets import bundled_recording
-    from kineme.formats import read
+    from kineme.formats import read_motion
     from kineme.methods.presets import DEFAULT, PRESETS
     from kineme.segmentation.segmenter import segment
     from kineme.web.recording import footage
 
-    motion = read(bundled_recording())
+    motion = read_motion(bundled_recording())
     footage(motion)
     segment(motion, preset=DEFAULT)
     if not ended.wait(HEAD_START):

@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING, Any
 from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError
 from kineme.formats import read
 from kineme.methods.presets import DEFAULT
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.choices import preset_of
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.recordings.signals import Signals
+    from kineme.recordings import Signals
     from kineme.transfer import KnowledgeBase
     from kineme.web.recording import Footage
 
@@ -183,10 +183,6 @@ class Take:
 
 def _read(path: Path, options: Mapping[str, Any]) -> Motion | Signals:
     """What a file holds; a table of channels without a body is signals."""
-    from kineme.formats.channels.reading import is_signal_file, read_signals
-
-    if is_signal_file(path):
-        return read_signals(path, fps=options.get("fps"))
     return read(path, **options)
 
 

@@ -19,7 +19,7 @@ from typing import Self
 
 from kineme.errors import ParameterError, WriteError
 from kineme.formats import supported_formats
-from kineme.formats.listing import LABELS
+from kineme.labels.listing import LABELS
 
 LIMIT = 10**9
 """Bytes; an hour of motion takes a quarter of that as text."""

@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme._checks import as_indices, check_type
 from kineme.errors import ParameterError
+from kineme.recordings import Motion, Provenance
 from kineme.recordings.kinematics import local_translations
-from kineme.recordings.motion import Motion, Provenance, check_motion
+from kineme.recordings.motion import check_motion
 from kineme.synthesis.feet import plant_feet
 from kineme.synthesis.graph import MotionGraph
 
@@ -130,9 +131,7 @@ def synthesize(
         rotations,
         graph.fps,
         translations=translations,
-        provenance=Provenance(
-            format="synthesis", notes=(f"{len(route)} primitives, {jumps} jumps",)
-        ),
+        provenance=Provenance(format="synthesis").noted(f"{len(route)} primitives, {jumps} jumps"),
     )
     return plant_feet(motion) if plant else motion
 
@@ -165,7 +164,10 @@ def _joined(
     spans: Sequence[PlacedSpan], motions: Sequence[Motion], half: int
 ) -> tuple[Floats, Floats]:
     """Rotations and translations of all spans, blended over ``half`` frames about each jump."""
-    shifts = [local_translations(motion) for motion in motions]
+    shifts = [
+        local_translations(motion.skeleton, motion.positions, motion.rotations)
+        for motion in motions
+    ]
 
     def placed(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
         motion = motions[span.source]

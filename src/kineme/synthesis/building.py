@@ -24,7 +24,8 @@ from kineme.errors import ParameterError
 from kineme.features.point_clouds import fit_clouds
 from kineme.graph import neighbor_graph
 from kineme.methods.recurrence.preset import KINEME
-from kineme.recordings.motion import Motion, check_motion
+from kineme.recordings import Motion
+from kineme.recordings.motion import check_motion
 from kineme.recordings.operations import resample
 from kineme.segmentation.bodies import motion_features
 from kineme.segmentation.segmenter import segment

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.errors import EndEffectorError
 from kineme.features import end_effectors
+from kineme.recordings import Motion
 from kineme.recordings.kinematics import (
     forward_kinematics,
     local_translations,
     world_rotations,
 )
-from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
 Spans = list[tuple[int, int]]
@@ -151,7 +151,7 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     The knee opens or closes about its hinge until the ankle is as far from the
     hip as the target, then the leg turns about the hip.
     """
-    world = world_rotations(motion)
+    world = world_rotations(motion.skeleton, motion.rotations)
     hip, knee, ankle = (motion.positions[:, j] for j in leg)
     moved = np.linalg.norm(target - ankle, axis=1) > 1e-9
     if not moved.any():
@@ -178,7 +178,9 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
         above = turned.get(parent, world[:, parent])
         rotations[:, joint] = rot.multiply(rot.conjugate(above), own)
     positions = forward_kinematics(
-        motion.skeleton, rotations, translations=local_translations(motion)
+        motion.skeleton,
+        rotations,
+        translations=local_translations(motion.skeleton, motion.positions, motion.rotations),
     )
     return replace(motion, rotations=rotations, positions=positions)
 

@@ -30,8 +30,8 @@ from typing import Any
 
 from kineme._files import atomic_write
 from kineme.errors import ParameterError, ReadError
-from kineme.formats import read
-from kineme.recordings.motion import Motion
+from kineme.formats import read_motion
+from kineme.recordings import Motion
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 
 SCHEMA = "kineme.motion-graph/1"
@@ -129,7 +129,7 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
                             "or build the graph anew")  # fmt: skip
         if sha256(path.read_bytes()).hexdigest() != source.sha256:
             raise ReadError(path, "has changed since the graph was built on it: build it anew")
-        motions.append(read(path, **source.options))
+        motions.append(read_motion(path, **source.options))
     return motions
 
 

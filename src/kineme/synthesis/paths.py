@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.synthesis.blending import Placement
 from kineme.synthesis.graph import MotionGraph
 

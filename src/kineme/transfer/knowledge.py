@@ -24,7 +24,8 @@ from kineme.errors import ParameterError, ReadError
 from kineme.features import end_effectors
 from kineme.features.effectors import Names
 from kineme.methods.recurrence.preset import KINEME
-from kineme.recordings.motion import Motion, check_motion
+from kineme.recordings import Motion
+from kineme.recordings.motion import check_motion
 from kineme.segmentation.bodies import motion_features
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable

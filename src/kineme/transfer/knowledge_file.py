@@ -97,3 +97,24 @@ def _check_head(head: Any, settings: dict[str, Any], path: str | PathLike[str]) 
         if head.get(name) != value:
             reason = f"has features with {name} {head.get(name)}, not {value}: build it again"
             raise ReadError(path, reason)
+
+
+def holds_knowledge(path: Path) -> bool:
+    """Whether a file is a knowledge base, as far as the directory of its archive tells.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    bool
+        False where the file cannot be opened or is damaged.
+    """
+    if path.suffix.lower() != ".npz":
+        return False
+    try:
+        with zipfile.ZipFile(path) as parts:
+            return {"head.npy", "lengths.npy", "labels.npy"} <= set(parts.namelist())
+    except (OSError, zipfile.BadZipFile, NotImplementedError, ValueError, LookupError):
+        return False

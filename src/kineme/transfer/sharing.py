@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.knowledge import KnowledgeBase, transfer_features
 from kineme.transfer.labels import THRESHOLD, transfer_labels

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from kineme.errors import MotionError
 from kineme.features import PARTS, Names, end_effectors, heading
 from kineme.formats.marker_sets import PARENTS
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.web.messages import MotionHead
 
 Floats = NDArray[np.float64]

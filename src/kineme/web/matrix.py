@@ -30,7 +30,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme.errors import MotionError, ParameterError
 from kineme.features import Names, body_size, distance_features, end_effectors, pose_features
 from kineme.features.distances import SIZE
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import resample
 from kineme.web.messages import MatrixHead
 

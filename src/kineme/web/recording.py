@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike
 from kineme.errors import ParameterError
 from kineme.features import Names
 from kineme.labels.json_table import as_object
-from kineme.recordings.motion import Motion
-from kineme.recordings.signals import Signals
+from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import Matrix, matrix_of_motion, matrix_of_signal

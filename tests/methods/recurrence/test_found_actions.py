@@ -16,7 +16,7 @@ from kineme.datasets import bundled_recording, bundled_truth, random_recording
 from kineme.evaluation import evaluate_segmentation
 from kineme.evaluation.benchmark import mean
 from kineme.evaluation.trials import find_folder, load_trials
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 from kineme.recordings.operations import resample, scale
 from kineme.segmentation.segmenter import segment
 from kineme.segments.segmentation import Segmentation

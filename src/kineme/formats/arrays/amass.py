@@ -23,10 +23,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 from kineme.formats.registry import ReadOptions
 from kineme.formats.units import metres, up_rotation
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 
@@ -61,19 +61,21 @@ _JOINTS: tuple[tuple[str, str | None, tuple[float, float, float]], ...] = (
 _N_TURNING = len(_JOINTS) - 1
 
 
-def poses_to_motion(source: Source, arrays: Mapping[str, Any], options: ReadOptions) -> Motion:
+def poses_to_motion(
+    content: FileContent, arrays: Mapping[str, Any], options: ReadOptions
+) -> Motion:
     """The motion of the body that ``poses`` and ``trans`` describe."""
-    poses = _checked(source, arrays, "poses")
+    poses = _checked(content, arrays, "poses")
     if poses.shape[1] not in WIDTHS:
-        raise source.error(
+        raise content.error(
             f"poses have {poses.shape[1]} values per frame, not "
             f"{', '.join(f'{n} ({name})' for n, name in WIDTHS.items())}"
         )
     path = np.zeros((len(poses), 3))
     if "trans" in arrays:
-        path = _checked(source, arrays, "trans")
+        path = _checked(content, arrays, "trans")
     if path.shape != (len(poses), 3):
-        raise source.error(f"trans has shape {path.shape}, not ({len(poses)}, 3)")
+        raise content.error(f"trans has shape {path.shape}, not ({len(poses)}, 3)")
     vectors = poses[:, : 3 * _N_TURNING].reshape(len(poses), _N_TURNING, 3)
     rotations = np.zeros((len(poses), len(_JOINTS), 4))
     rotations[:, -1] = rot.IDENTITY
@@ -88,9 +90,9 @@ def poses_to_motion(source: Source, arrays: Mapping[str, Any], options: ReadOpti
     return Motion.from_rotations(
         smpl_skeleton(),
         rotations,
-        options.fps or _rate(source, arrays),
+        options.fps or _rate(content, arrays),
         path,
-        provenance=source.provenance("AMASS", notes),
+        provenance=content.provenance("AMASS", notes),
     )
 
 
@@ -109,20 +111,22 @@ def _from_vectors(vectors: Floats) -> Floats:
     return np.asarray(quaternions / np.linalg.norm(quaternions, axis=-1, keepdims=True))
 
 
-def _checked(source: Source, arrays: Mapping[str, Any], name: str) -> Floats:
+def _checked(content: FileContent, arrays: Mapping[str, Any], name: str) -> Floats:
     array = arrays[name]
     if array.dtype.kind not in "iuf" or array.ndim != 2 or len(array) == 0:
-        raise source.error(f"{name} are {array.dtype} of shape {array.shape}, not (frames, values)")
+        raise content.error(
+            f"{name} are {array.dtype} of shape {array.shape}, not (frames, values)"
+        )
     values = np.asarray(array, np.float64)
     if not np.isfinite(values).all():
-        raise source.error(f"{name} hold values that are not finite (NaN or infinite)")
+        raise content.error(f"{name} hold values that are not finite (NaN or infinite)")
     return values
 
 
-def _rate(source: Source, arrays: Mapping[str, Any]) -> float:
+def _rate(content: FileContent, arrays: Mapping[str, Any]) -> float:
     for name in ("mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate"):
         if name in arrays and arrays[name].size == 1 and arrays[name].dtype.kind in "iuf":
             rate = float(arrays[name].item())
             if np.isfinite(rate) and rate > 0:
                 return rate
-    raise source.error("no 'mocap_frame_rate' in it: give fps= (--fps)")
+    raise content.error("no 'mocap_frame_rate' in it: give fps= (--fps)")

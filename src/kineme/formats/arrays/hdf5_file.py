@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from kineme.errors import MissingDependencyError
-from kineme.formats.files import MOST_EXPANSION, Source
+from kineme.formats.files import MOST_EXPANSION, FileContent
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 _DEEPEST = 30
@@ -25,7 +25,7 @@ _DAMAGE = (
 )  # fmt: skip
 
 
-def parse_hdf5(source: Source) -> dict[str, Any]:
+def parse_hdf5(content: FileContent) -> dict[str, Any]:
     """The contents of an HDF5 file by name.
 
     Raises
@@ -38,19 +38,19 @@ def parse_hdf5(source: Source) -> dict[str, Any]:
     except ImportError as error:
         raise MissingDependencyError("h5py", "hdf5") from error
     try:
-        with h5py.File(io.BytesIO(source.data), "r") as file:
-            return _Reader(source, file).group(file, 0)
+        with h5py.File(io.BytesIO(content.data), "r") as file:
+            return _Reader(content, file).group(file, 0)
     except _DAMAGE as error:
         reason = " ".join(str(error).split())
-        raise source.error(f"is no whole HDF5 file: {reason[:120]}") from None
+        raise content.error(f"is no whole HDF5 file: {reason[:120]}") from None
 
 
 class _Reader:
     """Reads groups and data sets while there is room for what they claim."""
 
-    def __init__(self, source: Source, file: Any) -> None:
-        self.source, self.file = source, file
-        self.room = MOST_EXPANSION * len(source.data)
+    def __init__(self, content: FileContent, file: Any) -> None:
+        self.content, self.file = content, file
+        self.room = MOST_EXPANSION * len(content.data)
 
     def group(self, group: Any, depth: int) -> dict[str, Any]:
         import h5py

@@ -1,4 +1,4 @@
-"""MAT files of MATLAB: joint positions by variables, and QTM's exports.
+"""MAT files of MATLAB: joint positions by variables, QTM's exports, or channels.
 
 Variables are arrays by name, see `kineme.formats.arrays.named_arrays`; also those inside a
 structure, as long as it is the only one. Versions 5 to 7.2 are read as they are,
@@ -10,18 +10,23 @@ QTM (Qualisys) exports a structure with ``FrameRate`` and
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
 from kineme.formats.arrays.mat_file import parse_mat
-from kineme.formats.arrays.named_arrays import Array, arrays_to_motion
-from kineme.formats.files import Source
+from kineme.formats.arrays.named_arrays import Array, Arrays, arrays_to_motion
+from kineme.formats.channels.reading import to_signals
+from kineme.formats.channels.sensors import hold_channels, is_body
+from kineme.formats.channels.table import ChannelTable, channel_table, wanted_columns
+from kineme.formats.files import FileContent
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion, Signals
 
 _RATES = (
     "fps",
@@ -35,21 +40,25 @@ _RATES = (
 )
 
 
-def read_mat(source: Source, options: ReadOptions) -> Motion:
-    """The motion in a MAT file."""
-    variables = mat_variables(source)
+def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:
+    """The motion in a MAT file, or the channels where it holds no joints."""
+    variables = mat_variables(content)
     labeled = _labeled(variables)
-    if labeled is not None:
-        return _qtm_motion(source, *labeled, options)
-    return arrays_to_motion(source, "MAT", arrays_of(variables), options)
+    if labeled is not None and not options.channels:
+        return _qtm_motion(content, *labeled, options)
+    arrays = arrays_of(variables)
+    if options.channels or _hold_channels(arrays):
+        table = channels_of(content, arrays, options.columns or None)
+        return to_signals(content, "MAT", table, options.fps)
+    return arrays_to_motion(content, "MAT", arrays, options)
 
 
-def mat_variables(source: Source) -> dict[str, Any]:
+def mat_variables(content: FileContent) -> dict[str, Any]:
     """The variables of a MAT file of either kind, by name."""
-    is_hdf5 = source.data.startswith(SIGNATURE) or source.data[512:520] == SIGNATURE
-    variables = parse_hdf5(source) if is_hdf5 else parse_mat(source)
+    is_hdf5 = content.data.startswith(SIGNATURE) or content.data[512:520] == SIGNATURE
+    variables = parse_hdf5(content) if is_hdf5 else parse_mat(content)
     if not variables:
-        raise source.error("no variable that can be read: tables and objects need writetable")
+        raise content.error("no variable that can be read: tables and objects need writetable")
     return variables
 
 
@@ -69,24 +78,66 @@ def arrays_of(variables: Mapping[str, Any]) -> dict[str, Array]:
     return found
 
 
-def mat_channels(source: Source) -> tuple[dict[str, Array], float | None]:
-    """(samples,) each: the channels by name, of whatever lengths; and their rate, if told.
+def channels_of(
+    content: FileContent, arrays: Arrays, columns: Sequence[str] | None
+) -> ChannelTable:
+    """The channels in a MAT file's arrays: those wanted, or those of the most usual length.
 
     A matrix is a channel for each column, ``NAME_1`` and so on; its longer side is time.
+
+    Parameters
+    ----------
+    content : FileContent
+    arrays : mapping of str to ndarray
+    columns : sequence of str or None
+        By name and in this order.
+
+    Returns
+    -------
+    ChannelTable
+
+    Raises
+    ------
+    ReadError
+        There is no such channel, or those wanted differ in length.
     """
-    arrays = arrays_of(mat_variables(source))
     rates = {name.lower(): array for name, array in arrays.items() if array.ndim == 0}
     rate = next((float(rates[key]) for key in _RATES if key in rates), None)
-    found: dict[str, Array] = {}
+    channels: dict[str, Array] = {}
     for name, array in arrays.items():
         if array.dtype.kind not in "iufb" or array.size == 0:
             continue
         if array.ndim == 1:
-            found[name] = array
+            channels[name] = array
         elif array.ndim == 2:
-            columns = array.T if len(array) >= array.shape[1] else array
-            found |= {f"{name}_{i}": column for i, column in enumerate(columns, 1)}
-    return found, rate
+            tracks = array.T if len(array) >= array.shape[1] else array
+            channels |= {f"{name}_{i}": track for i, track in enumerate(tracks, 1)}
+    lengths = Counter(map(len, channels.values()))
+    length = max(lengths, key=lambda n: (lengths[n], n), default=0)
+    if columns and columns[0] in channels:
+        length = len(channels[columns[0]])
+    as_long = [name for name, channel in channels.items() if len(channel) == length]
+    wanted = wanted_columns(content, list(channels), columns, as_long)
+    for name in wanted:
+        if name not in as_long:
+            raise content.error(f"column {name!r} is not as long as {wanted[0]!r}: choose one rate")
+    values = {name: np.asarray(channels[name], np.float64) for name in wanted}
+    table = channel_table(content, as_long, values, columns)
+    others = [name for name in channels if name not in as_long]
+    if columns is None and others:
+        note = f"of another length, left out: {', '.join(others)}"
+        table = replace(table, notes=(*table.notes, note))
+    known = rate is not None and np.isfinite(rate) and rate > 0
+    return replace(table, rate=rate) if known else table
+
+
+def _hold_channels(arrays: Arrays) -> bool:
+    """Whether none of the arrays is joints' positions, by their names and shapes."""
+    if {"poses", "positions"} & arrays.keys():
+        return False
+    flat = [name for name, array in arrays.items() if array.ndim <= 1]
+    tracks = (name for name, a in arrays.items() if a.ndim == 2 and a.shape[1] == 3)
+    return hold_channels(flat) and not any(map(is_body, tracks))
 
 
 def _labeled(variables: Mapping[str, Any]) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
@@ -101,21 +152,21 @@ def _labeled(variables: Mapping[str, Any]) -> tuple[Mapping[str, Any], Mapping[s
 
 
 def _qtm_motion(
-    source: Source, head: Mapping[str, Any], labeled: Mapping[str, Any], options: ReadOptions
+    content: FileContent, head: Mapping[str, Any], labeled: Mapping[str, Any], options: ReadOptions
 ) -> Motion:
     names, data = texts(labeled["Labels"]), labeled["Data"]
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 3:
-        raise source.error("Trajectories.Labeled.Data are no numbers (markers, 4, frames)")
+        raise content.error("Trajectories.Labeled.Data are no numbers (markers, 4, frames)")
     if len(names) != data.shape[0] or data.shape[1] < 3 or 0 in data.shape:
-        raise source.error(f"{len(names)} Labels for Data of shape {data.shape}")
+        raise content.error(f"{len(names)} Labels for Data of shape {data.shape}")
     rate = head.get("FrameRate")
     fps = float(rate.ravel()[0]) if isinstance(rate, np.ndarray) and rate.size == 1 else 0.0
     if not options.fps and not (np.isfinite(fps) and fps > 0):
-        raise source.error("no FrameRate in it: give fps= (--fps)")
+        raise content.error("no FrameRate in it: give fps= (--fps)")
     positions = np.asarray(data[:, :3], np.float64).transpose(2, 0, 1)
     unit, up = options.unit or "mm", options.up
     points = Points(names, positions, options.fps or fps, unit, up, usual_up="z")
-    return to_motion(points, source.provenance("MAT of QTM", []))
+    return to_motion(points, content.provenance("MAT of QTM", []))
 
 
-FORMAT = Format("MAT", (".mat",), lambda head: head.startswith(b"MATLAB "), read_mat)
+FORMAT = Format("MAT", (".mat",), lambda head: head.startswith(b"MATLAB "), read_mat, channels=True)

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme.formats.files import MOST_EXPANSION, Source
+from kineme.formats.files import MOST_EXPANSION, FileContent
 
 Array = np.ndarray[Any, np.dtype[Any]]
 Value = Any
@@ -49,17 +49,17 @@ class _DamagedError(ValueError):
     """What a part of the file says about itself cannot be."""
 
 
-def parse_mat(source: Source) -> dict[str, Value]:
+def parse_mat(content: FileContent) -> dict[str, Value]:
     """The variables of a MAT file by name.
 
     Raises
     ------
     ReadError : it is no MAT file of version 5, or is damaged
     """
-    data = source.data
+    data = content.data
     order = {b"IM": "<", b"MI": ">"}.get(data[126:128])
     if len(data) < _HEADER or order is None:
-        raise source.error("is no MAT file of version 5: save it with -v7 or as CSV")
+        raise content.error("is no MAT file of version 5: save it with -v7 or as CSV")
     budget = MOST_EXPANSION * len(data)
     variables: dict[str, Value] = {}
     try:
@@ -73,7 +73,7 @@ def parse_mat(source: Source) -> dict[str, Value]:
                 if name and value is not None:
                     variables[name] = value
     except (_DamagedError, zlib.error) as error:
-        raise source.error(f"is no whole MAT file: {error}") from None
+        raise content.error(f"is no whole MAT file: {error}") from None
     return variables
 
 

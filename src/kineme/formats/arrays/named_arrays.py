@@ -20,16 +20,18 @@ import numpy as np
 
 from kineme.formats.arrays.amass import poses_to_motion
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import Source, unique
+from kineme.formats.files import FileContent, unique
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 Array = np.ndarray[Any, np.dtype[Any]]
 Arrays = Mapping[str, Array]
 
 
-def arrays_to_motion(source: Source, name: str, arrays: Arrays, options: ReadOptions) -> Motion:
+def arrays_to_motion(
+    content: FileContent, name: str, arrays: Arrays, options: ReadOptions
+) -> Motion:
     """The motion that named arrays describe; ``name`` is that of the format.
 
     Raises
@@ -37,31 +39,33 @@ def arrays_to_motion(source: Source, name: str, arrays: Arrays, options: ReadOpt
     ReadError : none of the kinds above, shapes that disagree, or no frame rate
     """
     if "poses" in arrays:
-        return poses_to_motion(source, arrays, options)
+        return poses_to_motion(content, arrays, options)
     if "positions" in arrays:
-        return positions_to_motion(source, name, arrays, options)
+        return positions_to_motion(content, name, arrays, options)
     columns = {key: array for key, array in arrays.items() if array.ndim == 1}
     columns |= {key: array[None] for key, array in arrays.items() if array.ndim == 0}
     for joint, track in _tracks(arrays).items():
         columns |= {f"{joint}_{axis}": track[:, i] for i, axis in enumerate("xyz")}
-    return columns_to_motion(source, name, columns, options)
+    return columns_to_motion(content, name, columns, options)
 
 
-def positions_to_motion(source: Source, name: str, arrays: Arrays, options: ReadOptions) -> Motion:
+def positions_to_motion(
+    content: FileContent, name: str, arrays: Arrays, options: ReadOptions
+) -> Motion:
     """The motion in ``positions``, and in what lies beside them."""
-    positions = _numbers(source, arrays, "positions")
+    positions = _numbers(content, arrays, "positions")
     if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
-        raise source.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
-    fps = options.fps or _rate(source, arrays)
+        raise content.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
+    fps = options.fps or _rate(content, arrays)
     if "parents" in arrays and "names" in arrays and not (options.unit or options.up):
-        return _whole(source, name, arrays, positions, fps)
+        return _whole(content, name, arrays, positions, fps)
     usual = [f"joint{i}" for i in range(positions.shape[1])]
     names = list(map(str, arrays["names"].ravel())) if "names" in arrays else usual
     if len(names) != len(usual):
-        raise source.error(f"{len(names)} names for {len(usual)} joints")
+        raise content.error(f"{len(names)} names for {len(usual)} joints")
     positions = np.where(np.isfinite(positions), positions, np.nan)
     points = Points(names, positions, fps, options.unit, options.up)
-    return to_motion(points, source.provenance(name, []))
+    return to_motion(points, content.provenance(name, []))
 
 
 def _tracks(arrays: Arrays) -> Arrays:
@@ -72,37 +76,37 @@ def _tracks(arrays: Arrays) -> Arrays:
     return {key: track for key, track in tracks.items() if len(track) == usual}
 
 
-def _whole(source: Source, name: str, arrays: Arrays, positions: Array, fps: float) -> Motion:
+def _whole(content: FileContent, name: str, arrays: Arrays, positions: Array, fps: float) -> Motion:
     """What kineme wrote, as it was."""
     n = positions.shape[1]
-    offsets = _numbers(source, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
-    parents = _whole_numbers(source, arrays, "parents")
-    ends = _whole_numbers(source, arrays, "end_sites") if "end_sites" in arrays else []
-    gaps = _whole_numbers(source, arrays, "gaps") if "gaps" in arrays else []
+    offsets = _numbers(content, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
+    parents = _whole_numbers(content, arrays, "parents")
+    ends = _whole_numbers(content, arrays, "end_sites") if "end_sites" in arrays else []
+    gaps = _whole_numbers(content, arrays, "gaps") if "gaps" in arrays else []
     names = tuple(unique(map(str, arrays["names"].ravel())))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
-    rotations = _numbers(source, arrays, "rotations") if "rotations" in arrays else None
+    rotations = _numbers(content, arrays, "rotations") if "rotations" in arrays else None
     spans = tuple(zip(gaps[::2], gaps[1::2], strict=False))
-    return Motion(skeleton, positions, fps, rotations, source.provenance(name, []), spans)
+    return Motion(skeleton, positions, fps, rotations, content.provenance(name, []), spans)
 
 
-def _rate(source: Source, arrays: Arrays) -> float:
+def _rate(content: FileContent, arrays: Arrays) -> float:
     for name in ("fps", "framerate", "frame_rate", "FrameRate", "rate"):
         if name in arrays and arrays[name].size == 1:
-            rate = float(_numbers(source, arrays, name).item())
+            rate = float(_numbers(content, arrays, name).item())
             if np.isfinite(rate) and rate > 0:
                 return rate
-    raise source.error("no 'fps' in it: give fps= (--fps)")
+    raise content.error("no 'fps' in it: give fps= (--fps)")
 
 
-def _whole_numbers(source: Source, arrays: Arrays, name: str) -> list[int]:
-    values = _numbers(source, arrays, name).ravel()
+def _whole_numbers(content: FileContent, arrays: Arrays, name: str) -> list[int]:
+    values = _numbers(content, arrays, name).ravel()
     if not np.isfinite(values).all() or np.abs(values).max(initial=0) > 2**53:
-        raise source.error(f"{name} are not whole numbers")
+        raise content.error(f"{name} are not whole numbers")
     return list(map(int, values.tolist()))
 
 
-def _numbers(source: Source, arrays: Arrays, name: str) -> Array:
+def _numbers(content: FileContent, arrays: Arrays, name: str) -> Array:
     if arrays[name].dtype.kind not in "iufb":
-        raise source.error(f"{name} hold {arrays[name].dtype}, not numbers")
+        raise content.error(f"{name} hold {arrays[name].dtype}, not numbers")
     return np.asarray(arrays[name], np.float64)

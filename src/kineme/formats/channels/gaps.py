@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.files import Source
+from kineme._interpolation import bridge_line
+from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S, covered, spans_of
 from kineme.formats.timing import Timing
 
@@ -15,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 def without_gaps(
-    source: Source, values: Floats, timing: Timing, names: Sequence[str]
+    content: FileContent, values: Floats, timing: Timing, names: Sequence[str]
 ) -> tuple[Floats, list[tuple[int, int]], list[str]]:
     """Finite values, the stretches in which a channel is missing for long, and what was done.
 
@@ -34,19 +35,17 @@ def without_gaps(
         return values, list(timing.gaps), []
     if missing.all(axis=0).any():
         name = names[int(missing.all(axis=0).argmax())]
-        raise source.error(f"column {name!r} holds no number at all: name the others (--columns)")
+        raise content.error(f"column {name!r} holds no number at all: name the others (--columns)")
     filled = np.array(values)
     long = np.zeros(len(values), np.bool_)
     for channel in np.flatnonzero(missing.any(axis=0)).tolist():
-        seen = np.flatnonzero(~missing[:, channel])
-        at = np.flatnonzero(missing[:, channel])
-        filled[at, channel] = np.interp(at, seen, values[seen, channel])
+        bridge_line(filled[:, channel], missing[:, channel])
         for start, stop in spans_of(missing[:, channel]).tolist():
             if stop - start > LONGEST_S * timing.fps + 1e-9:
                 long[start:stop] = True
     jumps = covered(timing.gaps, len(values))
     if (long | jumps).all():
-        raise source.error("in every frame some channel is missing for long: choose columns")
+        raise content.error("in every frame some channel is missing for long: choose columns")
     holes = spans_of(long)
     gaps = [(start, stop) for start, stop in spans_of(long | jumps).tolist()]
     notes = [f"{int((missing & ~long[:, None]).sum())} missing values filled in a straight line"]

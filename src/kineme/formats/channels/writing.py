@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import csv
 import re
-import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from io import StringIO
@@ -22,14 +21,18 @@ from typing import Any, Protocol
 import numpy as np
 
 from kineme._files import atomic_write
-from kineme.errors import KinemeWarning, WriteError
-from kineme.formats.channels.tables import KINDS, kind_of, parquet_file
-from kineme.formats.channels.text_table import TextTable, named
+from kineme.errors import MissingDependencyError, ReadError, WriteError
+from kineme.formats.channels.parquet import parquet_channels, parquet_file
+from kineme.formats.channels.table import named
+from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.columns import is_timing
-from kineme.formats.files import Source, load
-from kineme.recordings.signals import Signals
+from kineme.formats.files import FileContent, load
+from kineme.formats.gaps import covered
+from kineme.recordings import Signals
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
+TEXT = ("table", "MOT/STO")
+PARQUET = "Parquet table"
 
 _ROW_COUNT = re.compile(r"^(\s*(?:nrows\s*=|datarows\s)\s*)\d+", re.IGNORECASE | re.MULTILINE)
 
@@ -52,7 +55,7 @@ class Rows(Protocol):
 def write_signals(
     signals: Signals, path: str | PathLike[str], *, columns: Sequence[str] | None = None
 ) -> None:
-    """Leave signals in a file of their own format, a CSV or a TSV, whole or not at all.
+    """Leave signals in a file of their own format, a CSV, TSV or Parquet, whole or not at all.
 
     Parameters
     ----------
@@ -73,8 +76,10 @@ def write_signals(
         rows.write(target)
     elif suffix in SEPARATORS:
         _table(rows, suffix, columns).write(target)
+    elif suffix == ".parquet":
+        _ParquetRows.of_values(signals).write(target)
     else:
-        known = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS)))
+        known = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS, ".parquet")))
         raise WriteError(target, f"signals are written as {known}, not {suffix or 'that'!r}")
 
 
@@ -82,11 +87,11 @@ def rows_of(signals: Signals) -> Rows:
     """The frames of signals as rows of their own file, or of a CSV where these are others."""
     path = signals.provenance.path
     if path is not None and Path(path).is_file():
-        source = load(path)
-        if source.digest == signals.provenance.sha256 and _holds(source, signals):
-            if kind_of(source) == "Parquet table":
-                return _ParquetRows.of(source)
-            return _TextRows.of(source, signals.n_frames)
+        content = load(path)
+        if content.digest == signals.provenance.sha256 and _holds(content, signals):
+            if signals.provenance.format == PARQUET:
+                return _ParquetRows.of(content)
+            return _TextRows.of(content, signals.n_frames)
     return _of_values(signals)
 
 
@@ -102,10 +107,10 @@ class _TextRows:
     separator: str
 
     @classmethod
-    def of(cls, source: Source, n_rows: int) -> _TextRows:
+    def of(cls, content: FileContent, n_rows: int) -> _TextRows:
         """The first rows of a file, blank lines left out."""
-        table = TextTable.of(source)
-        text = source.data.decode("utf-8", errors="surrogateescape")
+        table = TextTable.of(content)
+        text = content.data.decode("utf-8", errors="surrogateescape")
         lines = text.splitlines(keepends=True)
         head, below = lines[: table.first_row - 1], lines[table.first_row - 1 :]
         reader = csv.reader(table.rows, delimiter=table.separator)
@@ -117,7 +122,7 @@ class _TextRows:
             start = reader.line_num
         numbered = [str(i) for i in range(1, len(table.names) + 1)]
         names = None if table.names == numbered else table.names
-        suffix = source.path.suffix.lower()
+        suffix = content.path.suffix.lower()
         return cls(suffix, names, "".join(head), kept[:n_rows], table.rows, table.separator)
 
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
@@ -141,9 +146,23 @@ class _ParquetRows:
     suffix: str = ".parquet"
 
     @classmethod
-    def of(cls, source: Source) -> _ParquetRows:
-        table = parquet_file(source).read()
+    def of(cls, content: FileContent) -> _ParquetRows:
+        table = parquet_file(content).read()
         return cls(named(table.column_names), table)
+
+    @classmethod
+    def of_values(cls, signals: Signals) -> _ParquetRows:
+        """Times and channels, null in gaps."""
+        try:
+            import pyarrow as pa
+        except ImportError as error:
+            raise MissingDependencyError("pyarrow", "tables") from error
+        missing = covered(signals.gaps, signals.n_frames)
+        columns = {"time": pa.array(signals.times)} | {
+            name: pa.array(values, mask=missing)
+            for name, values in zip(signals.names, signals.values.T, strict=True)
+        }
+        return cls(list(columns), pa.table(columns))
 
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
         from pyarrow import parquet
@@ -158,16 +177,17 @@ class _ParquetRows:
             yield ["" if cell is None else str(cell) for cell in row]
 
 
-def _holds(source: Source, signals: Signals) -> bool:
+def _holds(content: FileContent, signals: Signals) -> bool:
     """Whether the rows of a table on disk are the frames of signals, holes aside."""
-    kind = kind_of(source)
-    if kind not in ("table", "MOT/STO", "Parquet table"):
+    try:
+        if signals.provenance.format == PARQUET:
+            values = parquet_channels(content, parquet_file(content), signals.names).values
+        elif signals.provenance.format in TEXT:
+            values = text_channels(content, TextTable.of(content), signals.names).values
+        else:
+            return False
+    except ReadError:  # channels of other names
         return False
-    if not set(signals.names) <= set(KINDS[kind].names(source)):
-        return False
-    with warnings.catch_warnings():  # said when it was read
-        warnings.simplefilter("ignore", KinemeWarning)
-        values = KINDS[kind].read(source, signals.names).values
     if values.shape != signals.values.shape:
         return False
     return bool(((values == signals.values) | ~np.isfinite(values)).all())
@@ -175,9 +195,7 @@ def _holds(source: Source, signals: Signals) -> bool:
 
 def _of_values(signals: Signals) -> _TextRows:
     """Times and channels as a CSV that reads back to the same numbers."""
-    missing = np.zeros(signals.n_frames, np.bool_)
-    for start, stop in signals.gaps:
-        missing[start:stop] = True
+    missing = covered(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels
     rows = (
         [repr(i / signals.fps), *(empty if gap else map(repr, row))]

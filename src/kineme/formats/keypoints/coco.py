@@ -19,15 +19,15 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from kineme.formats.files import Source, unique
-from kineme.formats.keypoints.keypoints import (
+from kineme.formats.files import FileContent, unique
+from kineme.formats.keypoints.video import (
     Person,
     Video,
     in_groups,
     video_to_motion,
 )
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 SURE = 0.3
 
@@ -50,7 +50,7 @@ def is_coco(data: Any) -> bool:
     )
 
 
-def read_coco(source: Source, data: Any, options: ReadOptions) -> Motion:
+def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """The motion of one person in COCO keypoints."""
     is_set = isinstance(data, Mapping)
     entries = [
@@ -59,24 +59,24 @@ def read_coco(source: Source, data: Any, options: ReadOptions) -> Motion:
         if isinstance(entry, Mapping) and entry.get("keypoints")
     ]
     names = _names(data) if is_set else None
-    frames = _frames(source, data.get("images") if is_set else None, entries)
+    frames = _frames(content, data.get("images") if is_set else None, entries)
     tracked = next(
         (key for key in _IDS if all(entry.get(key) is not None for entry in entries)), ""
     )
     people = []
     for entry, frame in zip(entries, frames, strict=True):
-        groups = in_groups(source, entry["keypoints"], 3)
+        groups = in_groups(content, entry["keypoints"], 3)
         who = str(entry[tracked])[:40] if tracked else None
         people.append(Person(frame, groups[:, :2].tolist(), groups[:, 2].tolist(), who))
     count = len(people[0].points) if people else len(NAMES)
     if names is None or len(names) != count:
         names = list(NAMES)
     if count != len(names):
-        raise source.error(f"a person has {count} keypoints, not {len(names)} as in COCO")
+        raise content.error(f"a person has {count} keypoints, not {len(names)} as in COCO")
     images = data.get("images") if is_set else None
     known = range(len(images)) if isinstance(images, list) else ()
     video = Video("COCO", names, people, SURE, frames=known)
-    return video_to_motion(source, video, options)
+    return video_to_motion(content, video, options)
 
 
 def _names(data: Mapping[str, Any]) -> list[str] | None:
@@ -89,16 +89,16 @@ def _names(data: Mapping[str, Any]) -> list[str] | None:
     return None
 
 
-def _frames(source: Source, images: Any, entries: Sequence[Mapping[str, Any]]) -> list[int]:
+def _frames(content: FileContent, images: Any, entries: Sequence[Mapping[str, Any]]) -> list[int]:
     """The frame of each entry."""
     if isinstance(images, list) and images:
         usable = [image for image in images if isinstance(image, Mapping) and "id" in image]
         order = {str(image["id"]): i for i, image in enumerate(sorted(usable, key=_place))}
         for entry in entries:
             if str(entry.get("image_id")) not in order:
-                raise source.error(f"image {str(entry.get('image_id'))[:40]} is not in 'images'")
+                raise content.error(f"image {str(entry.get('image_id'))[:40]} is not in 'images'")
         return [order[str(entry["image_id"])] for entry in entries]
-    return [_number(source, entry.get("image_id")) for entry in entries]
+    return [_number(content, entry.get("image_id")) for entry in entries]
 
 
 def _place(image: Mapping[str, Any]) -> tuple[int, list[int], str]:
@@ -112,9 +112,9 @@ def _numbers(name: str) -> list[int]:
     return [int(digits[-18:]) for digits in _DIGITS.findall(name)]
 
 
-def _number(source: Source, image: Any) -> int:
+def _number(content: FileContent, image: Any) -> int:
     """The last number in what a result calls its image: 12, "12.jpg", "video_0012"."""
     numbers = _numbers(str(image)[:200])
     if not numbers:
-        raise source.error(f"image_id {str(image)[:40]!r} has no frame number in it")
+        raise content.error(f"image_id {str(image)[:40]!r} has no frame number in it")
     return numbers[-1]

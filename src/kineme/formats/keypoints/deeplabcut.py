@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.delimited import rows_of
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 LIKELY = 0.6
 
@@ -22,7 +22,9 @@ def is_deeplabcut(line: str) -> bool:
     return line.lower().startswith("scorer,")
 
 
-def read_deeplabcut(source: Source, lines: list[str], first: int, options: ReadOptions) -> Motion:
+def read_deeplabcut(
+    content: FileContent, lines: list[str], first: int, options: ReadOptions
+) -> Motion:
     """The motion of the keypoints in a table whose first line is ``first`` of the file."""
     heads: dict[str, list[str]] = {}
     for line in lines[:4]:
@@ -30,31 +32,31 @@ def read_deeplabcut(source: Source, lines: list[str], first: int, options: ReadO
         if kind.lower() in ("scorer", "individuals", "bodyparts", "coords"):
             heads[kind.lower()] = cells
     if not {"bodyparts", "coords"} <= heads.keys():
-        raise source.error("rows 'bodyparts' and 'coords' expected under 'scorer'", first + 1)
+        raise content.error("rows 'bodyparts' and 'coords' expected under 'scorer'", first + 1)
     parts, coords = heads["bodyparts"], heads["coords"]
     who = heads.get("individuals", [""] * len(parts))
     if len({len(parts), len(coords), len(who)}) > 1:
-        raise source.error("the rows of names differ in length", first + 1)
-    wanted = _wanted(source, list(dict.fromkeys(who)), options.person)
+        raise content.error("the rows of names differ in length", first + 1)
+    wanted = _wanted(content, list(dict.fromkeys(who)), options.person)
     below = first + len(heads)
-    values = rows_of(source, lines[len(heads) :], below, ",", 1 + len(parts))[:, 1:]
+    values = rows_of(content, lines[len(heads) :], below, ",", 1 + len(parts))[:, 1:]
     columns = {
         f"{part}_{coord}": column
         for part, coord, someone, column in zip(parts, coords, who, values.T, strict=True)
         if someone == wanted
     }
-    return columns_to_motion(source, "DeepLabCut", columns, options, limit=LIKELY)
+    return columns_to_motion(content, "DeepLabCut", columns, options, limit=LIKELY)
 
 
-def _wanted(source: Source, individuals: list[str], person: str | None) -> str:
+def _wanted(content: FileContent, individuals: list[str], person: str | None) -> str:
     """The individual to read."""
     if person in individuals:
         return person
     shown = ", ".join(individuals[:8])
     if person is not None:
-        raise source.error(f"there is no person {person!r}: choose from {shown}")
+        raise content.error(f"there is no person {person!r}: choose from {shown}")
     if len(individuals) > 1:
-        raise source.error(
+        raise content.error(
             f"{len(individuals)} individuals are in it: choose one with person= (--person), "
             f"of {shown}"
         )

@@ -29,10 +29,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.files import Source, warn
-from kineme.formats.keypoints.keypoints import Person, Video, video_to_motion
+from kineme.formats.files import FileContent
+from kineme.formats.keypoints.video import Person, Video, video_to_motion
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
@@ -62,7 +62,7 @@ def is_mediapipe(data: Any) -> bool:
     )
 
 
-def read_mediapipe(source: Source, data: Any, options: ReadOptions) -> Motion:
+def read_mediapipe(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """The motion of one person's landmarks."""
     frames = _frames(data)
     world = any(_poses(frame, world=True) for _, frame in frames)
@@ -72,18 +72,18 @@ def read_mediapipe(source: Source, data: Any, options: ReadOptions) -> Motion:
         number = _found(frame, _NUMBER) if isinstance(frame, Mapping) else None
         numbers.append(number if isinstance(number, int) else i)
         poses = _poses(frame, world=world)
-        people += [Person(numbers[-1], *_landmarks(source, i, pose)) for pose in poses]
+        people += [Person(numbers[-1], *_landmarks(content, i, pose)) for pose in poses]
     head = data if isinstance(data, Mapping) else {}
     fps = _found(head, ("fps", "framerate", "frame_rate"))
     size = [_found(head, (side, f"image{side}", f"frame{side}")) for side in ("width", "height")]
     return landmarks_to_motion(
-        source, people, options, world=world or None, fps=_positive(fps),
+        content, people, options, world=world or None, fps=_positive(fps),
         size=tuple(map(_positive, size)), frames=numbers,
     )  # fmt: skip
 
 
 def landmarks_to_motion(
-    source: Source,
+    content: FileContent,
     people: Sequence[Person],
     options: ReadOptions,
     *,
@@ -112,7 +112,7 @@ def landmarks_to_motion(
         video = Video(
             "MediaPipe", NAMES, people, SURE, fps=fps, frames=frames, unit="m", notes=[*notes, said]
         )
-        return video_to_motion(source, video, options)
+        return video_to_motion(content, video, options)
     width, height = size
     notes = list(notes)
     scaled = list(people)
@@ -121,15 +121,17 @@ def landmarks_to_motion(
     if largest < 4:  # shares of the image, and not pixels
         if not (width and height):
             width = height = 1.0
-            notes.append("landmarks are shares of an image of unknown shape, taken as square")
-            warn(f"{source.path}: {notes[-1]}: multiply x and z by width / height, if it was not")
+            content.warn(
+                "landmarks are shares of an image of unknown shape, taken as square: multiply x "
+                "and z by width / height, if it was not"
+            )
         by = np.array([width, height, width])
         scaled = [
             Person(p.frame, (np.asarray(p.points) * by[: len(p.points[0])]).tolist(), p.sure, p.who)
             for p in people
         ]
     video = Video("MediaPipe", NAMES, scaled, SURE, fps=fps, frames=frames, notes=notes)
-    return video_to_motion(source, video, options)
+    return video_to_motion(content, video, options)
 
 
 def _frames(data: Any) -> list[tuple[int, Any]]:
@@ -185,7 +187,7 @@ def _by_name(frame: Mapping[str, Any]) -> list[Any]:
 
 
 def _landmarks(
-    source: Source, frame: int, pose: list[Any]
+    content: FileContent, frame: int, pose: list[Any]
 ) -> tuple[list[list[float]], list[float]]:
     points, sure = [], []
     for mark in pose:
@@ -198,7 +200,7 @@ def _landmarks(
             points.append([float(x), float(y), float(z or 0.0)])
             sure.append(1.0 if seen is None else float(seen))
         except (TypeError, ValueError, OverflowError):
-            raise source.error(f"frame {frame} has a landmark that is no numbers") from None
+            raise content.error(f"frame {frame} has a landmark that is no numbers") from None
     return points, sure
 
 

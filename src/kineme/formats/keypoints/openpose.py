@@ -25,8 +25,8 @@ from typing import Any
 import numpy as np
 
 from kineme.errors import ReadError
-from kineme.formats.files import Source, head_of, load
-from kineme.formats.keypoints.keypoints import (
+from kineme.formats.files import FileContent, head_of, load
+from kineme.formats.keypoints.video import (
     Person,
     Video,
     in_groups,
@@ -34,7 +34,7 @@ from kineme.formats.keypoints.keypoints import (
     video_to_motion,
 )
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 SURE = 0.3
 
@@ -58,11 +58,11 @@ def is_openpose(data: Any) -> bool:
     return any(isinstance(frame, Mapping) and "people" in frame for _, frame in _frames(data))
 
 
-def read_openpose(source: Source, data: Any, options: ReadOptions) -> Motion:
+def read_openpose(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """The motion of one person in OpenPose's frames."""
     frames = _frames(data)
-    people = [person for number, frame in frames for person in _found(source, number, frame)]
-    return _to_motion(source, people, options, [number for number, _ in frames])
+    people = [person for number, frame in frames for person in _found(content, number, frame)]
+    return _to_motion(content, people, options, [number for number, _ in frames])
 
 
 def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
@@ -78,14 +78,14 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
     people: list[Person] = []
     digest: list[bytes] = []
     for number, file in numbered:
-        source = load(file)
-        data = parsed_json(source)
+        content = load(file)
+        data = parsed_json(content)
         if not is_openpose(data):
-            raise source.error("no 'people' in it: is it one of OpenPose's files?")
-        people += _found(source, number, data)
-        digest.append(source.data)
-    source = Source(path, b"".join(digest))
-    return _to_motion(source, people, options, [number for number, _ in numbered])
+            raise content.error("no 'people' in it: is it one of OpenPose's files?")
+        people += _found(content, number, data)
+        digest.append(content.data)
+    content = FileContent(path, b"".join(digest))
+    return _to_motion(content, people, options, [number for number, _ in numbered])
 
 
 def frame_files(folder: Path) -> list[tuple[int, Path]]:
@@ -128,26 +128,26 @@ def _is_number(key: object) -> bool:
     return isinstance(key, str) and key.isdecimal() and len(key) < 19
 
 
-def _found(source: Source, number: int, frame: Any) -> list[Person]:
+def _found(content: FileContent, number: int, frame: Any) -> list[Person]:
     people = frame.get("people") if isinstance(frame, Mapping) else None
     if not isinstance(people, list):
-        raise source.error(f"frame {number} has no list of 'people'")
-    return [_person(source, number, person) for person in people]
+        raise content.error(f"frame {number} has no list of 'people'")
+    return [_person(content, number, person) for person in people]
 
 
-def _person(source: Source, number: int, person: Any) -> Person:
+def _person(content: FileContent, number: int, person: Any) -> Person:
     if not isinstance(person, Mapping):
-        raise source.error(f"frame {number} has a person without keypoints")
+        raise content.error(f"frame {number} has a person without keypoints")
     for key, width in _KEYS.items():
         if person.get(key):
-            groups = in_groups(source, person[key], width)
+            groups = in_groups(content, person[key], width)
             return Person(
                 number,
                 groups[:, :-1].tolist(),
                 groups[:, -1].tolist(),
                 _id(person.get("person_id")),
             )
-    raise source.error(f"frame {number} has a person without {', '.join(_KEYS)}")
+    raise content.error(f"frame {number} has a person without {', '.join(_KEYS)}")
 
 
 def _id(value: Any) -> str | None:
@@ -157,7 +157,7 @@ def _id(value: Any) -> str | None:
 
 
 def _to_motion(
-    source: Source, people: list[Person], options: ReadOptions, frames: list[int]
+    content: FileContent, people: list[Person], options: ReadOptions, frames: list[int]
 ) -> Motion:
     in_space = [person for person in people if np.shape(person.points)[1:] == (3,)]
     people = in_space or people  # others are in one view only, in pixels
@@ -165,9 +165,9 @@ def _to_motion(
     for count in counts:
         if count not in NAMES:
             known = ", ".join(map(str, NAMES))
-            raise source.error(f"a person has {count} keypoints: {known} are known")
+            raise content.error(f"a person has {count} keypoints: {known} are known")
     names = NAMES[max(counts, default=25)]
     video = Video("OpenPose", names, people, SURE, frames=frames)
     if in_space:
         video = replace(video, unit=None, up=None)
-    return video_to_motion(source, video, options)
+    return video_to_motion(content, video, options)

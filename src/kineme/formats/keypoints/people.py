@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -43,7 +43,9 @@ class Detections:
     who: Sequence[str | None]
 
 
-def rows_of_person(source: Source, found: Detections, person: str | None) -> tuple[Rows, list[str]]:
+def rows_of_person(
+    content: FileContent, found: Detections, person: str | None
+) -> tuple[Rows, list[str]]:
     """The rows of the person wanted, or of the only one; and what was done.
 
     Raises
@@ -52,10 +54,10 @@ def rows_of_person(source: Source, found: Detections, person: str | None) -> tup
     """
     people = _people(found)
     if not people:
-        raise source.error("nobody is found in any frame")
+        raise content.error("nobody is found in any frame")
     if person is not None:
         if person not in people:
-            raise source.error(
+            raise content.error(
                 f"there is no person {person!r}: choose from {_shown(people, found)}"
             )
         notes = [f"person {person} of {len(people)}"] if len(people) > 1 else []
@@ -63,7 +65,7 @@ def rows_of_person(source: Source, found: Detections, person: str | None) -> tup
     most = max(map(len, people.values()))
     staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * most}
     if len(staying) > 1:
-        raise source.error(
+        raise content.error(
             f"{len(staying)} people are in it: choose one with person= (--person), "
             f"of {_shown(staying, found)}"
         )

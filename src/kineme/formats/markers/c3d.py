@@ -7,7 +7,8 @@ were markers (angles, forces, moments, powers: the groups that
 are left out. Events and the number of the first frame go into the provenance.
 
 Times count from the file's first frame, not from the start of the capture.
-Analog channels are no part of a motion: `parse_c3d` gives them.
+Analog channels are no part of a motion: they are read as signals where they are
+asked for, see `kineme.formats.markers.c3d_analog`.
 """
 
 from __future__ import annotations
@@ -15,27 +16,30 @@ from __future__ import annotations
 import re
 
 from kineme.errors import ReadError
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
+from kineme.formats.markers.c3d_analog import read_analog
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.units import AXES, unit_named
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion, Signals
 
 _MODELLED = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
 _NAMELESS = re.compile(r"\*.*|unlabel+ed.*|c_\d{3,}|\d+", re.IGNORECASE)
 
 
-def read_c3d(source: Source, options: ReadOptions) -> Motion:
-    """The motion of the markers in a C3D file."""
-    file = parse_c3d(source)
+def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
+    """The motion of the markers in a C3D file, or its analog channels if they are asked for."""
+    if options.channels:
+        return read_analog(content, options)
+    file = parse_c3d(content)
     fps = options.fps or file.rate
     if not fps:
-        raise source.error("the file has no frame rate: give fps= (--fps)")
+        raise content.error("the file has no frame rate: give fps= (--fps)")
     notes = []
     markers, left_out = _markers(file)
     if not markers:
-        raise ReadError(source.path, f"none of its {len(file.labels)} points is a named marker")
+        raise ReadError(content.path, f"none of its {len(file.labels)} points is a named marker")
     if left_out:
         notes.append(
             f"{left_out} of {len(file.labels)} points left out: modelled or without a name"
@@ -56,7 +60,7 @@ def read_c3d(source: Source, options: ReadOptions) -> Motion:
         up=options.up or _up(file),
         usual_up="z",
     )
-    return to_motion(points, source.provenance("C3D", notes).marked(file.events))
+    return to_motion(points, content.provenance("C3D", notes).marked(file.events))
 
 
 def _markers(file: C3D) -> tuple[list[int], int]:
@@ -81,4 +85,10 @@ def _up(file: C3D) -> str | None:
     return axis if axis in AXES else None
 
 
-FORMAT = Format("C3D", (".c3d",), lambda head: head[1:2] == b"\x50" and 0 < head[0] < 128, read_c3d)
+FORMAT = Format(
+    "C3D",
+    (".c3d",),
+    lambda head: head[1:2] == b"\x50" and 0 < head[0] < 128,
+    read_c3d,
+    channels=True,
+)

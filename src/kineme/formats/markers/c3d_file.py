@@ -30,7 +30,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.files import Source, warn
+from kineme.formats.files import FileContent
 from kineme.formats.markers.c3d_parameters import (
     BLOCK,
     Parameters,
@@ -90,15 +90,15 @@ class C3D:
     parameters: Parameters
 
 
-def parse_c3d(source: Source) -> C3D:
+def parse_c3d(content: FileContent) -> C3D:
     """The contents of a C3D file.
 
     Raises
     ------
     ReadError : it is no C3D file, or holds less than one frame
     """
-    parameters = read_parameters(source)
-    file = _File(source, parameters, _header(source, parameters))
+    parameters = read_parameters(content)
+    file = _File(content, parameters, _header(content, parameters))
     raw = file.frames()
     n = file.n_points
     points, seen = _points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
@@ -120,7 +120,7 @@ def parse_c3d(source: Source) -> C3D:
 
 @dataclass(frozen=True)
 class _File:
-    source: Source
+    content: FileContent
     parameters: Parameters
     header: Header
 
@@ -146,19 +146,19 @@ class _File:
         block = self.header.data_block or int(self.parameters.number("POINT", "DATA_START", 0))
         width = 4 * self.n_points + self.header.analog_per_frame
         if block < 2 or width == 0:
-            raise self.source.error("the header names no place for the data, or no points in it")
+            raise self.content.error("the header names no place for the data, or no points in it")
         kind = number_type(self.parameters.processor, real=self.scale < 0)
         start = (block - 1) * BLOCK
-        room = max(len(self.source.data) - start, 0) // (width * kind.itemsize)
+        room = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
         declared = self._declared_frames()
         n = max((frames for frames in declared if 0 < frames <= room), default=room)
         if n == 0:
-            raise self.source.error(
+            raise self.content.error(
                 f"less than one frame of {self.n_points} points: the file is truncated"
             )
         if n not in declared:
-            warn(f"{self.source.path}: {max(declared)} frames declared, {n} found and kept")
-        raw = np.frombuffer(self.source.data, kind, n * width, start).reshape(n, width)
+            self.content.warn(f"{max(declared)} frames declared, {n} found and kept")
+        raw = np.frombuffer(self.content.data, kind, n * width, start).reshape(n, width)
         return as_float32(raw, self.parameters.processor) if self.scale < 0 else raw
 
     def _declared_frames(self) -> set[int]:
@@ -213,7 +213,7 @@ class _File:
         return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
 
     def _header_events(self) -> list[tuple[float, str]]:
-        data, kind = self.source.data, self.parameters.processor
+        data, kind = self.content.data, self.parameters.processor
         marker, n = np.frombuffer(data, number_type(kind, real=False), 2, 2 * 149).tolist()
         if marker != _HEADER_EVENTS:
             return []
@@ -223,11 +223,11 @@ class _File:
         return list(zip(times, labels, strict=True))[: max(n, 0)]
 
 
-def _header(source: Source, parameters: Parameters) -> Header:
+def _header(content: FileContent, parameters: Parameters) -> Header:
     kind = parameters.processor
-    words = np.frombuffer(source.data, number_type(kind, real=False), 12)
+    words = np.frombuffer(content.data, number_type(kind, real=False), 12)
     words = words.view(words.dtype.str.replace("i", "u"))
-    reals = np.frombuffer(source.data, number_type(kind, real=True), 6)
+    reals = np.frombuffer(content.data, number_type(kind, real=True), 6)
     scale, rate = as_float32(reals, kind)[[3, 5]].tolist()
     _, points, analog, first, last, _, _, _, block, per_frame, _, _ = words.tolist()
     return Header(points, analog, first, last, scale, block, per_frame, rate)

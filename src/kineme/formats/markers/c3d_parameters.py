@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 
 BLOCK = 512
 INTEL, DEC, MIPS = 84, 85, 86
@@ -24,7 +24,7 @@ INTEL, DEC, MIPS = 84, 85, 86
 class Parameters:
     """The values of a C3D file by group and name, both in upper case."""
 
-    source: Source
+    content: FileContent
     processor: int
     places: dict[tuple[str, str], int]
 
@@ -59,7 +59,7 @@ class Parameters:
     def _stored(self, group: str, name: str) -> tuple[int, list[int], bytes]:
         """Type, dimensions and bytes of a parameter; nothing where it is not whole."""
         at = self.places.get((group, name))
-        data = self.source.data
+        data = self.content.data
         if at is None or at + 2 > len(data):
             return 0, [], b""
         kind = int.from_bytes(data[at : at + 1], signed=True)
@@ -71,20 +71,20 @@ class Parameters:
         return kind, shape, data[start : start + size]
 
 
-def read_parameters(source: Source) -> Parameters:
+def read_parameters(content: FileContent) -> Parameters:
     """Where each parameter of the file is.
 
     Raises
     ------
     ReadError : there is no parameter section, or its processor is unknown
     """
-    data = source.data
+    data = content.data
     start = (max(data[0], 1) - 1) * BLOCK if data else 0
     if len(data) < max(start + 4, BLOCK):
-        raise source.error("the file ends before its parameters: it is truncated, or no C3D file")
+        raise content.error("the file ends before its parameters: it is truncated, or no C3D file")
     processor = data[start + 3]
     if processor not in (INTEL, DEC, MIPS):
-        raise source.error(
+        raise content.error(
             f"processor type {processor} is none of Intel ({INTEL}), DEC ({DEC}) and MIPS "
             f"({MIPS}): the file is damaged, or no C3D file"
         )
@@ -108,7 +108,7 @@ def read_parameters(source: Source) -> Parameters:
             break
         at = way + step
     places = {(groups.get(group, ""), name): place for group, name, place in found}
-    return Parameters(source, processor, places)
+    return Parameters(content, processor, places)
 
 
 def number_type(processor: int, *, real: bool) -> np.dtype[Any]:

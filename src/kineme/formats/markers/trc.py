@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.formats.delimited import rows_of, separator_of
-from kineme.formats.files import Source, numbers, save, unique, warn
+from kineme.formats.files import FileContent, numbers, save, unique
 from kineme.formats.gaps import split_at, unseen
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.timing import Timing, timing_of
 from kineme.formats.units import unit_named
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
@@ -29,25 +29,27 @@ _MM = 0.001
 _HEADER_LINES = 5
 
 
-def read_trc(source: Source, options: ReadOptions) -> Motion:
+def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of the markers in a TRC file."""
-    lines = source.text.splitlines()
+    lines = content.text.splitlines()
     if len(lines) <= _HEADER_LINES:
-        raise source.error("the file ends within its five header lines: there is no motion")
+        raise content.error("the file ends within its five header lines: there is no motion")
     separator = separator_of(lines[3])
     names = _names(lines[3].split(separator)[2:])
     if not names:
-        raise source.error("no marker is named after 'Frame#' and 'Time'", 4)
-    table = rows_of(source, lines[_HEADER_LINES:], _HEADER_LINES + 1, separator, 2 + 3 * len(names))
+        raise content.error("no marker is named after 'Frame#' and 'Time'", 4)
+    table = rows_of(
+        content, lines[_HEADER_LINES:], _HEADER_LINES + 1, separator, 2 + 3 * len(names)
+    )
     head = _header(lines[1], lines[2], separator_of(lines[1]))
     declared = head.get("NumFrames", "")
     if declared.isdigit() and int(declared) != len(table):
-        warn(f"{source.path}, line 3: {declared} frames declared, {len(table)} found and kept")
+        content.warn(f"{declared} frames declared, {len(table)} found and kept", 3)
     positions = table[:, 2:].reshape(len(table), -1, 3)
-    timing = _rate(source, options, head, table[:, 1])
+    timing = _rate(content, options, head, table[:, 1])
     unit = options.unit or unit_named(head.get("Units", ""))
     points = Points(names, positions, timing.fps, unit, options.up)
-    return split_at(to_motion(points, source.provenance("TRC", timing.notes)), timing.gaps)
+    return split_at(to_motion(points, content.provenance("TRC", timing.notes)), timing.gaps)
 
 
 def write_trc(motion: Motion, path: Path) -> None:
@@ -86,7 +88,9 @@ def _header(keys: str, values: str, separator: str) -> dict[str, str]:
     return {key.strip(): value.strip() for key, value in pairs}
 
 
-def _rate(source: Source, options: ReadOptions, head: dict[str, str], times: Floats) -> Timing:
+def _rate(
+    content: FileContent, options: ReadOptions, head: dict[str, str], times: Floats
+) -> Timing:
     if options.fps:
         return Timing(options.fps)
     try:
@@ -95,12 +99,12 @@ def _rate(source: Source, options: ReadOptions, head: dict[str, str], times: Flo
         declared = 0.0
     if declared > 0 and (len(times) < 2 or np.isnan(times).any()):
         return Timing(declared)
-    timing = timing_of(source, times)
+    timing = timing_of(content, times)
     fps = timing.fps
     if abs(fps - declared) <= 0.005 * fps:
         return timing._replace(fps=declared)
     if declared > 0:
-        warn(f"{source.path}: DataRate is {declared:g}, but the times are {fps:g} Hz apart: taken")
+        content.warn(f"DataRate is {declared:g}, but the times are {fps:g} Hz apart: taken")
     return timing
 
 

@@ -24,12 +24,12 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme.errors import ReadError
-from kineme.formats.files import Source, load, numbers, warn
+from kineme.formats.files import FileContent, load, numbers
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.skeletons.amc_writer import write_amc
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
 from kineme.formats.units import metres, place
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
@@ -40,17 +40,19 @@ _COMMENT = re.compile(rb"^[ \t]*#.*$", re.MULTILINE)
 _FIRST_FRAME = re.compile(rb"^[ \t]*\d+[ \t]*\r?$", re.MULTILINE)
 
 
-def read_amc(source: Source, options: ReadOptions) -> Motion:
+def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of an AMC file on the skeleton of its ASF."""
-    asf = options.skeleton or find_skeleton(source.path)
+    asf = options.skeleton or find_skeleton(content.path)
     figure = read_asf(load(asf), None if options.unit is None else metres(options.unit))
-    start = _FIRST_FRAME.search(source.data)
+    start = _FIRST_FRAME.search(content.data)
     if start is None:
-        raise source.error("no frame found: an AMC has a line with a number before each")
-    head = source.data[: start.start()]
+        raise content.error("no frame found: an AMC has a line with a number before each")
+    head = content.data[: start.start()]
     said = [word.lower() for word in _KEYWORD.findall(head)]
     turn = 1.0 if b"radians" in said else radians(1) if b"degrees" in said else figure.turn
-    values = _quickly(source, start.start(), figure) or _line_by_line(source, start.start(), figure)
+    values = _quickly(content, start.start(), figure) or _line_by_line(
+        content, start.start(), figure
+    )
     notes = [f"skeleton from {asf}"]
     fps = options.fps or _written_rate(head)
     if fps is None:
@@ -62,7 +64,7 @@ def read_amc(source: Source, options: ReadOptions) -> Motion:
         fps,
         unit="m",
         up=options.up or "y",
-        provenance=source.provenance("AMC", notes),
+        provenance=content.provenance("AMC", notes),
     )
 
 
@@ -136,9 +138,9 @@ def _local(values: dict[str, Floats], figure: Figure, turn: float) -> tuple[Floa
     return rotations.transpose(2, 0, 1), translations.transpose(2, 0, 1)
 
 
-def _quickly(source: Source, start: int, figure: Figure) -> dict[str, Floats] | None:
+def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floats] | None:
     """Each bone's values, (frames, dofs), if every frame is laid out as the first, else None."""
-    body = source.data[start:]
+    body = content.data[start:]
     words = (_COMMENT.sub(b"", body) if b"#" in body else body).split()
     columns: dict[str, int] = {}
     at = 1
@@ -167,7 +169,7 @@ def _quickly(source: Source, start: int, figure: Figure) -> dict[str, Floats] | 
     return values if finite else None
 
 
-def _line_by_line(source: Source, start: int, figure: Figure) -> dict[str, Floats]:
+def _line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
     """As `_quickly`, for any layout, and with an error that names the line.
 
     A fault in the very last line, or bones missing from the last frame, is
@@ -175,8 +177,8 @@ def _line_by_line(source: Source, start: int, figure: Figure) -> dict[str, Float
     Anything else that cannot be understood is an error.
     """
     frames: list[dict[str, list[float]]] = []
-    first = source.line_at(start)
-    lines = source.data[start:].rstrip().splitlines()
+    first = content.line_at(start)
+    lines = content.data[start:].rstrip().splitlines()
     last = first + len(lines) - 1
     began, label = first, 0
     fault: ReadError | None = None
@@ -186,30 +188,30 @@ def _line_by_line(source: Source, start: int, figure: Figure) -> dict[str, Float
             continue
         if len(words) == 1 and words[0].isdigit() and len(words[0]) < 19:
             if frames:
-                _check_complete(source, frames, began)
+                _check_complete(content, frames, began)
                 if int(words[0]) != label + 1:
-                    warn(f"{source.path}, line {number}: frame {int(words[0])} follows {label}")
+                    content.warn(f"frame {int(words[0])} follows {label}", number)
             began, label = number, int(words[0])
             frames.append({})
             continue
         try:
             _add_bone(frames[-1], words, figure)
         except ValueError as error:
-            fault = source.error(str(error), number)
+            fault = content.error(str(error), number)
             if number < last:
                 raise fault from None
     try:
-        _check_complete(source, frames, began)
+        _check_complete(content, frames, began)
     except ReadError as error:
         fault = fault or error
     if fault is not None:
         if len(frames) == 1:
             raise fault
         frames.pop()
-        warn(f"{fault}: the last frame is truncated and left out")
+        content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
     absent = [n for n, bone in figure.bones.items() if bone.dof and n not in frames[0]]
     if absent:
-        warn(f"{source.path}: no values for {', '.join(absent)}: taken to be 0")
+        content.warn(f"no values for {', '.join(absent)}: taken to be 0")
     return {
         name: np.array([frame.get(name, [0.0] * len(bone.dof)) for frame in frames])
         for name, bone in figure.bones.items()
@@ -231,20 +233,20 @@ def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure)
     frame[name] = values
 
 
-def _check_complete(source: Source, frames: list[dict[str, list[float]]], line: int) -> None:
+def _check_complete(content: FileContent, frames: list[dict[str, list[float]]], line: int) -> None:
     """ReadError if the newest frame is empty or lacks a bone that the first one has."""
     missing = [name for name in frames[0] if name not in frames[-1]]
     if missing or not frames[-1]:
-        raise source.error(f"a frame without {missing[0] if missing else 'any bone'}", line)
+        raise content.error(f"a frame without {missing[0] if missing else 'any bone'}", line)
 
 
 def _recognises(head: bytes) -> bool:
     return _KEYWORD.search(head) is not None
 
 
-def refuse_asf(source: Source, options: ReadOptions) -> Motion:  # noqa: ARG001
+def refuse_asf(content: FileContent, options: ReadOptions) -> Motion:  # noqa: ARG001
     """Nothing: a skeleton alone does not move."""
-    raise source.error("is a skeleton without a motion: give the AMC file that belongs to it")
+    raise content.error("is a skeleton without a motion: give the AMC file that belongs to it")
 
 
 SKELETON = Format("ASF", (".asf",), lambda _: False, refuse_asf)

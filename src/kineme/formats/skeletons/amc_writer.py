@@ -25,8 +25,8 @@ from kineme.formats.files import save, table, unique
 from kineme.formats.skeletons.asf import ROOT
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.formats.units import UNITS
+from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import local_translations
-from kineme.recordings.motion import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def write_amc(motion: Motion, path: Path) -> None:
         raise WriteError(path, "an AMC needs rotations, and this motion has positions only")
     if sum(parent < 0 for parent in motion.skeleton.parents) != 1:
         raise WriteError(path, "an AMC holds one figure, and this motion has several roots")
-    translations = local_translations(motion)
+    translations = local_translations(motion.skeleton, motion.positions, motion.rotations)
     slides = np.abs(translations - motion.skeleton.offsets).max(axis=(0, 2)) > RIGID
     moving = sorted(j for j in motion.skeleton.end_sites if slides[j])
     if moving:

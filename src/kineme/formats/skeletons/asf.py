@@ -26,9 +26,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.formats.files import Source, numbers
+from kineme.formats.files import FileContent, numbers
 from kineme.formats.units import INCH
-from kineme.recordings.motion import Skeleton
+from kineme.recordings import Skeleton
 
 Floats = NDArray[np.float64]
 Line = tuple[int, list[str]]
@@ -69,27 +69,27 @@ class Figure:
     turn: float
 
 
-def read_asf(source: Source, scale: float | None = None) -> Figure:
+def read_asf(content: FileContent, scale: float | None = None) -> Figure:
     """The figure in an ASF file; ``scale`` overrides its metres per unit."""
-    sections = _sections(source)
+    sections = _sections(content)
     for needed in ("root", "bonedata", "hierarchy"):
         if needed not in sections:
-            raise source.error(f"no :{needed} section, so this is not a whole ASF file")
+            raise content.error(f"no :{needed} section, so this is not a whole ASF file")
     units = {words[0].lower(): (n, words[1:]) for n, words in sections.get("units", [])}
     turn = 1.0 if units.get("angle", (0, ["deg"]))[1][:1] == ["rad"] else radians(1)
     if scale is None:
         scale = INCH
         if "length" in units:
             line, words = units["length"]
-            scale /= _values(source, line, words, 1, positive=True)[0]
-    bones = {ROOT: _root(source, sections["root"], turn)}
-    for block in _blocks(source, sections["bonedata"]):
-        bone = _bone(source, block, turn)
+            scale /= _values(content, line, words, 1, positive=True)[0]
+    bones = {ROOT: _root(content, sections["root"], turn)}
+    for block in _blocks(content, sections["bonedata"]):
+        bone = _bone(content, block, turn)
         if bone.name in bones:
-            raise source.error(f"a second bone is called {bone.name!r}", bone.line)
+            raise content.error(f"a second bone is called {bone.name!r}", bone.line)
         bones[bone.name] = bone
-    parents = _parents(source, sections["hierarchy"], bones)
-    order = _from_root(source, parents, bones)
+    parents = _parents(content, sections["hierarchy"], bones)
+    order = _from_root(content, parents, bones)
     return Figure(
         {name: bones[name] for name in order}, _skeleton(order, parents, bones, scale), scale, turn
     )
@@ -99,14 +99,16 @@ def _skeleton(
     order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
 ) -> Skeleton:
     names: list[str] = []
+    at: dict[str, int] = {}
     above: list[int] = []
     offsets: list[Floats] = []
     ends = []
     inner = set(parents.values())
     for name in order:
         parent = parents.get(name)
-        above.append(-1 if parent is None else names.index(parent))
+        above.append(-1 if parent is None else at[parent])
         offsets.append(np.zeros(3) if parent is None else bones[parent].tip)
+        at[name] = len(names)
         names.append(name)
         if name not in inner and bones[name].tip.any():
             above.append(len(names) - 1)
@@ -116,11 +118,11 @@ def _skeleton(
     return Skeleton(tuple(names), tuple(above), scale * np.array(offsets), frozenset(ends))
 
 
-def _sections(source: Source) -> dict[str, list[Line]]:
+def _sections(content: FileContent) -> dict[str, list[Line]]:
     """The lines of each section as words, comments and blank lines left out."""
     sections: dict[str, list[Line]] = {}
     current: list[Line] = []
-    for number, line in enumerate(source.text.splitlines(), 1):
+    for number, line in enumerate(content.text.splitlines(), 1):
         words = line.split("#")[0].translate(_BLANKS).split()
         if not words:
             continue
@@ -132,17 +134,17 @@ def _sections(source: Source) -> dict[str, list[Line]]:
     return sections
 
 
-def _blocks(source: Source, lines: list[Line]) -> Iterator[list[Line]]:
+def _blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line]]:
     """The lines between each ``begin`` and ``end``."""
     block: list[Line] | None = None
     for number, words in lines:
         key = words[0].lower()
         if key == "begin":
             if block is not None:
-                raise source.error("'begin' inside a bone: an 'end' is missing", number)
+                raise content.error("'begin' inside a bone: an 'end' is missing", number)
             block = []
         elif block is None:
-            raise source.error(f"{words[0]!r} stands outside 'begin' and 'end'", number)
+            raise content.error(f"{words[0]!r} stands outside 'begin' and 'end'", number)
         elif key == "end":
             if block:
                 yield block
@@ -150,79 +152,79 @@ def _blocks(source: Source, lines: list[Line]) -> Iterator[list[Line]]:
         else:
             block.append((number, words))
     if block is not None:
-        raise source.error("the last bone has no 'end': the file is truncated", lines[-1][0])
+        raise content.error("the last bone has no 'end': the file is truncated", lines[-1][0])
 
 
-def _bone(source: Source, block: list[Line], turn: float) -> Bone:
+def _bone(content: FileContent, block: list[Line], turn: float) -> Bone:
     entries = {words[0].lower(): (n, words[1:]) for n, words in block}
     first = block[0][0]
     for needed in ("name", "direction", "length"):
         if needed not in entries:
-            raise source.error(f"a bone without {needed!r}", first)
+            raise content.error(f"a bone without {needed!r}", first)
     line, words = entries["name"]
     if len(words) != 1:
-        raise source.error("a bone's name must be one word", line)
+        raise content.error("a bone's name must be one word", line)
     bone = Bone(words[0], line=line)
-    bone.direction = np.array(_values(source, *entries["direction"], 3))
-    bone.length = _values(source, *entries["length"], 1)[0]
+    bone.direction = np.array(_values(content, *entries["direction"], 3))
+    bone.length = _values(content, *entries["length"], 1)[0]
     if "axis" in entries:
-        bone.frame = _frame(source, *entries["axis"], turn)
+        bone.frame = _frame(content, *entries["axis"], turn)
     if "dof" in entries:
-        bone.dof = _dof(source, *entries["dof"])
+        bone.dof = _dof(content, *entries["dof"])
     return bone
 
 
-def _root(source: Source, lines: list[Line], turn: float) -> Bone:
+def _root(content: FileContent, lines: list[Line], turn: float) -> Bone:
     entries = {words[0].lower(): (n, words[1:]) for n, words in lines}
     root = Bone(ROOT, dof=("tx", "ty", "tz", "rx", "ry", "rz"))
     if "order" in entries:
-        root.dof = _dof(source, *entries["order"])
+        root.dof = _dof(content, *entries["order"])
     if "position" in entries:
-        root.position = np.array(_values(source, *entries["position"], 3))
+        root.position = np.array(_values(content, *entries["position"], 3))
     if "orientation" in entries:
         line, words = entries["orientation"]
         letters = entries.get("axis", (0, ["xyz"]))[1]
-        root.frame = _frame(source, line, words[:3] + letters, turn)
+        root.frame = _frame(content, line, words[:3] + letters, turn)
     return root
 
 
-def _frame(source: Source, line: int, words: list[str], turn: float) -> Floats:
+def _frame(content: FileContent, line: int, words: list[str], turn: float) -> Floats:
     letters = (words[3] if len(words) > 3 else "xyz").lower()
     if sorted(letters) != ["x", "y", "z"]:
-        raise source.error(f"axis order {letters!r} is not made of X, Y and Z", line)
-    angles = dict(zip("xyz", _values(source, line, words[:3], 3), strict=True))
+        raise content.error(f"axis order {letters!r} is not made of X, Y and Z", line)
+    angles = dict(zip("xyz", _values(content, line, words[:3], 3), strict=True))
     inner_first = letters[::-1]
     turns = np.array([[turn * angles[letter] for letter in inner_first]])
     frame: Floats = rot.from_euler(turns, inner_first)[0]
     return frame
 
 
-def _dof(source: Source, line: int, words: list[str]) -> tuple[str, ...]:
+def _dof(content: FileContent, line: int, words: list[str]) -> tuple[str, ...]:
     dof = tuple(word.lower() for word in words)
     for word in dof:
         if word not in ("tx", "ty", "tz", "rx", "ry", "rz"):
-            raise source.error(f"degree of freedom {word!r} is not one of tx ty tz rx ry rz", line)
+            raise content.error(f"degree of freedom {word!r} is not one of tx ty tz rx ry rz", line)
     if len(set(dof)) != len(dof):
-        raise source.error("a degree of freedom is named twice", line)
+        raise content.error("a degree of freedom is named twice", line)
     return dof
 
 
-def _parents(source: Source, lines: list[Line], bones: dict[str, Bone]) -> dict[str, str]:
+def _parents(content: FileContent, lines: list[Line], bones: dict[str, Bone]) -> dict[str, str]:
     parents: dict[str, str] = {}
     for number, (parent, *children) in lines:
         if not children and parent.lower() in ("begin", "end"):
             continue
         for name in (parent, *children):
             if name not in bones:
-                raise source.error(f"bone {name!r} is not in :bonedata", number)
+                raise content.error(f"bone {name!r} is not in :bonedata", number)
         for name in children:
             if name in parents or name == ROOT:
-                raise source.error(f"bone {name!r} has a second parent, {parent!r}", number)
+                raise content.error(f"bone {name!r} has a second parent, {parent!r}", number)
             parents[name] = parent
     return parents
 
 
-def _from_root(source: Source, parents: dict[str, str], bones: dict[str, Bone]) -> list[str]:
+def _from_root(content: FileContent, parents: dict[str, str], bones: dict[str, Bone]) -> list[str]:
     """Bones depth first, siblings in the order of the hierarchy."""
     children: dict[str, list[str]] = {name: [] for name in bones}
     for name, parent in parents.items():
@@ -231,9 +233,10 @@ def _from_root(source: Source, parents: dict[str, str], bones: dict[str, Bone]) 
     while waiting:
         order.append(waiting.pop())
         waiting.extend(reversed(children[order[-1]]))
-    lost = [name for name in bones if name not in set(order)]
+    reached = set(order)
+    lost = [name for name in bones if name not in reached]
     if lost:
-        raise source.error(
+        raise content.error(
             f"bone {lost[0]!r} does not hang on the root: its line in :hierarchy is missing "
             "or runs in a circle"
         )
@@ -241,13 +244,13 @@ def _from_root(source: Source, parents: dict[str, str], bones: dict[str, Bone]) 
 
 
 def _values(
-    source: Source, line: int, words: list[str], count: int, *, positive: bool = False
+    content: FileContent, line: int, words: list[str], count: int, *, positive: bool = False
 ) -> list[float]:
     try:
         values = numbers(words)
     except ValueError as error:
-        raise source.error(str(error), line) from None
+        raise content.error(str(error), line) from None
     if len(values) != count or (positive and min(values) <= 0):
         kind = "positive " if positive else ""
-        raise source.error(f"{count} {kind}number(s) expected, found {' '.join(words)!r}", line)
+        raise content.error(f"{count} {kind}number(s) expected, found {' '.join(words)!r}", line)
     return values

@@ -28,12 +28,12 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme.errors import ReadError
-from kineme.formats.files import Source, numbers, warn
+from kineme.formats.files import FileContent, numbers
 from kineme.formats.registry import Format, ReadOptions
 from kineme.formats.skeletons.bvh_hierarchy import Joint, read_joints
 from kineme.formats.skeletons.bvh_writer import write_bvh
 from kineme.formats.units import place, rate_from_period
-from kineme.recordings.motion import Motion, Skeleton
+from kineme.recordings import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 
@@ -42,44 +42,43 @@ _GLUED = re.compile(rb"(?<=[0-9.])-")
 _HEADER = re.compile(rb"[ \t]*(\d{1,18})\s+Frame\s*Time\s*:[ \t]*(\S*)[^\r\n]*", re.IGNORECASE)
 
 
-def read_bvh(source: Source, options: ReadOptions) -> Motion:
+def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of a BVH file."""
-    split = _MOTION.search(source.data)
+    split = _MOTION.search(content.data)
     if split is None:
-        raise source.error("no MOTION section with 'Frames:', so this is not a whole BVH file")
-    joints = read_joints(source, split.start())
-    line = source.line_at(split.end() - 1)
-    header = _HEADER.match(source.data, split.end())
+        raise content.error("no MOTION section with 'Frames:', so this is not a whole BVH file")
+    joints = read_joints(content, split.start())
+    line = content.line_at(split.end() - 1)
+    header = _HEADER.match(content.data, split.end())
     if header is None:
-        raise source.error("'Frames:' is not followed by a number and 'Frame Time:'", line)
+        raise content.error("'Frames:' is not followed by a number and 'Frame Time:'", line)
     declared = int(header.group(1))
     notes: list[str] = []
     fps = options.fps
     if fps is None:
-        fps, note = _rate(source, header.group(2), source.line_at(header.start(2)))
+        fps, note = _rate(content, header.group(2), content.line_at(header.start(2)))
         notes += [note] if note else []
-    values = _frames(source, header.end(), sum(len(joint.channels) for joint in joints), declared)
+    values = _frames(content, header.end(), sum(len(joint.channels) for joint in joints), declared)
     if len(values) != declared:
-        warn(
-            f"{source.path}, line {line}: {declared} frames declared, {len(values)} found and kept"
-        )
+        content.warn(f"{declared} frames declared, {len(values)} found and kept", line)
     return place(
         _skeleton(joints),
         *_local(joints, values),
         fps,
         unit=options.unit,
         up=options.up,
-        provenance=source.provenance("BVH", notes),
+        provenance=content.provenance("BVH", notes),
     )
 
 
 def _skeleton(joints: list[Joint]) -> Skeleton:
     parents = tuple(joint.parent for joint in joints)
+    inner = set(parents)
     return Skeleton(
         tuple(joint.name for joint in joints),
         parents,
         np.array([joint.offset for joint in joints]),
-        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in parents),
+        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
     )
 
 
@@ -105,17 +104,17 @@ def _local(joints: list[Joint], values: Floats) -> tuple[Floats, Floats]:
     return rotations.transpose(2, 0, 1), translations.transpose(2, 0, 1)
 
 
-def _rate(source: Source, word: bytes, line: int) -> tuple[float, str | None]:
+def _rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:
     try:
         (period,) = numbers([word])
     except ValueError as error:
-        raise source.error(f"Frame Time: {error}; give fps= (--fps)", line) from None
+        raise content.error(f"Frame Time: {error}; give fps= (--fps)", line) from None
     if not 1e-6 < period < 1e6:
-        raise source.error(f"Frame Time is {period:g} s: give fps= (--fps)", line)
+        raise content.error(f"Frame Time is {period:g} s: give fps= (--fps)", line)
     return rate_from_period(word.decode())
 
 
-def _frames(source: Source, start: int, width: int, declared: int) -> Floats:
+def _frames(content: FileContent, start: int, width: int, declared: int) -> Floats:
     """Channel values, (frames, width).
 
     Nearly every file has one line per frame; its last may break off, which is
@@ -123,9 +122,9 @@ def _frames(source: Source, start: int, width: int, declared: int) -> Floats:
     if exactly the declared frames come of it.
     """
     if width == 0:
-        raise source.error("no joint has a channel, so there is no motion")
-    first = source.line_at(start)
-    lines = source.data[start:].rstrip().splitlines()
+        raise content.error("no joint has a channel, so there is no motion")
+    first = content.line_at(start)
+    lines = content.data[start:].rstrip().splitlines()
     last = first + len(lines) - 1
     values = array("d")
     odd: list[tuple[int, int]] = []
@@ -136,7 +135,7 @@ def _frames(source: Source, start: int, width: int, declared: int) -> Floats:
             row, apart = _row(line)
             glued += apart
         except ValueError as error:
-            fault = source.error(str(error), number)
+            fault = content.error(str(error), number)
             if number < last:
                 raise fault from None
             break
@@ -145,16 +144,16 @@ def _frames(source: Source, start: int, width: int, declared: int) -> Floats:
             odd.append((number, len(row)))
     if odd and (fault or len(values) != width * declared):
         number, found = odd[0]
-        fault = source.error(f"{found} values, but the hierarchy has {width} channels", number)
+        fault = content.error(f"{found} values, but the hierarchy has {width} channels", number)
         if number < last or found > width:
             raise fault
         del values[-found:]
     if not values:
-        raise fault or source.error("the file ends before its first frame: there is no motion")
+        raise fault or content.error("the file ends before its first frame: there is no motion")
     if fault is not None:
-        warn(f"{fault}: the last frame is truncated and left out")
+        content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
     if glued:
-        warn(f"{source.path}: blanks before minus signs are missing in {glued} frames: put there")
+        content.warn(f"blanks before minus signs are missing in {glued} frames: put there")
     return np.array(values).reshape(-1, width)
 
 

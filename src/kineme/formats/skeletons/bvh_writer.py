@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.errors import WriteError
 from kineme.formats.files import save, table, unique
+from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
-from kineme.recordings.motion import Motion
 
 Floats = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ def write_bvh(motion: Motion, path: Path) -> None:
     if motion.rotations is None:
         raise WriteError(path, "a BVH needs rotations, and this motion has positions only")
     skeleton = motion.skeleton
-    translations = local_translations(motion)
+    translations = local_translations(motion.skeleton, motion.positions, motion.rotations)
     slides = np.abs(translations - skeleton.offsets).max(axis=(0, 2)) > RIGID
     slides |= np.array(skeleton.parents) < 0
     ends = {j for j in skeleton.end_sites if not slides[j]}

@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 
 from kineme.formats.columns import dated, is_timing, timed
 from kineme.formats.delimited import rows_of, texts_of
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
-from kineme.formats.keypoints.keypoints import Person, Video, video_to_motion
 from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion
+from kineme.formats.keypoints.video import Person, Video, video_to_motion
 from kineme.formats.registry import ReadOptions
 from kineme.formats.timing import Timing
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class PoseTable:
     separator : between cells
     """
 
-    source: Source
+    content: FileContent
     names: Sequence[str]
     lines: Sequence[str]
     first: int
@@ -67,7 +67,7 @@ class PoseTable:
         cells = next(csv.reader(self.lines[:1], delimiter=self.separator), [])
         dates = dated(self.names, cells)
         return rows_of(
-            self.source, self.lines, self.first, self.separator, width, columns, dates=dates
+            self.content, self.lines, self.first, self.separator, width, columns, dates=dates
         )
 
     def texts(self, column: int) -> list[str]:
@@ -112,16 +112,16 @@ def read_landmarks(table: PoseTable, options: ReadOptions) -> Motion:
     frames, clock = np.arange(len(rows)), Timing(options.fps or 0.0)
     if timing and not options.fps:
         columns = {table.names[i]: rows[:, len(at) + k] for k, i in enumerate(timing)}
-        clock = timed(table.source, columns, None)
+        clock = timed(table.content, columns, None)
     elif numbered is not None:
-        frames = _whole(table.source, rows[:, -1])
+        frames = _whole(table.content, rows[:, -1])
     people = [
         Person(frame, mark[:, :3].tolist(), mark[:, 3].tolist())
         for frame, mark in zip(frames.tolist(), marks, strict=True)
         if np.isfinite(mark[:, :2]).any()
     ]
     motion = landmarks_to_motion(
-        table.source,
+        table.content,
         people,
         options,
         fps=clock.fps or None,
@@ -138,8 +138,8 @@ def read_long(table: PoseTable, options: ReadOptions) -> Motion:
     which, numbered = _named(table.names, _LANDMARK), _named(table.names, _FRAME)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)][:1]
     rows = table.numbers([numbered or 0, *at.values(), *timing])
-    landmarks = _landmark_numbers(table.source, table.texts(which or 0)[: len(rows)])
-    frames, place = np.unique(_whole(table.source, rows[:, 0]), return_inverse=True)
+    landmarks = _landmark_numbers(table.content, table.texts(which or 0)[: len(rows)])
+    frames, place = np.unique(_whole(table.content, rows[:, 0]), return_inverse=True)
     marks = np.full((len(frames), len(NAMES), 4), np.nan)
     marks[..., 2:] = (0.0, 1.0)
     for k, field in enumerate(at, 1):
@@ -148,12 +148,12 @@ def read_long(table: PoseTable, options: ReadOptions) -> Motion:
     if timing and not fps:
         times = np.zeros(len(frames))
         times[place] = rows[:, -1]
-        fps = timed(table.source, {table.names[timing[0]]: times}, None).fps
+        fps = timed(table.content, {table.names[timing[0]]: times}, None).fps
     people = [
         Person(frame, mark[:, :3].tolist(), mark[:, 3].tolist())
         for frame, mark in zip(frames.tolist(), marks, strict=True)
     ]
-    return landmarks_to_motion(table.source, people, options, fps=fps)
+    return landmarks_to_motion(table.content, people, options, fps=fps)
 
 
 def read_sleap_csv(table: PoseTable, options: ReadOptions) -> Motion:
@@ -162,14 +162,14 @@ def read_sleap_csv(table: PoseTable, options: ReadOptions) -> Motion:
         name[:-2] for name in table.names if name.endswith(".x") and f"{name[:-2]}.y" in table.names
     ]
     if not nodes:
-        raise table.source.error("no columns NODE.x and NODE.y found", table.first - 1)
+        raise table.content.error("no columns NODE.x and NODE.y found", table.first - 1)
     columns = [table.names.index(f"{node}.{axis}") for node in nodes for axis in "xy"]
     scores = [table.names.index(f"{n}.score") for n in nodes if f"{n}.score" in table.names]
     rows = table.numbers([table.names.index("frame_idx"), *columns, *scores])
     k = len(nodes)
     sure = rows[:, 1 + 2 * k :] if len(scores) == k else np.ones((len(rows), k))
     points = rows[:, 1 : 1 + 2 * k].reshape(-1, k, 2)
-    frames = _whole(table.source, rows[:, 0]).tolist()
+    frames = _whole(table.content, rows[:, 0]).tolist()
     tracks = table.texts(table.names.index("track")) if "track" in table.names else []
     known = any(tracks)
     people = [
@@ -178,7 +178,7 @@ def read_sleap_csv(table: PoseTable, options: ReadOptions) -> Motion:
     ]
     start = [0] if 0 <= min(frames) < len(frames) else []  # where the video starts
     video = Video("SLEAP", nodes, people, SLEAP_SURE, frames=start)
-    return video_to_motion(table.source, video, options)
+    return video_to_motion(table.content, video, options)
 
 
 POSE_TABLES: tuple[
@@ -206,14 +206,14 @@ def _landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
     return {}
 
 
-def _landmark_numbers(source: Source, texts: Sequence[str]) -> NDArray[np.intp]:
+def _landmark_numbers(content: FileContent, texts: Sequence[str]) -> NDArray[np.intp]:
     """The landmarks that people call by number or name."""
     numbers = []
     for text in texts:
         plain = _plain(text.rpartition(".")[2])  # PoseLandmark.NOSE
         number = _PLACES.get(plain, int(plain) if plain.isdecimal() and len(plain) < 3 else -1)
         if not 0 <= number < len(NAMES):
-            raise source.error(f"{text[:40]!r} is none of MediaPipe's {len(NAMES)} landmarks")
+            raise content.error(f"{text[:40]!r} is none of MediaPipe's {len(NAMES)} landmarks")
         numbers.append(number)
     return np.array(numbers, np.intp)
 
@@ -226,8 +226,8 @@ def _named(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:
     return next((i for i, name in enumerate(names) if pattern.fullmatch(name.strip())), None)
 
 
-def _whole(source: Source, numbers: Floats) -> NDArray[np.int64]:
+def _whole(content: FileContent, numbers: Floats) -> NDArray[np.int64]:
     """Frame numbers as such."""
     if not np.isfinite(numbers).all() or np.abs(numbers).max(initial=0) > 2**53:
-        raise source.error("the frames have no whole numbers")
+        raise content.error("the frames have no whole numbers")
     return np.rint(numbers).astype(np.int64)

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.files import Source
+from kineme.formats.files import FileContent
 from kineme.formats.keypoints.people import Detections, rows_of_person
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
@@ -72,7 +72,7 @@ class Video:
     notes: Sequence[str] = ()
 
 
-def video_to_motion(source: Source, video: Video, options: ReadOptions) -> Motion:
+def video_to_motion(content: FileContent, video: Video, options: ReadOptions) -> Motion:
     """The motion of one person in a video.
 
     Raises
@@ -81,18 +81,18 @@ def video_to_motion(source: Source, video: Video, options: ReadOptions) -> Motio
     """
     fps = options.fps or video.fps
     if not fps:
-        raise source.error("keypoints have no frame rate: give fps= (--fps), that of the video")
+        raise content.error("keypoints have no frame rate: give fps= (--fps), that of the video")
     people = sorted(video.people, key=lambda person: person.frame)
     if not people:
-        raise source.error("nobody is found in any frame")
-    frames, n_frames = _numbered(source, video, [person.frame for person in people])
-    points, sure = _stacked(source, people, len(video.names))
+        raise content.error("nobody is found in any frame")
+    frames, n_frames = _numbered(content, video, [person.frame for person in people])
+    points, sure = _stacked(content, people, len(video.names))
     limit = video.limit if options.confidence is None else options.confidence
     unsure = ~(sure >= limit)
     points[unsure] = np.nan
     points[~np.isfinite(points).all(axis=2)] = np.nan
     found = Detections(frames, points, [person.who for person in people])
-    rows, notes = rows_of_person(source, found, options.person)
+    rows, notes = rows_of_person(content, found, options.person)
     positions = np.full((n_frames, len(video.names), 3), np.nan)
     positions[frames[rows]] = points[rows]
     if unsure[rows].any():
@@ -100,44 +100,44 @@ def video_to_motion(source: Source, video: Video, options: ReadOptions) -> Motio
     notes += [*video.notes, *_flatness(points, video.unit)]
     unit, up = options.unit or video.unit, options.up or video.up
     found_in = Points(video.names, positions, fps, unit, up)
-    return to_motion(found_in, source.provenance(video.format, notes))
+    return to_motion(found_in, content.provenance(video.format, notes))
 
 
-def parsed_json(source: Source) -> Any:
+def parsed_json(content: FileContent) -> Any:
     """What a JSON file holds; ReadError where it breaks off or is none."""
     try:
-        return json.loads(source.text)
+        return json.loads(content.text)
     except json.JSONDecodeError as error:
         reason = f"is no whole JSON file: {error.msg[0].lower()}{error.msg[1:]}"
-        raise source.error(reason, error.lineno) from None
+        raise content.error(reason, error.lineno) from None
     except (RecursionError, ValueError) as error:
-        raise source.error(f"is no whole JSON file: {str(error).split(';')[0]}") from None
+        raise content.error(f"is no whole JSON file: {str(error).split(';')[0]}") from None
 
 
-def in_groups(source: Source, values: Any, width: int) -> Floats:
+def in_groups(content: FileContent, values: Any, width: int) -> Floats:
     """(keypoints, width): a flat list of numbers, as OpenPose and COCO store them."""
     try:
         flat = np.asarray(values, np.float64).ravel()
     except (ValueError, TypeError, OverflowError):
-        raise source.error("keypoints are not a list of numbers") from None
+        raise content.error("keypoints are not a list of numbers") from None
     if len(flat) % width:
-        raise source.error(f"{len(flat)} numbers for keypoints of {width} each")
+        raise content.error(f"{len(flat)} numbers for keypoints of {width} each")
     return flat.reshape(-1, width)
 
 
-def _numbered(source: Source, video: Video, found: list[int]) -> tuple[NDArray[np.intp], int]:
+def _numbered(content: FileContent, video: Video, found: list[int]) -> tuple[NDArray[np.intp], int]:
     """Frames counted from 0, and how many there are."""
     known = {*found, *video.frames}
     first, last = min(known), max(known)
     if last - first >= MOST_FRAMES_MORE * (len(known) + 1):
-        raise source.error(
+        raise content.error(
             f"the numbers of {len(known)} frames run from {first} to {last}: these are no frame "
             "numbers"
         )
     return np.array([frame - first for frame in found], np.intp), last - first + 1
 
 
-def _stacked(source: Source, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:
+def _stacked(content: FileContent, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:
     """(people, keypoints, 3) and (people, keypoints); z is 0 where there is none."""
     points, sure = [], []
     for person in people:
@@ -145,9 +145,9 @@ def _stacked(source: Source, people: Sequence[Person], k: int) -> tuple[Floats, 
             own = np.asarray(person.points, np.float64)
             trust = np.asarray(person.sure, np.float64)
         except (ValueError, TypeError, OverflowError):
-            raise source.error(f"frame {person.frame} has keypoints that are no numbers") from None
+            raise content.error(f"frame {person.frame} has keypoints that are no numbers") from None
         if own.ndim != 2 or own.shape[1] not in (2, 3) or not k == len(own) == trust.size:
-            raise source.error(
+            raise content.error(
                 f"frame {person.frame} has keypoints of shape {own.shape}, where {k} are expected"
             )
         points.append(np.pad(own, ((0, 0), (0, 3 - own.shape[1]))))

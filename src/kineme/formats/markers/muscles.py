@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 
-from kineme.formats.files import Source, unique
+from kineme.formats.files import FileContent, unique
 from kineme.formats.markers.c3d_file import C3D
 
 _EMG = re.compile(r"emg|electromyo\w*|myo", re.IGNORECASE)
@@ -38,7 +38,7 @@ _SMALL_VOLTS = frozenset({"mv", "uv", "µv", "μv", "millivolt", "millivolts", "
 _NO_UNIT = frozenset({"", "d.u.", "du", "bits", "bit", "counts", "n/a", "%"})
 
 
-def muscles_of(source: Source, file: C3D) -> tuple[list[str], str]:
+def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
     """The names of the channels that are muscles', and a sentence on what was taken.
 
     Raises
@@ -57,7 +57,7 @@ def muscles_of(source: Source, file: C3D) -> tuple[list[str], str]:
         if number not in plates and is_muscle(label, text, unit)
     ]
     if not muscles:
-        raise source.error(
+        raise content.error(
             "nothing tells which of its analog channels are muscles: name them with "
             f"--columns (columns=), of {', '.join(names)}"
         )

@@ -28,23 +28,23 @@ from kineme.formats.arrays.named_arrays import (
     positions_to_motion,
 )
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import MOST_EXPANSION, Source
+from kineme.formats.files import MOST_EXPANSION, FileContent
 from kineme.formats.registry import Format, ReadOptions
-from kineme.recordings.motion import Motion
+from kineme.recordings import Motion
 
 
-def read_npz(source: Source, options: ReadOptions) -> Motion:
+def read_npz(content: FileContent, options: ReadOptions) -> Motion:
     """The motion in an npz archive."""
-    return arrays_to_motion(source, "npz", _members(source), options)
+    return arrays_to_motion(content, "npz", _members(content), options)
 
 
-def read_npy(source: Source, options: ReadOptions) -> Motion:
+def read_npy(content: FileContent, options: ReadOptions) -> Motion:
     """The motion in an npy array."""
-    array = _array(source, source.data, "the array")
+    array = _array(content, content.data, "the array")
     if array.dtype.names:
         columns = {name: array[name] for name in array.dtype.names}
-        return columns_to_motion(source, "npy", columns, options)
-    return positions_to_motion(source, "npy", {"positions": array}, options)
+        return columns_to_motion(content, "npy", columns, options)
+    return positions_to_motion(content, "npy", {"positions": array}, options)
 
 
 def write_npz(motion: Motion, path: Path) -> None:
@@ -66,24 +66,24 @@ def write_npz(motion: Motion, path: Path) -> None:
         np.savez(file, **arrays)
 
 
-def _members(source: Source) -> dict[str, Array]:
+def _members(content: FileContent) -> dict[str, Array]:
     """The arrays of an npz by name; those of another kind than numbers or text are passed over."""
     try:
-        with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
+        with zipfile.ZipFile(io.BytesIO(content.data)) as archive:
             infos = archive.infolist()
             size = sum(info.file_size for info in infos)
-            if size > MOST_EXPANSION * len(source.data):
-                raise source.error(f"claims to unpack to {size / 1e6:.0f} MB: it is damaged")
+            if size > MOST_EXPANSION * len(content.data):
+                raise content.error(f"claims to unpack to {size / 1e6:.0f} MB: it is damaged")
             found = {}
             for info in infos:
                 data = archive.read(info)
                 if not _is_pickled(data):
                     name = info.filename.removesuffix(".npy")
-                    found[name] = _array(source, data, name)
+                    found[name] = _array(content, data, name)
     except (zipfile.BadZipFile, zlib.error, OSError, EOFError, ValueError) as error:
-        raise source.error(f"is no whole npz archive: {error}") from None
+        raise content.error(f"is no whole npz archive: {error}") from None
     except (NotImplementedError, RuntimeError) as error:  # other compressions, passwords
-        raise source.error(f"its archive cannot be read: {error}") from None
+        raise content.error(f"its archive cannot be read: {error}") from None
     return found
 
 
@@ -91,7 +91,7 @@ def _is_pickled(data: bytes) -> bool:
     return b"'descr': '|O'" in data[:256]
 
 
-def _array(source: Source, data: bytes, name: str) -> Array:
+def _array(content: FileContent, data: bytes, name: str) -> Array:
     """The array that npy bytes hold, a view of them."""
     file = io.BytesIO(data)
     try:
@@ -100,15 +100,15 @@ def _array(source: Source, data: bytes, name: str) -> Array:
         with catch_warnings(action="ignore"):  # of headers from Python 2
             shape, fortran, kind = header(file)
         if kind.hasobject:
-            raise source.error(f"{name} holds pickled objects, which are not read")
+            raise content.error(f"{name} holds pickled objects, which are not read")
         count = int(np.prod(shape, dtype=object))
         if count < 0 or count * kind.itemsize > len(data) - file.tell():
-            raise source.error(f"{name} claims shape {shape}, more than the file holds")
+            raise content.error(f"{name} claims shape {shape}, more than the file holds")
         if count == 0 or kind.itemsize == 0:
             return np.empty(0)
         flat = np.frombuffer(data, kind, count, file.tell())
     except (ValueError, TypeError, SyntaxError, OverflowError, TokenError) as error:
-        raise source.error(f"{name} is no npy array: {' '.join(str(error).split())}") from None
+        raise content.error(f"{name} is no npy array: {' '.join(str(error).split())}") from None
     return flat.reshape(shape, order="F" if fortran else "C")
 
 

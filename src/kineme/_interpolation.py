@@ -1,0 +1,50 @@
+"""Values between frames, in a straight line."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+
+def at_frames(values: ArrayLike, at: ArrayLike) -> Floats:
+    """The values at fractional frames; beyond the last frame the line is carried on.
+
+    Parameters
+    ----------
+    values : array_like, shape (frames, ...)
+        At least one frame.
+    at : array_like, shape (n,)
+        Frames, from 0.
+
+    Returns
+    -------
+    ndarray, shape (n, ...)
+
+    Examples
+    --------
+    >>> at_frames([0.0, 10.0, 30.0], [0.5, 1.5]).tolist()
+    [5.0, 20.0]
+    """
+    rows, places = np.asarray(values, np.float64), np.asarray(at, np.float64)
+    before = np.minimum(places.astype(np.intp), max(0, len(rows) - 2))
+    after = np.minimum(before + 1, len(rows) - 1)
+    share = (places - before).reshape(-1, *[1] * (rows.ndim - 1))
+    mixed: Floats = (1 - share) * rows[before] + share * rows[after]
+    return mixed
+
+
+def bridge_line(track: Floats, hidden: NDArray[np.bool_]) -> None:
+    """Fill the hidden frames of one coordinate, in place, from the frames around them.
+
+    Before the first and after the last that is seen its value is held.
+
+    Parameters
+    ----------
+    track : ndarray, shape (frames,)
+    hidden : ndarray of bool, shape (frames,)
+        At least one frame is not.
+    """
+    seen = np.flatnonzero(~hidden)
+    track[hidden] = np.interp(np.flatnonzero(hidden), seen, track[seen])

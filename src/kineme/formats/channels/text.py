@@ -1,0 +1,121 @@
+"""Text tables of channels: where they begin, what parts cells, and which columns are numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from kineme.formats.channels.table import ChannelTable, channel_table, named, wanted_columns
+from kineme.formats.columns import dated
+from kineme.formats.delimited import EMPTY, rows_of, separator_of
+from kineme.formats.files import FileContent, numbers
+from kineme.formats.keypoints.deeplabcut import is_deeplabcut
+
+
+@dataclass(frozen=True)
+class TextTable:
+    """The lines of a text table.
+
+    Parameters
+    ----------
+    names : list of str
+        Of the columns; numbers from 1 where the first line holds numbers.
+    rows : list of str
+        The lines below.
+    first_row : int
+        The number of the first of these in the file.
+    separator : str
+        Between cells.
+    head : list of str
+        The cells of the first line, whatever they are.
+    """
+
+    names: list[str]
+    rows: list[str]
+    first_row: int
+    separator: str
+    head: list[str]
+
+    @classmethod
+    def of(cls, content: FileContent) -> TextTable:
+        """The table in a file; ReadError where there is none."""
+        lines = content.text.splitlines()
+        ended = [i for i, line in enumerate(lines) if line.strip().lower() == "endheader"]
+        start = ended[0] + 1 if ended else 0
+        starts = (i for i in range(start, len(lines)) if lines[i].strip() and lines[i][0] != "#")
+        first = next(starts, None)
+        if first is None:
+            raise content.error("has no lines of numbers")
+        if is_deeplabcut(lines[first]):
+            raise content.error("is a DeepLabCut table of joints, which is a motion")
+        separator = separator_of(lines[first])
+        if ended or separator not in lines[first]:
+            lines[first:] = ["\t".join(line.split()) for line in lines[first:]]
+            separator = "\t"
+        cells = _cells(lines[first], separator)
+        if any(map(_is_number, cells)):
+            names = [str(i) for i in range(1, len(cells) + 1)]
+            return cls(names, lines[first:], first + 1, separator, cells)
+        return cls(named(cells), lines[first + 1 :], first + 2, separator, cells)
+
+    def numeric(self) -> list[str]:
+        """The columns whose first cell is a number or empty, and those of dates."""
+        cells = list(zip(self.names, self.first_cells(), strict=False))
+        dates = {self.names[i] for i in dated(self.names, self.first_cells())}
+        return [
+            name
+            for name, cell in cells
+            if cell.lower() in EMPTY or name in dates or _is_number(cell)
+        ]
+
+    def first_cells(self) -> list[str]:
+        """The cells of the first row."""
+        return _cells(self.rows[0], self.separator) if self.rows else []
+
+
+def text_channels(
+    content: FileContent, text: TextTable, columns: Sequence[str] | None
+) -> ChannelTable:
+    """The channels of a text table: those wanted, or all that hold numbers.
+
+    Parameters
+    ----------
+    content : FileContent
+    text : TextTable
+        In it.
+    columns : sequence of str or None
+        By name and in this order.
+
+    Returns
+    -------
+    ChannelTable
+
+    Raises
+    ------
+    ReadError
+        There is no such column, a cell is no number, or nothing is a channel.
+    """
+    wanted = wanted_columns(content, text.names, columns, text.numeric())
+    at = [text.names.index(name) for name in wanted]
+    values = rows_of(
+        content,
+        text.rows,
+        text.first_row,
+        text.separator,
+        len(text.names),
+        at,
+        dates=dated(text.names, text.first_cells()),
+    )
+    return channel_table(content, text.names, dict(zip(wanted, values.T, strict=True)), columns)
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    return [cell.strip().strip('"').strip() for cell in line.split(separator)]
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        numbers([cell])
+    except ValueError:
+        return False
+    return True

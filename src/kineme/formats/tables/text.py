@@ -1,0 +1,98 @@
+"""Text tables of joint positions or of channels: CSV, TSV; and CSV out.
+
+What the columns may be called: `kineme.formats.columns`. Lines before the names
+that begin with ``#`` are passed over. Written are ``time`` in seconds and
+``JOINT_x JOINT_y JOINT_z`` in metres, y up, empty in gaps; the skeleton is not.
+"""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from pathlib import Path
+
+from kineme.errors import ReadError
+from kineme.formats.channels.reading import to_signals
+from kineme.formats.channels.sensors import hold_channels
+from kineme.formats.channels.text import TextTable, text_channels
+from kineme.formats.channels.writing import write_signals
+from kineme.formats.columns import columns_to_motion, dated, is_used
+from kineme.formats.delimited import rows_of, separator_of
+from kineme.formats.files import FileContent, save, unique
+from kineme.formats.gaps import unseen
+from kineme.formats.keypoints.deeplabcut import is_deeplabcut, read_deeplabcut
+from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.tables.pose_tables import POSE_TABLES, PoseTable
+from kineme.recordings import Motion, Signals
+
+NAME = "table"
+
+
+def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
+    """The joints or keypoints in a text table, or its channels where there are none."""
+    channels = _channels(content, asked=options.channels)
+    if channels is not None:
+        table = text_channels(content, channels, options.columns or None)
+        return to_signals(content, NAME, table, options.fps)
+    return _read_motion(content, options)
+
+
+def write_csv(motion: Motion, path: Path) -> None:
+    """Leave the joints' positions in a CSV file, in metres with y up."""
+    joints = unique(" ".join(name.replace('"', "'").split()) for name in motion.skeleton.names)
+    names = ["time", *(f"{joint}_{axis}" for joint in joints for axis in "xyz")]
+    head = ",".join(f'"{name}"' if "," in name else name for name in names) + "\n"
+    row = "%.9f" + ",%.9f" * (len(names) - 1) + "\n"
+    empty = "%.9f" + "," * (len(names) - 1) + "\n"
+    values = motion.positions.reshape(motion.n_frames, -1).tolist()
+    rows = zip(motion.times.tolist(), values, unseen(motion), strict=True)
+    save(path, [head, *(empty % t if gap else row % (t, *line) for t, line, gap in rows)])
+
+
+def _channels(content: FileContent, *, asked: bool) -> TextTable | None:
+    """The table, where it is one of channels or is asked for as such."""
+    try:
+        table = TextTable.of(content)
+    except ReadError:
+        if asked:
+            raise
+        return None
+    return table if asked or hold_channels(table.head) else None
+
+
+def _read_motion(content: FileContent, options: ReadOptions) -> Motion:
+    lines = content.text.splitlines()
+    first = next((i for i, line in enumerate(lines) if line.strip() and line[0] != "#"), 0)
+    if is_deeplabcut(lines[first]):
+        return read_deeplabcut(content, lines[first:], first + 1, options)
+    separator = separator_of(lines[first])
+    names = unique(_cells(lines[first], separator, content))
+    table = PoseTable(content, names, lines[first + 1 :], first + 2, separator)
+    for recognises, reader in POSE_TABLES:
+        if recognises(names):
+            return reader(table, options)
+    used = [i for i, name in enumerate(names) if is_used(name)]
+    below = lines[first + 1 :]
+    dates = dated(names, _cells(below[0], separator, content) if below else [])
+    values = rows_of(content, below, first + 2, separator, len(names), used, dates=dates)
+    columns = {names[i]: column for i, column in zip(used, values.T, strict=True)}
+    return columns_to_motion(content, NAME, columns, options)
+
+
+def _cells(line: str, separator: str, content: FileContent) -> list[str]:
+    try:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=separator))]
+    except (csv.Error, StopIteration) as error:
+        raise content.error(f"the columns' names cannot be read: {error}") from None
+
+
+FORMAT = Format(
+    NAME,
+    (".csv", ".tsv"),
+    lambda _: False,
+    read_table,
+    write_csv,
+    write_signals,
+    channels=True,
+)
+TEXT = replace(FORMAT, name="text table", suffixes=(".txt", ".dat"), write=None)

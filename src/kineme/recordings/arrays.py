@@ -1,0 +1,61 @@
+"""What recordings hold: arrays that are read-only and finite, fields that are set once."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme._checks import as_floats, is_number
+from kineme.errors import MotionError, ParameterError
+
+Error = type[ParameterError | MotionError]
+
+
+def frozen(
+    values: ArrayLike, what: str, *, row: str = "frame", error: Error = ParameterError
+) -> NDArray[np.float64]:
+    """The values as a read-only view: float64, C-contiguous, finite.
+
+    Parameters
+    ----------
+    values : array_like
+        A contiguous float64 array is not copied.
+    what : str
+        What they are called in a message.
+    row : str
+        What their first axis counts.
+    error : type
+        What is raised.
+
+    Returns
+    -------
+    ndarray of float64
+
+    Raises
+    ------
+    MotionError or ParameterError
+        They are no numbers, or one of them is not finite.
+    """
+    array = np.ascontiguousarray(as_floats(values, what, error=error)).view()
+    finite = np.isfinite(array)
+    if not finite.all():
+        reason = f"{what} hold values that are not finite (NaN or infinite)"
+        if array.ndim:
+            first = int(np.argmin(finite.reshape(len(array), -1).all(axis=1)))
+            reason += f", first in {row} {first}"
+        raise error(reason)
+    array.flags.writeable = False
+    return array
+
+
+def as_rate(fps: object, *, error: Error = ParameterError) -> float:
+    """The frame rate as a float; ``error`` unless it is one positive number."""
+    if not (is_number(fps) and fps > 0):  # type: ignore[operator]
+        raise error(f"the frame rate is {fps!r:.60}: it must be a positive number")
+    return float(fps)  # type: ignore[arg-type]
+
+
+def assign(instance: object, **values: object) -> None:
+    """Set fields of a frozen dataclass while it is being made."""
+    for name, value in values.items():
+        object.__setattr__(instance, name, value)

@@ -1,0 +1,119 @@
+"""Recordings in a notebook: a small picture and a few facts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.recordings.provenance import Provenance
+from kineme.recordings.skeleton import Skeleton
+
+Floats = NDArray[np.float64]
+
+_WIDTH, _HEIGHT, _MARGIN = 480, 120, 6
+_POSES = 8
+_CHANNELS = 6
+_SAMPLES = 240
+_STYLE = 'fill="none" stroke="currentColor" stroke-width="1" stroke-linejoin="round"'
+
+
+def page_of(
+    title: str, picture: str, facts: Sequence[tuple[str, str]], provenance: Provenance
+) -> str:
+    """What a notebook shows of a recording.
+
+    Parameters
+    ----------
+    title : str
+        Its repr.
+    picture : str
+        SVG.
+    facts : sequence of (str, str)
+        Names and values.
+    provenance : Provenance
+        Its file, and the notes that are warnings.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
+    rows = [*facts, *([("file", provenance.path)] if provenance.path else [])]
+    rows += [("warning", note) for note in provenance.warnings]
+    cells = "".join(
+        f'<tr><th style="text-align:left">{escape(name)}</th>'
+        f'<td style="text-align:left">{escape(value)}</td></tr>'
+        for name, value in rows
+    )
+    return f"<div><p>{escape(title)}</p>{picture}<table>{cells}</table></div>"
+
+
+def poses_svg(skeleton: Skeleton, positions: Floats) -> str:
+    """Poses of a body, evenly spaced in time, side by side, seen from its broader side.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+    positions : ndarray, shape (frames, joints, 3)
+        Metres, y up.
+
+    Returns
+    -------
+    str
+        SVG.
+    """
+    at = np.linspace(0, len(positions) - 1, min(_POSES, len(positions))).round().astype(int)
+    poses = positions[at] - positions[at].mean(axis=1, keepdims=True)
+    wide, deep = np.ptp(poses[..., [0, 2]], axis=1).mean(axis=0)
+    across = 0 if wide >= deep else 2
+    flat = poses[..., [across, 1]] * (1.0, -1.0)
+    size = max(float(np.ptp(flat, axis=1).max()), 1e-9)
+    scale = min(_HEIGHT, _WIDTH / len(at)) - 2 * _MARGIN
+    middle = (flat.max(axis=1) + flat.min(axis=1)) / 2
+    drawn = (flat - middle[:, None]) / size * scale
+    drawn[..., 0] += (np.arange(len(at)) + 0.5)[:, None] * (_WIDTH / len(at))
+    drawn[..., 1] += _HEIGHT / 2
+    bones = [(parent, j) for j, parent in enumerate(skeleton.parents) if parent >= 0]
+    dots = [(j, j) for j, parent in enumerate(skeleton.parents) if parent < 0]
+    path = "".join(
+        f"M{pose[a, 0]:.1f} {pose[a, 1]:.1f}L{pose[b, 0]:.1f} {pose[b, 1]:.1f}"
+        for pose in drawn
+        for a, b in (*bones, *dots)
+    )
+    return _svg(f'<path d="{path}" stroke-linecap="round" {_STYLE}/>')
+
+
+def channels_svg(values: Floats) -> str:
+    """The first channels of signals over time, one below the other, each in its own range.
+
+    Parameters
+    ----------
+    values : ndarray, shape (frames, channels)
+
+    Returns
+    -------
+    str
+        SVG.
+    """
+    at = np.linspace(0, len(values) - 1, min(_SAMPLES, len(values))).round().astype(int)
+    shown = values[at, :_CHANNELS]
+    band = _HEIGHT / shown.shape[1]
+    x = np.linspace(_MARGIN, _WIDTH - _MARGIN, len(at))
+    low, span = shown.min(axis=0), np.ptp(shown, axis=0)
+    level = (shown - low) / np.where(span > 0, span, 1)
+    lines = []
+    for channel in range(shown.shape[1]):
+        y = band * (channel + 0.9 - 0.8 * level[:, channel])
+        points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x.tolist(), y.tolist(), strict=True))
+        lines.append(f'<polyline points="{points}" {_STYLE}/>')
+    return _svg("".join(lines))
+
+
+def _svg(inside: str) -> str:
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDTH}" height="{_HEIGHT}" '
+        f'viewBox="0 0 {_WIDTH} {_HEIGHT}">{inside}</svg>'
+    )

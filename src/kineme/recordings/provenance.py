@@ -1,0 +1,114 @@
+"""Where a recording came from, and everything that had to be inferred on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Literal, Self
+
+Severity = Literal["info", "warning"]
+
+
+class Note(str):
+    """One sentence on what was inferred or done; a text that knows how severe it is.
+
+    Parameters
+    ----------
+    text : str
+        The sentence.
+    severity : {"info", "warning"}
+        A warning is what `kineme.read` warns of: the recording may not be what it seems.
+
+    Examples
+    --------
+    >>> note = Note("no unit in the file: metres assumed", "warning")
+    >>> str(note), note.severity
+    ('no unit in the file: metres assumed', 'warning')
+    """
+
+    __slots__ = ("severity",)
+    severity: Severity
+
+    def __new__(cls, text: str, severity: Severity = "info") -> Self:
+        note = super().__new__(cls, text)
+        note.severity = severity
+        return note
+
+    @property
+    def text(self) -> str:
+        return str(self)
+
+    def __reduce__(self) -> tuple[type[Self], tuple[str, Severity]]:
+        return type(self), (str(self), self.severity)
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where a recording came from, and what had to be inferred.
+
+    Parameters
+    ----------
+    path : str, optional
+        Of the file.
+    format : str, optional
+        Its name.
+    sha256 : str, optional
+        Digest of the file's bytes.
+    notes : sequence of Note or str
+        Such as "frame rate 120 Hz assumed: AMC files do not store one". Plain texts become
+        notes of severity "info".
+    events : sequence of (float, str)
+        Those marked in the file: seconds from its first frame, and the label.
+
+    Examples
+    --------
+    >>> Provenance(path="a.amc").noted("frame rate 120 Hz assumed").notes
+    ('frame rate 120 Hz assumed',)
+    """
+
+    path: str | None = None
+    format: str | None = None
+    sha256: str | None = None
+    notes: tuple[Note, ...] = ()
+    events: tuple[tuple[float, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "notes", _as_notes(self.notes))
+        object.__setattr__(self, "events", tuple(self.events))
+
+    @property
+    def warnings(self) -> tuple[Note, ...]:
+        """The notes of severity "warning"."""
+        return tuple(note for note in self.notes if note.severity == "warning")
+
+    def noted(self, *notes: Note | str) -> Provenance:
+        """The same with notes added.
+
+        Parameters
+        ----------
+        *notes : Note or str
+            Plain texts become notes of severity "info".
+
+        Returns
+        -------
+        Provenance
+        """
+        return replace(self, notes=self.notes + _as_notes(notes))
+
+    def marked(self, events: Iterable[tuple[float, str]]) -> Provenance:
+        """The same with these events in place of its own.
+
+        Parameters
+        ----------
+        events : iterable of (float, str)
+            Seconds and labels.
+
+        Returns
+        -------
+        Provenance
+        """
+        return replace(self, events=tuple(events))
+
+
+def _as_notes(notes: Iterable[Note | str]) -> tuple[Note, ...]:
+    return tuple(note if isinstance(note, Note) else Note(note) for note in notes)

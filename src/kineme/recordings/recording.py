@@ -1,0 +1,224 @@
+"""What every recording can do, whether of a body or of sensors.
+
+A recording is frames at an even rate, counted from 0; spans of them are
+half-open, ``[start, stop)``. Its gaps are spans in which nothing was recorded.
+Recordings are values: arrays are read-only, and whatever changes them makes a
+new one that says in its provenance what was done.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from operator import index
+from typing import Any, ClassVar, Protocol, Self, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._checks import as_spans, is_number
+from kineme.errors import MotionError, ParameterError
+from kineme.recordings.provenance import Note, Provenance
+
+Spans = tuple[tuple[int, int], ...]
+
+
+@runtime_checkable
+class Recording(Protocol):
+    """Frames at an even rate: what `Motion` and `Signals` have in common.
+
+    Attributes
+    ----------
+    fps : float
+        Frames per second.
+    gaps : tuple of (int, int)
+        Frames [start, stop) in which nothing was recorded, in time order and apart from
+        each other, whatever the values in them.
+    provenance : Provenance
+        The file, and what had to be inferred from it.
+
+    Examples
+    --------
+    >>> from kineme import Signals
+    >>> signals = Signals([[0.0], [1.0], [2.0], [3.0]], 2.0)
+    >>> signals[1:3]
+    <Signals of 2 frames (1.0 s) at 2 Hz: 1 channel>
+    >>> signals.seconds(0.5).n_frames, signals.spans()
+    (3, [(0, 4)])
+    """
+
+    fps: float
+    gaps: Sequence[tuple[int, int]]
+    provenance: Provenance
+
+    @property
+    @abstractmethod
+    def n_frames(self) -> int: ...
+
+    @abstractmethod
+    def _sliced(self, start: int, stop: int, gaps: Spans, provenance: Provenance) -> Self:
+        """The frames [start, stop), which are there, with these gaps and this provenance."""
+
+    @abstractmethod
+    def _facts(self) -> list[tuple[str, str]]:
+        """What a notebook shows of this kind of recording: names and values."""
+
+    @abstractmethod
+    def _picture(self) -> str:
+        """A small SVG of it."""
+
+    @property
+    def duration(self) -> float:
+        """Seconds: frames / fps."""
+        return self.n_frames / self.fps
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """The second at which each frame was taken, from 0."""
+        return np.arange(self.n_frames) / self.fps
+
+    def spans(self) -> list[tuple[int, int]]:
+        """What the gaps leave of the recording.
+
+        Returns
+        -------
+        list of (int, int)
+            Frames [start, stop), in time order; the whole recording where it has no gaps.
+        """
+        starts = [0, *(stop for _, stop in self.gaps)]
+        stops = [*(start for start, _ in self.gaps), self.n_frames]
+        return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
+
+    def noted(self, *notes: Note | str) -> Self:
+        """The same with notes added to the provenance.
+
+        Parameters
+        ----------
+        *notes : Note or str
+
+        Returns
+        -------
+        Motion or Signals
+        """
+        return replace(self, provenance=self.provenance.noted(*notes))  # type: ignore[type-var]
+
+    def seconds(self, start: float = 0.0, stop: float | None = None) -> Self:
+        """The frames from one second to another, each rounded to the nearest frame.
+
+        Parameters
+        ----------
+        start : float
+            Seconds from the first frame.
+        stop : float, optional
+            Seconds; to the end by default, and where it is beyond.
+
+        Returns
+        -------
+        Motion or Signals
+
+        Raises
+        ------
+        ParameterError
+            Times that are no numbers, negative, or with no frame between them.
+        """
+        for at in (start, 0.0 if stop is None else stop):
+            if not is_number(at) or at < 0:
+                raise ParameterError(f"{at!r:.60} is no time in a recording: give seconds from 0")
+        last = self.duration if stop is None else min(stop, self.duration)
+        first, end = round(min(start, self.duration) * self.fps), round(last * self.fps)
+        if first >= end:
+            until = "the end" if stop is None else f"{stop:g} s"
+            raise ParameterError(
+                f"there is no frame from {start:g} s to {until} in a recording of "
+                f"{self.duration:g} s"
+            )
+        return self[first:end]
+
+    def __len__(self) -> int:
+        return self.n_frames
+
+    __iter__: ClassVar[None] = None  # frames are no recordings: slices are
+
+    def __getitem__(self, frames: slice) -> Self:
+        """The frames of a slice, and the gaps and events in them, as numpy counts them."""
+        if not isinstance(frames, slice):
+            raise ParameterError(f"a recording is sliced by frames, as in [0:600], not {frames!r}")
+        try:
+            step = 1 if frames.step is None else index(frames.step)
+            start, stop, _ = slice(frames.start, frames.stop).indices(self.n_frames)
+        except TypeError:
+            raise ParameterError(
+                "a recording is sliced by whole numbers of frames; seconds(start, stop) takes "
+                "seconds"
+            ) from None
+        if step != 1:
+            raise ParameterError(
+                f"a recording is sliced frame by frame, not with step {step}: "
+                "kineme.resample changes the rate of a motion"
+            )
+        if start >= stop:
+            raise ParameterError(f"frames {start} to {stop} of {self.n_frames} are none")
+        gaps = [(max(a, start) - start, min(b, stop) - start) for a, b in self.gaps]
+        return self._sliced(
+            start,
+            stop,
+            tuple((a, b) for a, b in gaps if a < b),
+            _cut(self.provenance, start, stop, self.fps),
+        )
+
+    def _repr_html_(self) -> str:
+        from kineme.recordings.notebook import page_of
+
+        facts = [
+            ("frames", f"{self.n_frames} ({self.duration:.2f} s at {self.fps:g} Hz)"),
+            *self._facts(),
+        ]
+        if self.gaps:
+            lost = sum(stop - start for start, stop in self.gaps)
+            facts.append(("gaps", f"{len(self.gaps)} ({lost / self.fps:.2f} s)"))
+        return page_of(repr(self), self._picture(), facts, self.provenance)
+
+
+def as_gaps(
+    gaps: Any, n_frames: int, *, error: type[ParameterError | MotionError] = ParameterError
+) -> Spans:
+    """Gaps as a recording keeps them.
+
+    Parameters
+    ----------
+    gaps : iterable of (int, int)
+        Frames [start, stop).
+    n_frames : int
+        Of the recording.
+    error : type
+        What is raised.
+
+    Returns
+    -------
+    tuple of (int, int)
+
+    Raises
+    ------
+    MotionError or ParameterError
+        Gaps that are no pairs of frames, that are empty, out of order, touch each other or
+        reach out of the recording.
+    """
+    found = as_spans(gaps, error=error)
+    before = -1
+    for start, stop in found:
+        if not before < start < stop <= n_frames:
+            raise error(
+                f"gap {start} to {stop} is not a span of {n_frames} frames after the one before"
+            )
+        before = stop
+    return found
+
+
+def _cut(provenance: Provenance, start: int, stop: int, fps: float) -> Provenance:
+    """What is true of the frames [start, stop): the events in them, counted from there."""
+    first, last = start / fps, stop / fps
+    events: Iterable[tuple[float, str]] = (
+        (at - first, name) for at, name in provenance.events if first <= at < last
+    )
+    return provenance.noted(f"cut to frames {start} to {stop}").marked(events)

@@ -1,0 +1,141 @@
+"""The joints of a body and how they hang together.
+
+A joint sits where its rotation acts, and its offset is carried by the parent::
+
+    G[j] = G[parent] * R[j]
+    p[j] = p[parent] + G[parent] @ offset[j]
+
+An end site is a leaf without rotation of its own (a fingertip, the crown of
+the head).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cached_property
+from operator import index
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._checks import as_texts
+from kineme.errors import MotionError, ParameterError
+from kineme.recordings.arrays import assign, frozen
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """A tree of joints, parents before children.
+
+    Parameters
+    ----------
+    names : sequence of str
+        One per joint, unique.
+    parents : sequence of int
+        The index of each joint's parent, -1 for a root.
+    offsets : array_like, shape (joints, 3)
+        From parent to joint at rest, metres.
+    end_sites : iterable of int
+        The leaves that have no rotation of their own.
+
+    Raises
+    ------
+    MotionError
+        The parts differ in length, a name repeats, or a parent does not come before its
+        child (as in a cycle).
+
+    Examples
+    --------
+    >>> arm = Skeleton(("shoulder", "hand"), (-1, 0), [[0, 1.4, 0], [0, -0.6, 0]])
+    >>> arm.joint("hand"), arm.children
+    (1, ((1,), ()))
+    """
+
+    names: tuple[str, ...]
+    parents: tuple[int, ...]
+    offsets: Floats
+    end_sites: frozenset[int] = frozenset()
+
+    def __post_init__(self) -> None:
+        try:
+            assign(self, names=as_texts(self.names, "names of joints", error=MotionError))
+            assign(self, parents=tuple(index(p) for p in self.parents))
+            assign(self, end_sites=frozenset(index(joint) for joint in self.end_sites))
+        except TypeError:
+            raise MotionError(
+                "parents and end sites of a skeleton are lists of joints, by whole numbers"
+            ) from None
+        assign(self, offsets=frozen(self.offsets, "offsets", row="joint", error=MotionError))
+        n = len(self.names)
+        if n == 0:
+            raise MotionError("a skeleton needs at least one joint")
+        if len(self.parents) != n or self.offsets.shape != (n, 3):
+            raise MotionError(
+                f"{n} names, {len(self.parents)} parents and offsets of shape "
+                f"{self.offsets.shape} do not describe one skeleton"
+            )
+        if len(self._index) != n:
+            twice = next(name for j, name in enumerate(self.names) if self._index[name] != j)
+            raise MotionError(f"two joints are called {twice!r}: rename one of them")
+        for joint, parent in enumerate(self.parents):
+            if not -1 <= parent < joint:
+                raise MotionError(
+                    f"joint {self.names[joint]!r} (index {joint}) has parent {parent}: "
+                    "parents come before their children, and a root has -1"
+                )
+        inner = self.end_sites & ({*self.parents} | {-1} | {*self.end_sites} - {*range(n)})
+        if inner:
+            raise MotionError(f"end site {min(inner)} is not a leaf of the skeleton")
+
+    def __repr__(self) -> str:
+        ends = f", {len(self.end_sites)} of them end sites" if self.end_sites else ""
+        return f"<Skeleton of {self.n_joints} joints{ends}>"
+
+    def joint(self, name: str) -> int:
+        """The index of the joint called ``name``.
+
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        int
+
+        Raises
+        ------
+        ParameterError
+            There is none; the message has the names closest to it.
+        """
+        try:
+            return self._index[name]
+        except (KeyError, TypeError):
+            close = get_close_matches(str(name), self.names, n=3) or self.names[:5]
+            raise ParameterError(
+                f"no joint is called {name!r}; did you mean {_listed(close)}?"
+            ) from None
+
+    @property
+    def n_joints(self) -> int:
+        return len(self.names)
+
+    @cached_property
+    def children(self) -> tuple[tuple[int, ...], ...]:
+        """For each joint the indices of its children, in order."""
+        lists: list[list[int]] = [[] for _ in self.names]
+        for joint, parent in enumerate(self.parents):
+            if parent >= 0:
+                lists[parent].append(joint)
+        return tuple(map(tuple, lists))
+
+    @cached_property
+    def _index(self) -> dict[str, int]:
+        return {name: i for i, name in enumerate(self.names)}
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(map(repr, names))

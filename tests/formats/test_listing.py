@@ -1,0 +1,153 @@
+"""What counts as a recording in a folder, whatever else lies there."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from pyarrow import parquet
+
+import kineme
+from kineme.formats import listing
+from kineme.formats.listing import holds_recording, recordings_in
+from kineme.transfer.knowledge_file import holds_knowledge
+
+BVH = kineme.bundled_recording().read_text(encoding="utf-8")
+
+
+def archive(path: Path, *names: str) -> Path:
+    np.savez(path, **{name: np.zeros(3) for name in names})
+    return path
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "expected"),
+    [
+        ("a.bvh", "", True),
+        ("a.BVH", "", True),
+        ("86.asf", "", False),
+        ("a.md", "", False),
+        ("imu.csv", "time,acc_x\n0,1\n", True),
+        ("nameless.csv", "0.5,0.25\n", True),
+        ("labels.csv", "start_s,stop_s,label\n0,1,a\n", False),
+        ("labels.tsv", "\ufeffonset\tduration\n", False),
+        ("readme.txt", "time went by\n", False),
+        ("a.json", '{"people": []}', False),
+    ],
+)
+def test_texts(tmp_path: Path, name: str, text: str, expected: bool) -> None:
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    assert holds_recording(tmp_path / name) is expected
+    assert recordings_in(tmp_path).recordings == [tmp_path / name] * expected
+
+
+@pytest.mark.parametrize(
+    ("names", "expected"),
+    [
+        (("poses", "trans", "mocap_framerate"), True),
+        (("positions",), True),
+        (("hip", "toe", "fps"), True),
+        (("hip_x", "hip_y"), True),
+        (("betas",), False),
+        (("head", "lengths", "labels", "features", "start_s"), False),
+    ],
+)
+def test_archives(tmp_path: Path, names: tuple[str, ...], expected: bool) -> None:
+    path = archive(tmp_path / "a.npz", *names)
+    assert holds_recording(path) is expected
+    assert holds_knowledge(path) is ("lengths" in names)
+
+
+def test_parquet_of_labels_is_told_by_its_last_bytes(tmp_path: Path) -> None:
+    parquet.write_table(pa.table({"start_s": [0.0], "label": ["a"]}), tmp_path / "a.parquet")
+    parquet.write_table(pa.table({"time": [0.0], "acc_x": [1.0]}), tmp_path / "b.parquet")
+    assert recordings_in(tmp_path).recordings == [tmp_path / "b.parquet"]
+
+
+def test_one_bad_file_never_ends_a_listing(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "walk.bvh").write_text(BVH, encoding="utf-8")
+    for name in ("gone.csv", "locked.csv", "strange.csv"):
+        (tmp_path / name).write_text("time,a\n", encoding="utf-8")
+    data = bytearray(archive(tmp_path / "newer.npz", "poses").read_bytes())
+    data[data.index(b"PK\x01\x02") + 6] = 255  # version needed to extract, in the directory
+    (tmp_path / "newer.npz").write_bytes(data)
+    (tmp_path / "torn.npz").write_bytes(b"PK\x03\x04")
+    faults = {
+        "gone.csv": FileNotFoundError(2, "No such file or directory"),
+        "locked.csv": PermissionError(13, "Permission denied"),
+        "strange.csv": RuntimeError("something\nelse"),
+    }
+    first_bytes = listing._first_bytes
+
+    def failing(path: Path) -> bytes:
+        if path.name in faults:
+            raise faults[path.name]
+        return first_bytes(path)
+
+    monkeypatch.setattr(listing, "_first_bytes", failing)
+    found = recordings_in(tmp_path)
+    assert found.recordings == [tmp_path / "walk.bvh"]
+    reasons = {path.name: reason for path, reason in found.passed_over}
+    assert reasons.keys() == {*faults, "newer.npz", "torn.npz"}
+    assert reasons["gone.csv"] == "cannot be opened: No such file or directory"
+    assert reasons["locked.csv"] == "cannot be opened: Permission denied"
+    assert reasons["strange.csv"] == "is damaged: something else"
+    assert reasons["newer.npz"].startswith("is damaged: zip file version")
+    assert not holds_recording(tmp_path / "newer.npz")
+    assert not holds_knowledge(tmp_path / "newer.npz")
+
+
+def test_names_that_are_no_utf8_and_links_to_nowhere(tmp_path: Path) -> None:
+    odd = os.fsencode(tmp_path) + b"/caf\xe9.bvh"
+    try:
+        Path(os.fsdecode(odd)).write_text(BVH, encoding="utf-8")
+    except OSError:
+        pytest.skip("the file system takes no such names")
+    (tmp_path / "link.csv").symlink_to(tmp_path / "nowhere.csv")
+    assert [os.fsencode(p) for p in recordings_in(tmp_path).recordings] == [odd]
+    assert kineme.read(recordings_in(tmp_path).recordings[0]).n_frames > 0
+
+
+def test_folders_within_folders(tmp_path: Path) -> None:
+    for place in ("a", "b/c", ".hidden"):
+        (tmp_path / place).mkdir(parents=True)
+        (tmp_path / place / "x.bvh").write_text("", encoding="utf-8")
+    (tmp_path / "top.bvh").write_text("", encoding="utf-8")
+    flat = recordings_in(tmp_path)
+    assert flat.recordings == [tmp_path / "top.bvh"]
+    assert flat.folders == [tmp_path / "a", tmp_path / "b"]
+    deep = recordings_in(tmp_path, recursive=True)
+    assert [str(p.relative_to(tmp_path)) for p in deep.recordings] == [
+        "top.bvh",
+        "a/x.bvh",
+        "b/c/x.bvh",
+    ]
+    assert recordings_in(tmp_path / "nowhere").passed_over[0][1].startswith("cannot be opened")
+
+
+def test_a_numbered_json_beside_recordings_is_no_frame(tmp_path: Path) -> None:
+    (tmp_path / "walk.bvh").write_text(BVH, encoding="utf-8")
+    (tmp_path / "notes_1.json").write_text('{"who": "me"}', encoding="utf-8")
+    found = recordings_in(tmp_path)
+    assert (found.recordings, found.passed_over) == ([tmp_path / "walk.bvh"], [])
+
+
+def test_files_known_by_their_suffix_are_not_opened(tmp_path: Path, monkeypatch) -> None:
+    for i in range(5):
+        (tmp_path / f"{i}.bvh").write_text("", encoding="utf-8")
+
+    def never(*_: object) -> bytes:
+        raise AssertionError("opened")
+
+    monkeypatch.setattr(Path, "open", never)
+    assert len(recordings_in(tmp_path).recordings) == 5
+
+
+def test_archives_that_are_none_are_not_listed_as_zip(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "a.npz", "w") as file:
+        file.writestr("poses.npy", b"")
+    assert holds_recording(tmp_path / "a.npz")

@@ -1,0 +1,127 @@
+"""One door: what is read, what is said of it, and formats from other packages."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
+from kineme.formats import registry
+from kineme.formats.registry import (
+    Format,
+    ReadOptions,
+    read_motion,
+    read_quietly,
+    register,
+    supported_formats,
+)
+
+CUT_SHORT = kineme.bundled_recording().read_text(encoding="utf-8").replace("Frames: ", "Frames: 9")
+
+
+def toy_read(content, options):
+    content.warn("read as a toy", 3)
+    values = np.array(content.text.split()[1:], float)
+    return kineme.Signals(values, options.fps or 10, provenance=content.provenance("toy", ["fun"]))
+
+
+def toy_write(signals, path: Path) -> None:
+    path.write_text(f"TOY {' '.join(map(str, signals.values[:, 0]))}", encoding="utf-8")
+
+
+TOY = Format(
+    "toy", (".toy",), lambda head: head.startswith(b"TOY"), toy_read,
+    write_signals=toy_write, channels=True,
+)  # fmt: skip
+
+
+@pytest.fixture
+def known(monkeypatch):
+    monkeypatch.setattr(registry, "_formats", list(supported_formats()))
+
+
+def test_what_is_worth_a_warning_is_warned_of_once(tmp_path: Path) -> None:
+    path = tmp_path / "a.bvh"
+    path.write_text(CUT_SHORT + " 1 2\n", encoding="utf-8")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        motion = kineme.read(path)
+    (warning,) = caught
+    assert warning.category is KinemeWarning
+    assert warning.filename == __file__
+    said = motion.provenance.warnings
+    assert len(said) == 2
+    assert "frames declared" in said[1]
+    assert "the last frame is truncated and left out" in said[0]
+    assert str(warning.message) == f"{path}: {said[0]}; {said[1]}"
+    assert any(note.severity == "info" for note in motion.provenance.notes)
+    quiet = read_quietly(path)  # no warning: tests turn them into errors
+    assert quiet.provenance == motion.provenance
+
+
+@pytest.mark.usefixtures("known")
+def test_a_format_of_another_package(tmp_path: Path, monkeypatch) -> None:
+    register(TOY)
+    assert supported_formats()[0] is TOY
+    signals = kineme.Signals([1.0, 2.0], 10)
+    kineme.write(signals, tmp_path / "a.toy")
+    with pytest.warns(KinemeWarning, match="line 3: read as a toy"):
+        again = kineme.read(tmp_path / "a.toy", columns=["1"])
+    assert again.values.tolist() == signals.values.tolist()
+    assert again.provenance.notes == ("line 3: read as a toy", "fun")
+    register(replace(TOY, suffixes=(".toy2",)))
+    assert sum(known.name == "toy" for known in supported_formats()) == 1
+    with pytest.raises(ParameterError, match="register takes a Format, not str"):
+        register("toy")
+
+
+@pytest.mark.usefixtures("known")
+def test_formats_named_as_entry_points_are_known(tmp_path: Path, monkeypatch) -> None:
+    asked = []
+    monkeypatch.setattr(registry, "plugins", lambda group: asked.append(group) or [TOY])
+    registry._add_plugins.cache_clear()
+    try:
+        assert TOY in supported_formats()
+        assert TOY in supported_formats()
+        assert asked == ["kineme.formats"]
+    finally:
+        monkeypatch.undo()
+        registry._add_plugins.cache_clear()
+
+
+def test_writers_are_of_motions_or_of_signals(tmp_path: Path) -> None:
+    signals = kineme.Signals(np.arange(6.0).reshape(3, 2), 10, ["a", "b"], gaps=[(1, 2)])
+    for suffix in (".csv", ".tsv", ".parquet"):
+        kineme.write(signals, tmp_path / f"a{suffix}")
+        again = kineme.read(tmp_path / f"a{suffix}")
+        assert again.names == ("a", "b")
+        assert again.fps == 10
+        assert again.values[[0, 2]].tolist() == signals.values[[0, 2]].tolist()
+    with pytest.raises(WriteError, match=r"no writer of signals for the suffix '.bvh': use one of"):
+        kineme.write(signals, tmp_path / "a.bvh")
+    with pytest.raises(ParameterError, match="write takes Motion or Signals, not ndarray"):
+        kineme.write(np.zeros(3), tmp_path / "a.csv")
+
+
+def test_options_are_checked_where_they_are_given() -> None:
+    for wrong, said in [
+        ({"columns": "acc_x"}, "columns must be a list of texts"),
+        ({"fps": 0}, "fps is 0"),
+        ({"skeleton": 3}, "give the path of a file"),
+    ]:
+        with pytest.raises(ParameterError, match=said):
+            ReadOptions(**wrong)
+        with pytest.raises(ParameterError, match=said):
+            kineme.read("a.bvh", **wrong)
+
+
+def test_a_body_is_needed(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time,acc\n0,1\n0.1,2\n", encoding="utf-8")
+    with pytest.raises(ReadError, match="holds signals without a skeleton"):
+        read_motion(tmp_path / "a.csv")
+    assert read_motion(kineme.bundled_recording()).n_frames == 2898
