@@ -30,7 +30,7 @@ from kineme.recordings.operations import turn
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import display_motion
-from kineme.web.matrix import matrix_of_motion
+from kineme.web.similarity import matrix_of_motion
 
 MOST_MB = 30.0
 MINUTES = (1, 10, 60, 180)
@@ -93,11 +93,11 @@ def main() -> None:
             peak = tracemalloc.get_traced_memory()[1] / 1e6
             tracemalloc.stop()
         head, binary = display_motion(motion)
-        tiles, _ = matrix_of_motion(motion).kept()
+        tiles, _ = matrix_of_motion(motion).report_tiles()
         stored = sum(map(len, tiles.values())) / 1e6
         print(
             f"{name:28} {took:8.1f} {busy:12.1f} {size:6.1f} {len(binary) / 1e6:7.1f} "
-            f"{stored:6.1f} {len(tiles):7} {head['sample_fps']:8.1f} {peak:11.0f}"
+            f"{stored:6.1f} {len(tiles):7} {head.sample_fps:8.1f} {peak:11.0f}"
         )
         hour = max(hour, size)
     print(f"the largest: {hour:.1f} MB, {verdict(hour, MOST_MB)}")

@@ -93,7 +93,7 @@ def draw_features(axes: Axes, motion: kineme.Motion) -> None:
 
 
 def draw_recurrence(pair: np.ndarray, found: RecurrenceFound) -> None:
-    """Poses that are alike, and moments that are alike whatever their phase."""
+    """Similar poses, and samples that are similar whatever their phase."""
     band = found.recurrence.similarity
     n = len(band)
     i, lag = np.indices(band.shape)
@@ -109,7 +109,7 @@ def draw_recurrence(pair: np.ndarray, found: RecurrenceFound) -> None:
             corner = (start / FPS, start / FPS)
             pair[1].add_patch(Rectangle(corner, size, size, fill=False, color=BORDER))
     pair[0].set_title("poses", loc="left", fontsize=10)
-    pair[1].set_title("moments, and activities", loc="left", fontsize=10)
+    pair[1].set_title("samples, and activities", loc="left", fontsize=10)
 
 
 def draw_visits(axes: Axes, found: RecurrenceFound) -> None:

@@ -1,47 +1,122 @@
-"""Arrows between the rooms of the package point one way; the way of the data is downhill."""
+"""Arrows between the rooms of the package point one way; the way of the data is downhill.
+
+`ROOMS` is the plan: every room, what comes out of it, and which others it may
+import. ``python tests/test_architecture.py`` writes it into
+``docs/architecture.md``; a test holds the page to it.
+"""
 
 from __future__ import annotations
 
 import ast
 from graphlib import TopologicalSorter
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
 import kineme
 
 ROOT = Path(kineme.__file__).parent
+PAGE = Path(__file__).parents[1] / "docs" / "architecture.md"
 MODULES = {
     ".".join(("kineme", *path.relative_to(ROOT).with_suffix("").parts)).removesuffix(
         ".__init__"
     ): path
     for path in sorted(ROOT.rglob("*.py"))
+    if "pages" not in path.relative_to(ROOT).parts  # sources of the pages, with a script
 }
+MOST_FILES = 20
+"""In a folder; a few more are borne."""
 
-COMPILED = {"_compiled", "_rank_kernels"}
-BASE = {"errors", "_version", "_threads", "_files", "_rotations", "_checks"} | COMPILED
-MOTION = {"motion", "kinematics", "operations"}
-# For each room of the way of the data, all that it may import besides itself.
-DOWNHILL = {
-    "errors": set(),
-    "_checks": {"errors"},
-    "_threads": set(),
-    "_rank_kernels": {"_compiled"},
-    "_files": {"errors"},
-    "_rotations": set(),
-    "motion": BASE | MOTION,
-    "kinematics": BASE | MOTION,
-    "operations": BASE | MOTION,
-    "formats": BASE | MOTION,
-    "features": BASE | MOTION,
-    "graph": {"errors", "_checks", "_threads"} | COMPILED,
-    "segmentation": BASE | MOTION | {"features", "graph"},
-    "signals": BASE | {"motion", "features", "formats", "segmentation"},
+
+class Room(NamedTuple):
+    """A folder of the package, or a file beside them."""
+
+    gives: str
+    imports: str
+
+
+# From the ground up: no room imports one that stands below it here.
+ROOMS = {
+    "errors": Room("every exception and warning, on one page", ""),
+    "recordings": Room(
+        "`Motion` and `Signals` behind one protocol; kinematics; motions from motions", "errors"
+    ),
+    "segments": Room(
+        "the segment table, `Segmentation`, its editing and history, whoever found it", "errors"
+    ),
+    "formats": Room("recordings from files and back: one registry, one `read`", "recordings"),
+    "features": Room(
+        "arrays from recordings: poses in the body's own frame, rotations, distances of points, "
+        "stacking, mirroring, bundling, envelopes of muscles",
+        "recordings",
+    ),
+    "graph": Room("`NeighborGraph`, `WarpingPaths` from arrays", "errors"),
+    "methods": Room(
+        "presets, and what their methods find in arrays: `recurrence`, `region_growing`, "
+        "`baselines`",
+        "features.bundling graph",
+    ),
+    "segmentation": Room(
+        "`segment()`: recording → features → method → `Segmentation`; `Segmenter`",
+        "features graph methods recordings segments",
+    ),
+    "labels": Room("segment tables from files and back: one registry", "formats segments"),
+    "plot": Room("pictures, each on given axes", "graph segmentation segments"),
+    "clips": Room("a file per segment, loops that close", "formats labels recordings segments"),
+    "interop": Room(
+        "segments and recordings as other libraries have them",
+        "formats labels methods recordings segmentation segments",
+    ),
+    "transfer": Room(
+        "`KnowledgeBase`; labels and cluster numbers for other recordings",
+        "features graph methods recordings segmentation segments",
+    ),
+    "synthesis": Room(
+        "`MotionGraph`, routes through it, new motion from them",
+        "features formats graph methods recordings segmentation segments transfer",
+    ),
+    "datasets": Room(
+        "recordings with known truth, the bundled one among them; CMU's, fetched",
+        "formats labels recordings segments",
+    ),
+    "evaluation": Room(
+        "scores of any result against any truth, and of methods over a folder",
+        "features formats labels methods recordings segmentation segments",
+    ),
+    "reproduction": Room(
+        "the papers' own figures and tables on subject 86",
+        "datasets evaluation features formats graph labels methods plot recordings segmentation "
+        "segments",
+    ),
+    "web": Room(
+        "sources of the pages, the built pages, and what they are told",
+        "features formats labels recordings segments",
+    ),
+    "report": Room("one page of HTML that shows a recording", "features recordings segments web"),
+    "studio": Room(
+        "a local server and its page: recordings looked at, tables corrected and kept",
+        "clips datasets evaluation features formats labels methods recordings report segmentation "
+        "segments transfer web",
+    ),
+    "cli": Room("commands, one small file each", "*"),
 }
-# In segmentation only this module may know what a skeleton is.
-FROM_MOTION = "kineme.segmentation.segmenter"
-NO_BODIES = {"kineme.features.bundling"}  # takes any curve
-FRONT = {"cli", "studio", "report"}
+# Helpers beside the rooms: what each may import; any room may import them.
+HELPERS = {
+    "_checks": {"errors"},
+    "_colors": set(),
+    "_compiled": set(),
+    "_files": {"errors"},
+    "_interpolation": set(),
+    "_plugins": {"errors"},
+    "_rank_kernels": {"_compiled"},
+    "_rotations": set(),
+    "_threads": set(),
+    "_version": set(),
+}
+# From the graph on nothing knows what a skeleton is; bundling takes any curve.
+PLAIN = {"graph", "methods"}
+BUNDLING = "kineme.features.bundling"
 
 
 class Imports(ast.NodeVisitor):
@@ -77,47 +152,89 @@ def room(module: str) -> str:
     return module.split(".")[1] if "." in module else "__init__"
 
 
-@pytest.mark.parametrize("name", DOWNHILL)
-def test_a_room_imports_only_what_lies_above_it(name: str) -> None:
-    own = [module for module in MODULES if room(module) == name]
-    assert own, f"no room {name}: mend the list"
+def allowed(name: str) -> set[str]:
+    """Rooms that one may import besides itself and the helpers."""
+    words = ROOMS[name].imports.split()
+    if words == ["*"]:
+        return set(ROOMS)
+    return {"errors", *(word.split(".")[0] for word in words)}
+
+
+def table() -> str:
+    """The plan as the page has it."""
+    lines = ["| room | what comes out of it | imports |", "|---|---|---|"]
+    for name, (gives, imports) in ROOMS.items():
+        shown = {"": "–", "*": "everything; nobody imports it"}.get(imports)
+        names = ", ".join(f"`{word}`" for word in imports.split())
+        lines.append(f"| `{name}` | {gives} | {shown or names} |")
+    return "\n".join(lines)
+
+
+def test_every_room_is_in_the_plan() -> None:
+    found = {room(module) for module in MODULES} - {"__init__", "__main__"}
+    assert found == ROOMS.keys() | HELPERS.keys()
+
+
+@pytest.mark.parametrize("name", ROOMS)
+def test_a_room_imports_only_what_the_plan_says(name: str) -> None:
     wrong = {
         (module, target)
-        for module in own
+        for module in MODULES
+        if room(module) == name
         for target in IMPORTS[module]
-        if room(target) not in DOWNHILL[name] | {name}
+        if room(target) not in allowed(name) | {name} | HELPERS.keys()
     }
     assert not wrong
 
 
-def test_nobody_imports_what_people_look_at() -> None:
+@pytest.mark.parametrize("name", ROOMS)
+def test_what_the_plan_says_is_so(name: str) -> None:
+    used = {room(t) for m in MODULES if room(m) == name for t in IMPORTS[m]} - {name}
+    assert ROOMS[name].imports == "*" or not allowed(name) - used - {"errors"}
+
+
+def test_arrows_point_up_the_plan() -> None:
+    order = list(ROOMS)
+    for name in order:
+        if ROOMS[name].imports != "*":
+            assert allowed(name) <= set(order[: order.index(name) + 1])
+
+
+@pytest.mark.parametrize("name", HELPERS)
+def test_helpers_stand_alone(name: str) -> None:
+    assert {room(target) for target in IMPORTS[f"kineme.{name}"]} <= HELPERS[name]
+
+
+def test_nobody_imports_the_command_line() -> None:
     wrong = {
-        (module, target)
+        module
         for module, targets in IMPORTS.items()
         for target in targets
-        if room(target) in FRONT and room(module) not in FRONT | {"__main__"}
+        if room(target) == "cli" and room(module) not in {"cli", "__main__"}
     }
     assert not wrong
 
 
 def test_from_the_graph_on_nothing_knows_what_a_skeleton_is() -> None:
-    rooms_of_bodies = MOTION | {"features", "formats", "_rotations"}
     wrong = {
         (module, target)
         for module in MODULES
-        if room(module) in {"graph", "segmentation"} and module != FROM_MOTION
-        for target in IMPORTS[module] - NO_BODIES
-        if room(target) in rooms_of_bodies or target == FROM_MOTION
+        if room(module) in PLAIN
+        for target in IMPORTS[module]
+        if room(target) in {"recordings", "formats", "features"} and target != BUNDLING
     }
     assert not wrong
-    assert IMPORTS["kineme._checks"] == {"kineme.errors"}
-    free = {"kineme.errors", "kineme._checks", "kineme._threads", "kineme.features._kernels"}
-    for module in NO_BODIES:
-        assert IMPORTS[module] <= free
+    assert {room(t) for t in IMPORTS[BUNDLING]} <= {"errors", "features", *HELPERS}
 
 
 def test_no_modules_import_each_other_in_a_circle() -> None:
     list(TopologicalSorter(IMPORTS).static_order())
+
+
+def test_folders_can_be_taken_in_at_a_glance() -> None:
+    for folder in {path.parent for path in MODULES.values()}:
+        files = [path for path in folder.glob("*.py") if path.name != "__init__.py"]
+        assert len(files) <= MOST_FILES + 5, f"{folder.name} has {len(files)} files"
 
 
 def test_only_kernels_are_compiled() -> None:
@@ -129,3 +246,18 @@ def test_only_kernels_are_compiled() -> None:
     }
     assert compiled
     assert all(module.rsplit(".", 1)[-1].endswith("_kernels") for module in compiled)
+
+
+def filled(page: str) -> str:
+    head, _, rest = page.partition("<!-- rooms -->")
+    _, _, tail = rest.partition("<!-- /rooms -->")
+    return f"{head}<!-- rooms -->\n\n{table()}\n\n<!-- /rooms -->{tail}"
+
+
+def test_the_page_shows_the_plan() -> None:
+    page = PAGE.read_text(encoding="utf-8")
+    assert page == filled(page), "run python tests/test_architecture.py"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -11,13 +11,13 @@ import pytest
 
 import kineme
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
-from kineme.formats import registry
-from kineme.formats.registry import (
+from kineme.formats import (
     Format,
     ReadOptions,
     read_motion,
     read_quietly,
     register,
+    registry,
     supported_formats,
 )
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -20,8 +22,8 @@ from kineme.report.page import filled, write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
 from kineme.web.display import display_motion
-from kineme.web.matrix import matrix_of_motion
-from kineme.web.recording import footage, recording
+from kineme.web.page_data import page_data, recording_message
+from kineme.web.similarity import matrix_of_motion
 
 RECORDING = kineme.read(bundled_recording())
 SEGMENTS = kineme.segment(RECORDING)
@@ -66,13 +68,13 @@ def test_everything_is_in_the_page(tmp_path: Path) -> None:
     message = json.loads(page.texts["kineme-recording"])
     head, binary = display_motion(RECORDING)
     assert message["name"] == bundled_recording().name
-    assert message["motion"] == json.loads(json.dumps(head))
+    assert message["motion"] == json.loads(msgspec.json.encode(head))
     assert base64.b64decode(page.texts["kineme-motion"]) == binary
     tiles = {
         place: base64.b64decode(text)
         for place, text in json.loads(page.texts["kineme-tiles"]).items()
     }
-    assert tiles == matrix_of_motion(RECORDING).kept()[0]
+    assert tiles == matrix_of_motion(RECORDING).report_tiles()[0]
     assert message["segmentation"]["provenance"]["preset"] == "kineme"
     assert [tuple(row) for row in message["segmentation"]["segments"]] == [COLUMNS] * len(SEGMENTS)
     assert (tmp_path / "out.html").stat().st_size < 1_500_000
@@ -89,8 +91,8 @@ def test_the_page_asks_for_nothing_from_elsewhere(tmp_path: Path) -> None:
 
 
 def test_texts_stay_inside_their_element() -> None:
-    shown = footage(RECORDING)
-    message = recording(shown, labelled(NASTY), name=NASTY + BREAKS)
+    shown = page_data(RECORDING)
+    message = recording_message(shown, labelled(NASTY), name=NASTY + BREAKS)
     page = filled(TEMPLATE, message, shown.binary, {})
     assert page.isascii()
     parsed = Scripts(page)
@@ -100,9 +102,16 @@ def test_texts_stay_inside_their_element() -> None:
     assert {row["label"] for row in back["segmentation"]["segments"]} == {NASTY}
 
 
+def test_names_that_are_not_unicode_are_shown(tmp_path: Path) -> None:
+    name = os.fsdecode(b"G\xe4nge.bvh")
+    table = replace(SEGMENTS, provenance={"input": {"path": f"/data/{name}"}})
+    write_report(RECORDING, table, tmp_path / "out.html")
+    assert content(tmp_path / "out.html")["name"] == "G?nge.bvh"
+
+
 def test_a_name_like_a_place_for_data_is_not_filled() -> None:
-    shown = footage(RECORDING)
-    message = recording(shown, SEGMENTS, name="<!--kineme:tiles-->")
+    shown = page_data(RECORDING)
+    message = recording_message(shown, SEGMENTS, name="<!--kineme:tiles-->")
     page = Scripts(filled(TEMPLATE, message, shown.binary, {"0/0/0": b"tile"}))
     assert json.loads(page.texts["kineme-recording"])["name"] == "<!--kineme:tiles-->"
     assert page.tags.count("script") == 3
@@ -154,12 +163,12 @@ def test_only_pages_are_written(tmp_path: Path) -> None:
 
 def test_arrays_need_a_frame_rate() -> None:
     with pytest.raises(ParameterError, match="give fps"):
-        footage(np.ones((5, 2)))
+        page_data(np.ones((5, 2)))
 
 
 def test_a_lowered_rate_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    shown = footage(RECORDING)
-    assert recording(shown, SEGMENTS, name="x")["warnings"] == []
-    slow = replace(shown, motion={**shown.motion, "sample_fps": 12.0})
-    (said,) = recording(slow, SEGMENTS, name="x")["warnings"]
+    shown = page_data(RECORDING)
+    assert recording_message(shown, SEGMENTS, name="x").warnings == []
+    slow = replace(shown, motion=msgspec.structs.replace(shown.motion, sample_fps=12.0))
+    (said,) = recording_message(slow, SEGMENTS, name="x").warnings
     assert "12 times a second" in said

@@ -13,9 +13,9 @@ from studio_clients import PORT, TOKEN, Process, Studio
 
 from kineme.datasets import bundled_recording
 from kineme.studio.app import create_app
-from kineme.studio.documents import Documents
 from kineme.studio.events import Hub
 from kineme.studio.folder import Folder
+from kineme.studio.open_recordings import OpenRecordings
 
 FRAMES = 240
 
@@ -48,8 +48,8 @@ def make_studio(folder: Path) -> Iterator[Callable[..., Studio]]:
 
     def make(files: list[Path] | None = None, **options: Any) -> Studio:
         hub = Hub()
-        documents = Documents(Folder(folder, files), hub.tell)
-        app = create_app(documents, token=TOKEN, port=PORT, hub=hub, **options)
+        recordings = OpenRecordings(Folder(folder, files), hub.tell)
+        app = create_app(recordings, token=TOKEN, port=PORT, hub=hub, **options)
         client = TestClient(
             app,
             base_url=f"http://127.0.0.1:{PORT}",

@@ -14,8 +14,8 @@ from studio_clients import PORT, TOKEN
 from kineme.errors import ParameterError
 from kineme.studio.security import HEADERS
 from kineme.studio.uploads import LONGEST, safe_name
-from kineme.studio.validation import checked, parsed
-from kineme.web.messages import EditRequest
+from kineme.web.encoding import from_json, to_json
+from kineme.web.requests import EditRequest
 
 API = ("/api/state", "/api/recordings/x", "/api/recordings/x/motion", "/api/events", "/api/none")
 
@@ -268,19 +268,19 @@ KINDS = st.sampled_from(["split", "merge", "segment", "transfer", "name_cluster"
 @settings(max_examples=300)
 @given(st.fixed_dictionaries({"kind": KINDS | JSON, "level": JSON, "frame": JSON}) | JSON, JSON)
 def test_any_value_is_a_message_or_a_sentence(edit: object, revision: object) -> None:
+    value = {"revision": revision, "edit": edit}
     try:
-        value = parsed(json.dumps({"revision": revision, "edit": edit}).encode())
-        assert checked(EditRequest, value) == value
+        message = from_json(json.dumps(value).encode(), EditRequest)
+        assert json.loads(to_json(message)) == value
     except ParameterError as error:
         assert str(error)
 
 
 @given(st.binary(max_size=60))
-def test_any_bytes_are_json_or_a_sentence(body: bytes) -> None:
-    try:
-        parsed(body)
-    except ParameterError as error:
-        assert str(error) == "the request does not hold JSON"
+def test_any_bytes_are_a_message_or_a_sentence(body: bytes) -> None:
+    with pytest.raises(ParameterError) as caught:
+        from_json(body, EditRequest)
+    assert str(caught.value)
 
 
 def test_names_with_html_in_them_stay_data(studio) -> None:
@@ -321,20 +321,23 @@ def test_nothing_in_a_folder_that_may_not_be_written_to_is_lost(studio, monkeypa
     assert [path.name for path in studio.folder.iterdir()] == ["take.bvh"]
 
 
-def test_files_of_the_page_are_asked_for_by_digest(make_studio, tmp_path_factory) -> None:
+def test_files_of_the_page_are_asked_for_anew_each_time(make_studio, tmp_path_factory) -> None:
     static = tmp_path_factory.mktemp("static")
     (static / "assets").mkdir()
     (static / "studio.html").write_text("<title>studio</title>")
     (static / "assets" / "studio.js").write_text("1;")
-    (static / "assets" / "notes.txt").write_text("no part of the page")
+    (static / "notes.txt").write_text("no part of the page")
+    (static / "assets" / "secret.js").symlink_to(static / "notes.txt")
     studio = make_studio(static=static)
     page = studio.get("/?token=x", headers={"x-kineme-token": ""})
     assert (page.status_code, page.text) == (200, "<title>studio</title>")
     script = studio.get("/assets/studio.js")
     assert script.headers["content-type"] == "text/javascript; charset=utf-8"
+    assert script.headers["cache-control"] == "no-cache"
     again = studio.get("/assets/studio.js", headers={"if-none-match": script.headers["etag"]})
     assert (again.status_code, again.content) == (304, b"")
-    assert studio.get("/assets/notes.txt").status_code == 404
+    for address in ("/notes.txt", "/assets/../notes.txt", "/assets/secret.js", "/assets/"):
+        assert studio.get(address).status_code == 404
     bare = make_studio(static=static / "none")
     assert bare.get("/").status_code == 404
     assert "npm run build" in bare.get("/").text

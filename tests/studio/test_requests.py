@@ -3,26 +3,49 @@
 from __future__ import annotations
 
 import asyncio
+import copy
 import json
+import math
+import os
 import shutil
+import threading
 import zipfile
+from concurrent.futures import ThreadPoolExecutor
 from importlib import import_module
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
-from message_types import conforms
 from studio_clients import TOKEN
 
 import kineme
 from kineme.labels import FORMATS
-from kineme.methods.presets import PRESETS
-from kineme.studio.choices import RANGES
+from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.events import Hub
+from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
+from kineme.web.encoding import to_json
+
+
+def conforms(kind: type, answer: dict[str, Any]) -> bool:
+    """Whether an answer has exactly the fields of its message, each of its own type."""
+    typed = copy.deepcopy(answer)
+    for row in typed.get("segmentation", {}).get("segments", []):
+        row["score"] = math.nan if row["score"] is None else row["score"]  # JSON has no nan
+    return json.loads(to_json(msgspec.convert(typed, kind))) == answer
+
+
+def write_imu(path: Path) -> None:
+    """Twenty seconds of three channels that repeat."""
+    seconds = np.arange(0, 20, 0.02)
+    waves = np.column_stack([np.sin(6 * seconds), np.cos(6 * seconds), np.sin(12 * seconds)])
+    rows = np.column_stack([seconds, waves])
+    np.savetxt(path, rows, delimiter=",", header="time,acc_1,acc_2,gyro_1", comments="")
 
 
 def test_what_there_is_to_open(studio, folder: Path) -> None:
@@ -47,36 +70,69 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
     }
     assert not any(file["corrected"] for file in state["recordings"])
     assert state["default_preset"] == state["presets"][0]["name"]
+    assert {".bvh", ".c3d", ".npz"} <= set(state["suffixes"])
     assert conforms(messages.State, state)
+
+
+def test_names_that_are_not_unicode_are_listed(studio, folder: Path) -> None:
+    try:
+        shutil.copy(folder / "take.bvh", folder / os.fsdecode(b"G\xe4nge.bvh"))
+    except OSError:
+        pytest.skip("this file system takes Unicode names only")
+    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    assert set(files) == {"G?nge.bvh", "take.bvh"}
+    assert studio.get(f"/api/recordings/{files['G?nge.bvh']}").json()["name"] == "G?nge.bvh"
 
 
 def test_what_the_pages_address_names_is_opened_ahead(studio, monkeypatch) -> None:
     studio.get(f"/?token={TOKEN}&open=none&open={studio.id}")
-    monkeypatch.setattr("kineme.studio.takes._read", _unread)
+    monkeypatch.setattr("kineme.studio.reading.read_quietly", _unread)
     assert studio.recording()["segmentation"]["segments"]
 
 
 @pytest.mark.parametrize("token", ["", "wrong"])
 def test_nothing_is_opened_ahead_without_the_token(studio, token, monkeypatch) -> None:
     studio.client.headers.pop("x-kineme-token")
-    monkeypatch.setattr("kineme.studio.takes._read", _unread)
+    monkeypatch.setattr("kineme.studio.reading.read_quietly", _unread)
     assert studio.get(f"/?token={token}&open={studio.id}").status_code == 200
 
 
-def _unread(_: Path) -> None:
+def _unread(*_: object) -> None:
     pytest.fail("the file is read")
 
 
 def test_each_preset_offers_its_own_constants_with_their_help(studio) -> None:
     for choice in studio.get("/api/state").json()["presets"]:
         preset = PRESETS[choice["name"]]
-        assert [p["name"] for p in choice["parameters"]] == [r.name for r in RANGES[preset.name]]
-        for offered in choice["parameters"]:
-            assert offered["help"]
-            assert offered["value"] == getattr(preset, offered["name"])
-            assert offered["minimum"] <= offered["value"] <= offered["maximum"]
-            steps = (offered["value"] - offered["minimum"]) / offered["step"]
-            assert steps == pytest.approx(round(steps), abs=1e-6)  # where a slider can stand
+        assert choice["help"] == preset.help
+        sliders = [known.name for known in preset.constants() if known.slider]
+        for signals, which in ((False, "parameters"), (True, "signal_parameters")):
+            values = resolve_preset(choice["name"], signals=signals)
+            assert [offered["name"] for offered in choice[which]] == sliders
+            for offered in choice[which]:
+                assert offered["help"]
+                assert offered["value"] == getattr(values, offered["name"])
+                assert offered["minimum"] <= offered["value"] <= offered["maximum"]
+                steps = (offered["value"] - offered["minimum"]) / offered["step"]
+                assert steps == pytest.approx(round(steps), abs=1e-6)  # where a slider can stand
+
+
+def test_lengths_of_signals_are_in_their_own_unit_however_often_they_are_sent(
+    studio, folder: Path
+) -> None:
+    write_imu(folder / "imu.csv")
+    state = studio.get("/api/state").json()
+    studio.id = next(f["id"] for f in state["recordings"] if f["name"] == "imu.csv")
+    choice = next(each for each in state["presets"] if each["name"] == "voegele2014")
+    values = {each["name"]: each["value"] for each in choice["signal_parameters"]}
+    revision = studio.recording()["revision"]
+    plain = kineme.segment(kineme.read(folder / "imu.csv"), preset="voegele2014")
+    for _ in range(2):
+        again = studio.done(revision, "segment", preset="voegele2014", parameters=values)
+        revision = again["revision"]
+        used = again["segmentation"]["provenance"]["parameters"]
+        assert kineme.read_segments(folder / "imu.segments.json").table == plain.table
+        values = {name: used[name] for name in values}  # as the page does
 
 
 def test_a_recording_is_what_segment_finds(studio) -> None:
@@ -262,11 +318,7 @@ def test_a_single_point_is_shown_whole(studio, folder: Path) -> None:
 
 
 def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> None:
-    seconds = np.arange(0, 20, 0.02)
-    waves = np.column_stack([np.sin(6 * seconds), np.cos(6 * seconds), np.sin(12 * seconds)])
-    rows = np.column_stack([seconds, waves])
-    header = "time,acc_1,acc_2,gyro_1"
-    np.savetxt(folder / "imu.csv", rows, delimiter=",", header=header, comments="")
+    write_imu(folder / "imu.csv")
     files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
     studio.id = files["imu.csv"]
     message = studio.recording()
@@ -293,6 +345,21 @@ def test_a_file_that_cannot_be_read_is_a_sentence(studio, folder: Path) -> None:
         answer = studio.get(f"/api/recordings/{files[name]}")
         assert answer.status_code == 400
         assert name in answer.json()["error"]
+
+
+def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None:
+    shutil.copy(folder / "take.bvh", folder / "other.bvh")
+    both = threading.Barrier(2, timeout=20)
+
+    def read_together(path: Path, _: object) -> str:
+        both.wait()
+        return path.name
+
+    monkeypatch.setattr("kineme.studio.reading.read_quietly", read_together)
+    cache = RecordingCache(ReadingOptions())
+    with ThreadPoolExecutor(2) as threads:
+        found = threads.map(cache.read, [folder / "take.bvh", folder / "other.bvh"])
+        assert list(found) == ["take.bvh", "other.bvh"]
 
 
 def test_only_files_that_were_named_are_listed(make_studio, folder: Path) -> None:

@@ -22,10 +22,10 @@ RECORDING = kineme.read(bundled_recording())
 
 def decoded(head: MotionHead, data: bytes) -> np.ndarray:
     """Positions (samples, joints, 3) as a page reads them; nan where not seen."""
-    joints = len(head["joints"])
-    columns = np.frombuffer(zlib.decompress(data), "<i2").reshape(3 * joints, head["n_samples"])
+    joints = len(head.joints)
+    columns = np.frombuffer(zlib.decompress(data), "<i2").reshape(3 * joints, head.n_samples)
     numbers = np.cumsum(columns, axis=1, dtype=np.int16).T.reshape(-1, joints, 3)
-    positions = np.array(head["origin"]) + head["step"] * numbers
+    positions = np.array(head.origin) + head.step * numbers
     positions[numbers == -32768] = np.nan
     return positions
 
@@ -39,16 +39,14 @@ def moving(positions: np.ndarray, fps: float = 30.0, **more: object) -> Motion:
 
 def test_every_second_frame_of_60_hz_comes_back_within_a_step() -> None:
     head, data = display_motion(RECORDING)
-    assert (head["sample_fps"], head["n_samples"]) == (30.0, (RECORDING.n_frames + 1) // 2)
-    assert head["step"] < 0.0005
-    np.testing.assert_allclose(
-        decoded(head, data), RECORDING.positions[::2], atol=0.51 * head["step"]
-    )
+    assert (head.sample_fps, head.n_samples) == (30.0, (RECORDING.n_frames + 1) // 2)
+    assert head.step < 0.0005
+    np.testing.assert_allclose(decoded(head, data), RECORDING.positions[::2], atol=0.51 * head.step)
 
 
 def test_slow_recordings_keep_their_rate() -> None:
     head, _ = display_motion(moving(RECORDING.positions[:50], fps=12.5))
-    assert (head["sample_fps"], head["n_samples"]) == (12.5, 50)
+    assert (head.sample_fps, head.n_samples) == (12.5, 50)
 
 
 @pytest.mark.parametrize("fps", [29.97, 40.0, 59.94, 100.0, 119.88, 1000.0])
@@ -64,15 +62,15 @@ def test_long_recordings_get_a_coarser_step_then_fewer_poses() -> None:
     fine, data = display_motion(RECORDING)
     coarse, less = display_motion(RECORDING, most_bytes=len(data) - 1)
     assert len(less) < len(data)
-    assert 3 * fine["step"] < coarse["step"] < 0.001
-    assert coarse["sample_fps"] == 30.0
+    assert 3 * fine.step < coarse.step < 0.001
+    assert coarse.sample_fps == 30.0
     slow, least = display_motion(RECORDING, most_bytes=len(less) // 3)
     assert len(least) <= len(less) // 3
-    assert slow["sample_fps"] < 30.0
-    at = np.arange(slow["n_samples"]) * RECORDING.fps / slow["sample_fps"]
+    assert slow.sample_fps < 30.0
+    at = np.arange(slow.n_samples) * RECORDING.fps / slow.sample_fps
     expected = RECORDING.positions[np.rint(at).astype(int)]
     np.testing.assert_allclose(decoded(slow, least), expected, atol=0.1)
-    assert len(slow["heading"]) == slow["n_samples"]
+    assert len(slow.heading) == slow.n_samples
 
 
 def test_gaps_show_nothing() -> None:
@@ -91,8 +89,18 @@ def test_gaps_show_nothing() -> None:
 )
 def test_points_come_back_and_missing_ones_stay_missing(positions: np.ndarray) -> None:
     origin, step, data = encode(positions, 1e-4)
-    head = {"n_samples": len(positions), "joints": ["p"] * positions.shape[1]}
-    found = decoded({**head, "origin": origin, "step": step}, data)
+    head = MotionHead(
+        n_samples=len(positions),
+        sample_fps=30.0,
+        joints=["p"] * positions.shape[1],
+        parents=[],
+        bones=[],
+        origin=origin,
+        step=step,
+        heading=None,
+        effectors={},
+    )
+    found = decoded(head, data)
     lost = np.isnan(positions).any(axis=2)
     np.testing.assert_array_equal(np.isnan(found).any(axis=2), lost)
     np.testing.assert_allclose(found[~lost], positions[~lost], atol=0.501 * step + 1e-9)
@@ -101,15 +109,15 @@ def test_points_come_back_and_missing_ones_stay_missing(positions: np.ndarray) -
 def test_heading_turns_with_the_motion() -> None:
     head, _ = display_motion(RECORDING)
     turned, _ = display_motion(kineme.recordings.operations.turn(RECORDING, 0.5))
-    difference = np.array(turned["heading"]) - np.array(head["heading"])
+    difference = np.array(turned.heading) - np.array(head.heading)
     np.testing.assert_allclose(np.angle(np.exp(1j * (difference - 0.5))), 0, atol=0.002)
-    assert head["joints"][head["effectors"]["head"]].lower().startswith("head")
-    assert set(head["effectors"]) == {*kineme.features.PARTS, "pelvis"}
+    assert head.joints[head.effectors["head"]].lower().startswith("head")
+    assert set(head.effectors) == {*kineme.features.PARTS, "pelvis"}
 
 
 def test_what_has_no_body_is_still_drawn() -> None:
     head, data = display_motion(moving(RECORDING.positions[:20, :4]))
-    assert (head["heading"], head["effectors"], head["bones"]) == (None, {}, [])
+    assert (head.heading, head.effectors, head.bones) == (None, {}, [])
     assert decoded(head, data).shape == (20, 4, 3)
 
 

@@ -17,9 +17,8 @@ from kineme.web.matrix import (
     MOST_CELLS,
     TILE,
     Matrix,
-    matrix_of_motion,
-    matrix_of_signal,
 )
+from kineme.web.similarity import matrix_of_motion, matrix_of_signal
 
 RECORDING = kineme.read(bundled_recording())
 MATRIX = matrix_of_motion(RECORDING)
@@ -59,7 +58,7 @@ def test_cells_are_the_similarity_of_their_features() -> None:
 
 def test_coarser_levels_halve_until_one_tile_is_left() -> None:
     long = matrix_of_signal(np.random.default_rng(0).normal(size=(3001, 2)), 10.0)
-    assert long.head()["sizes"] == [3001, 1501, 751, 376, 188]
+    assert long.head().sizes == [3001, 1501, 751, 376, 188]
     assert shown(long, 4).shape == (188, 188)
 
 
@@ -68,7 +67,7 @@ def test_from_afar_activities_are_plain_blocks(motion: Motion, times: float) -> 
     """Moments of one activity are alike whatever their phase, those of different ones are not."""
     truth = kineme.read_segments(bundled_truth())
     matrix = matrix_of_motion(motion)
-    assert matrix.head()["sizes"] == [483, 242]
+    assert matrix.head().sizes == [483, 242]
     cells = np.arange(242) / 5 + 0.1  # seconds
     rows = truth.activities
     owner = np.searchsorted(rows.start_s, cells, side="right") - 1
@@ -128,16 +127,16 @@ def test_what_is_no_signal_is_refused(values: object, fps: float) -> None:
 
 
 def test_what_a_report_keeps_covers_the_recording_and_stays_within_its_bytes() -> None:
-    tiles, band = MATRIX.kept()
+    tiles, band = MATRIX.report_tiles()
     assert band is None
     assert sorted(tiles) == ["0/0/0", "0/1/0", "0/1/1", "1/0/0"]
     long = matrix_of_signal(np.random.default_rng(3).normal(size=(9000, 1)), 10.0)
-    tiles, band = long.kept()
+    tiles, band = long.report_tiles()
     assert band == TILE
     assert {"0/35/35", "0/35/34", "1/17/0"} <= tiles.keys()
     assert "0/35/33" not in tiles
     most = sum(map(len, tiles.values())) - 100_000
-    fewer, band = long.kept(most)
+    fewer, band = long.report_tiles(most)
     assert band == 0
     assert sum(map(len, fewer.values())) <= most
 

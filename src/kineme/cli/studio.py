@@ -38,15 +38,16 @@ def studio(
     failures = Failures()
     with failures.caught("studio"):
         root, recordings = _opened(files or [Path()])
+        from kineme.formats import ReadOptions
+        from kineme.studio.reading import ReadingOptions
         from kineme.studio.server import serve
-        from kineme.studio.takes import Reading
 
-        said = Reading(reading or {}, effector_names(effectors))
+        options = ReadingOptions(ReadOptions(**(reading or {})), effector_names(effectors))
 
         def announce(address: str) -> None:
             typer.echo(f"kineme studio: {address} (Ctrl+C ends it)")
 
-        serve(root, recordings, reading=said, port=port, browser=browser, announce=announce)
+        serve(root, recordings, options=options, port=port, browser=browser, announce=announce)
     failures.exit()
 
 

@@ -10,16 +10,9 @@ from kineme.formats.arrays import mat, numpy_files
 from kineme.formats.channels import opensim
 from kineme.formats.keypoints import pose_json, sleap
 from kineme.formats.markers import c3d, trc
-from kineme.formats.registry import (
-    Format,
-    ReadOptions,
-    read,
-    read_motion,
-    read_quietly,
-    register,
-    supported_formats,
-    write,
-)
+from kineme.formats.options import ReadOptions
+from kineme.formats.read_write import read, read_motion, read_quietly, write
+from kineme.formats.registry import Format, register, supported_formats
 from kineme.formats.skeletons import amc, bvh
 from kineme.formats.tables import parquet, text
 

@@ -24,8 +24,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
+from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
-from kineme.formats.registry import ReadOptions
 from kineme.formats.timing import UNITS_OF_TIME, Timing, is_date, seconds, timing_of
 from kineme.recordings import Motion
 

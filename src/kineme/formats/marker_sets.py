@@ -1,7 +1,7 @@
 """Where pelvis, hips, ankles, head and wrists are, from markers or keypoints of the usual sets.
 
 A joint of the body is the middle of the points of the first line in `TABLE`
-that the recording has whole, left and right alike where both have one. ``*``
+that the recording has whole, left and right the same where both have one. ``*``
 stands for the side, L or R. Names are compared in a plain form: upper case, the
 side in front, nothing but letters and digits (``R.Wrist.Med``, ``r_wrist_med``
 and ``WristMedR`` are all RWRISTMED), without the name of the subject
@@ -129,9 +129,13 @@ def find_body(names: Sequence[str], usable: Collection[int]) -> dict[str, tuple[
         made = {
             joint: [_made_of(line, side, at) for line in lines] for joint, side in sides.items()
         }
-        alike = [all(choices) for choices in zip(*made.values(), strict=True)]
+        both_sides = [all(choices) for choices in zip(*made.values(), strict=True)]
         for joint, choices in made.items():
-            chosen = choices[alike.index(True)] if any(alike) else next(filter(None, choices), ())
+            chosen = (
+                choices[both_sides.index(True)]
+                if any(both_sides)
+                else next(filter(None, choices), ())
+            )
             if chosen:
                 found[joint] = chosen
     return {joint: found[joint] for joint in PARENTS if joint in found}

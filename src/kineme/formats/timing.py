@@ -4,7 +4,7 @@ The rows of a file are the frames of the recording, whatever their times: none i
 added, left out or moved. The rate is that of the ordinary steps from row to row.
 Clocks do worse than that: they are set while they run, they give several rows one time
 (those that count whole seconds, those that stamp a packet of samples), rows are lost or
-come a moment late. All of this is said; a step that is longer or shorter than usual by
+come late. All of this is said; a step that is longer or shorter than usual by
 more than 0.2 s, forward or back, splits the recording as any other gap does.
 
 Times may be dates: ISO 8601 with or without a zone (UTC without), or the time of day.
@@ -133,10 +133,10 @@ def date_seconds(text: str) -> float:
     if not any(mark in text for mark in "-:"):
         raise ValueError(f"{text[:40]!r} is no ISO date")
     try:
-        moment = datetime.fromisoformat(text)
+        when = datetime.fromisoformat(text)
     except ValueError:
-        moment = datetime.combine(datetime(1970, 1, 1).date(), _time_of_day(text))  # noqa: DTZ001
-    return (moment if moment.tzinfo else moment.replace(tzinfo=UTC)).timestamp()
+        when = datetime.combine(datetime(1970, 1, 1).date(), _time_of_day(text))  # noqa: DTZ001
+    return (when if when.tzinfo else when.replace(tzinfo=UTC)).timestamp()
 
 
 def _nan_or_date(value: Any) -> float:

@@ -1,7 +1,7 @@
 """From a file's own units and axes to metres with y up.
 
 Formats without a unit or an up axis are judged by the body they describe: its
-size tells the unit, the way from feet to head the vertical. Whatever is
+size tells the unit, the line from feet to head the vertical. Whatever is
 inferred is said in the motion's provenance.
 """
 
@@ -122,9 +122,9 @@ def up_rotation(up: str) -> Floats:
 def infer_unit(skeleton: Skeleton, translations: Floats) -> tuple[str, Note]:
     """The unit that makes this a body of human size, and the note that says so.
 
-    The height is taken as three quarters of the longest way along the bones,
+    The height is taken as three quarters of the longest path along the bones,
     hand to foot; in nine skeletons (CMU, HDM05, PyMO, aitviewer) that is
-    within 7 % of the way along the bones from head to toes. If no unit fits the
+    within 7 % of the path along the bones from head to toes. If no unit fits the
     nearest is taken, and the note is a warning.
     """
     height = _height(skeleton, translations)
@@ -143,8 +143,8 @@ def infer_unit(skeleton: Skeleton, translations: Floats) -> tuple[str, Note]:
 
 
 def _height(skeleton: Skeleton, translations: Floats) -> float:
-    """Three quarters of the longest way along the bones, in file units."""
-    return 0.75 * _longest_way(skeleton, np.linalg.norm(translations.mean(axis=0), axis=1))
+    """Three quarters of the longest path along the bones, in file units."""
+    return 0.75 * _longest_path(skeleton, np.linalg.norm(translations.mean(axis=0), axis=1))
 
 
 def infer_up(skeleton: Skeleton, positions: Floats) -> str:
@@ -186,7 +186,7 @@ def rate_from_period(word: str) -> tuple[float, str | None]:
     return float(1 / period), None
 
 
-def _longest_way(skeleton: Skeleton, lengths: Floats) -> float:
+def _longest_path(skeleton: Skeleton, lengths: Floats) -> float:
     """The longest path between two joints along the bones."""
     reach = [0.0] * skeleton.n_joints
     longest = 0.0

@@ -93,7 +93,7 @@ class Preset(ABC):
     view: ClassVar[View] = "poses"
     """What it sees of a body: where five points are, or how joints are turned."""
 
-    units: ClassVar[tuple[Unit, ...]]
+    units: ClassVar[tuple[Unit, ...]] = ("body sizes", "metres", "standard deviations", "any")
     """What its lengths can be in."""
     signal_defaults: ClassVar[Mapping[str, Any]] = {}
     """Constants with other values for signals, where the preset is given by name."""

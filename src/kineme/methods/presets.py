@@ -7,7 +7,6 @@ methods; the others are what results are compared with.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import cache
 from types import MappingProxyType
 from typing import Any
 
@@ -28,6 +27,7 @@ PUBLISHED: Mapping[str, RegionGrowingPreset] = MappingProxyType(
 _known: dict[str, Preset] = {
     preset.name: preset for preset in (KINEME, *PUBLISHED.values(), *BASELINES)
 }
+_looked_up: list[bool] = []
 
 
 def register(preset: Preset) -> None:
@@ -121,8 +121,10 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
     return (chosen.for_signals() if signals else chosen).replace(**overrides)
 
 
-@cache
 def _look_up() -> None:
-    """Register what installed packages name as theirs, once."""
+    """Register what installed packages name as theirs, once, even where they look in turn."""
+    if _looked_up:
+        return
+    _looked_up.append(True)
     for preset in plugins(GROUP):
         register(preset)

@@ -2,8 +2,8 @@
 
 The page itself is built from the sources in ``web/pages`` and comes with the
 package. It has three marked places for data, which become script elements that
-no browser runs: the :class:`Recording` message, the binary motion, and the
-tiles of the similarity matrix.
+no browser runs: the :class:`~kineme.web.messages.Recording` message, the binary
+motion, and the tiles of the similarity matrix.
 """
 
 from __future__ import annotations
@@ -19,14 +19,15 @@ from kineme._files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
 from kineme.segments.segmentation import Segmentation
+from kineme.web.encoding import to_json
 from kineme.web.messages import Recording
-from kineme.web.recording import Source, footage, recording
+from kineme.web.page_data import Shown, page_data, recording_message
 
 SUFFIXES = (".html", ".htm")
 
 
 def write_report(
-    source: Source,
+    recording: Shown,
     segmentation: Segmentation,
     path: str | PathLike[str],
     *,
@@ -37,17 +38,30 @@ def write_report(
 
     Parameters
     ----------
-    source : the motion, the `Signals`, or an array (frames, channels) that was segmented
-    segmentation : its segments, by any method or from a table
-    path : .html
-    name : what the page calls the recording; by default the name of its file
-    effectors : joints to take for head, hands and feet where names do not tell
+    recording : Motion, Signals or array_like
+        What was segmented; arrays are (frames, channels).
+    segmentation : Segmentation
+        Its segments, by any method or from a table.
+    path : str or PathLike
+        The page, .html.
+    name : str, optional
+        What the page calls the recording; by default the name of its file.
+    effectors : mapping, optional
+        Joints that stand for head, hands and feet where names do not tell.
 
     Raises
     ------
-    ParameterError : the segments are of another recording: its length or frame
-        rate is another
-    WriteError : another suffix, or the file cannot be written
+    ParameterError
+        The segments are of another recording: its length or frame rate is another.
+    WriteError
+        Another suffix, or the file cannot be written.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording
+    >>> motion = kineme.read(bundled_recording())
+    >>> kineme.write_report(motion, kineme.segment(motion), "report.html")
     """
     check_type(segmentation, Segmentation, "write_report", "kineme.segment(motion) gives one")
     check_path(path, "write_report")
@@ -55,15 +69,31 @@ def write_report(
         check_type(name, str, "name", "give a text, or leave it out")
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"reports are written as {', '.join(SUFFIXES)}")
-    shown = footage(source, fps=segmentation.fps, effectors=effectors)
-    tiles, band = shown.matrix.kept()
-    message = recording(shown, segmentation, name=name or _name(segmentation), band=band)
+    data = page_data(recording, fps=segmentation.fps, effectors=effectors)
+    tiles, band = data.matrix.report_tiles()
+    message = recording_message(data, segmentation, name=name or _name(segmentation), band=band)
     with atomic_write(path) as draft:
-        draft.write_text(filled(_template(), message, shown.binary, tiles), encoding="utf-8")
+        draft.write_text(filled(_template(), message, data.binary, tiles), encoding="utf-8")
 
 
 def filled(template: str, message: Recording, binary: bytes, tiles: dict[str, bytes]) -> str:
-    """The template with the data in place of its comments."""
+    """The template with the data in place of its comments.
+
+    Parameters
+    ----------
+    template : str
+        The page as it was built.
+    message : Recording
+    binary : bytes
+        The poses, see :mod:`kineme.web.display`.
+    tiles : dict
+        PNGs by "level/row/column".
+
+    Returns
+    -------
+    str
+        The page.
+    """
     pictures = {place: _base64(tile) for place, tile in tiles.items()}
     parts = {
         "recording": ("application/json", _json(message)),
@@ -85,7 +115,7 @@ def _name(segmentation: Segmentation) -> str:
 
 def _json(value: object) -> str:
     """JSON that stays inside its script element, whatever the texts in it hold."""
-    text = json.dumps(value, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
+    text = json.dumps(json.loads(to_json(value)), separators=(",", ":"))  # which is ASCII
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 

@@ -1,4 +1,8 @@
-"""What was, what is, what was taken back: undo and redo as a value."""
+"""Undo and redo as a value: the present table, the ones before it, and the ones undone.
+
+Nothing here changes in place, so that a state that could not be saved is
+simply dropped.
+"""
 
 from __future__ import annotations
 
@@ -10,29 +14,77 @@ from kineme.errors import ParameterError
 State = TypeVar("State")
 
 LONGEST = 100
-"""States to go back; a table of an hour takes a few hundred kilobytes."""
+"""States to go back; the table of an hour has a few hundred kilobytes."""
 
 
 @dataclass(frozen=True)
 class History(Generic[State]):
-    """The present state, those before it (oldest first), and those taken back (next first)."""
+    """A state and how it came about.
+
+    Parameters
+    ----------
+    present : State
+        Usually a :class:`~kineme.segments.segmentation.Segmentation`.
+    past : tuple of State
+        Those before it, oldest first.
+    future : tuple of State
+        Those undone, the next one to redo first.
+
+    Examples
+    --------
+    >>> history = History("cut").then("merged").then("named")
+    >>> history.undone().present
+    'merged'
+    >>> history.undone().redone().present
+    'named'
+    """
 
     present: State
     past: tuple[State, ...] = ()
     future: tuple[State, ...] = ()
 
     def then(self, state: State) -> History[State]:
-        """The same with a new present; what was taken back is gone."""
+        """The history with a new present; what was undone cannot be redone any more.
+
+        Parameters
+        ----------
+        state : State
+
+        Returns
+        -------
+        History
+            With at most ``LONGEST`` states before the present one.
+        """
         return History(state, (*self.past, self.present)[-LONGEST:])
 
     def undone(self) -> History[State]:
-        """One step back; ParameterError if there is none."""
+        """The history one step back.
+
+        Returns
+        -------
+        History
+
+        Raises
+        ------
+        ParameterError
+            There is nothing to undo.
+        """
         if not self.past:
             raise ParameterError("there is nothing to undo")
         return History(self.past[-1], self.past[:-1], (self.present, *self.future))
 
     def redone(self) -> History[State]:
-        """One step forward again; ParameterError if there is none."""
+        """The history one step forward again.
+
+        Returns
+        -------
+        History
+
+        Raises
+        ------
+        ParameterError
+            There is nothing to redo.
+        """
         if not self.future:
             raise ParameterError("there is nothing to redo")
         return History(self.future[0], (*self.past, self.present), self.future[1:])

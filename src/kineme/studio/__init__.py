@@ -3,13 +3,15 @@
 ::
 
     server   a socket of this machine, Ctrl+C, the browser
-      app      routes ─▶ documents, behind security: host, origin, token, headers
-        documents   one per recording: its table, revision, undo, saving
-          takes       the recording itself and all that is computed from it
-          storage     the table beside the recording, and whether someone else changed it
-        folder      what there is to open, names and ids; uploads
+      app      routes ─▶ open recordings, behind security: host, origin, token, headers
+        open_recordings   by id; open_recording: table, revision, undo, saving of each
+          loading           the recording itself and all that is computed from it; reading
+          storage           the table beside the recording, and whether someone else changed it
+          edits             what each edit does to a table
+        folder            what there is to open, names and ids; uploads
+        choices           what the page offers: presets, constants, formats
 
-Everything that a page sends is checked in ``validation`` against the message
-types of :mod:`kineme.web.messages`. No path is ever made from what a page
-sends: files are found by ids, and an upload's name is made anew.
+Everything that a page sends is checked as it is decoded into the types of
+:mod:`kineme.web.requests`. No path is ever made from what a page sends: files
+are found by ids, and an upload's name is made anew.
 """

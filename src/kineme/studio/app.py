@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mimetypes
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,17 +10,21 @@ from starlette.applications import Starlette
 from starlette.background import BackgroundTask
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
-from starlette.routing import Route
+from starlette.responses import FileResponse, Response
+from starlette.routing import Mount, Route
+from starlette.staticfiles import StaticFiles
 
 from kineme.errors import KinemeError, WriteError
-from kineme.studio.documents import ConflictError, Documents, UnknownError
 from kineme.studio.events import Hub
-from kineme.studio.pages import STATIC, Pages
-from kineme.studio.routes import Api
+from kineme.studio.open_recording import ConflictError
+from kineme.studio.open_recordings import OpenRecordings, UnknownError
+from kineme.studio.routes import Api, MessageResponse
 from kineme.studio.security import Guard, is_trusted
 from kineme.studio.uploads import LIMIT, TooLargeError
+from kineme.web.messages import Conflict, Failure
 
+STATIC = Path(__file__).parents[1] / "web" / "static"
+PAGE = "studio.html"
 Handler = Callable[[Request, Exception], Response]
 STATUS: dict[type[Exception], int] = {
     KinemeError: 400,
@@ -28,9 +33,11 @@ STATUS: dict[type[Exception], int] = {
     WriteError: 500,
 }
 
+mimetypes.add_type("text/javascript", ".js")  # the registry of Windows may say something else
+
 
 def create_app(
-    documents: Documents,
+    recordings: OpenRecordings,
     *,
     token: str,
     port: int,
@@ -42,25 +49,40 @@ def create_app(
 
     Parameters
     ----------
-    token : what requests must carry
-    port : the server's own
-    hub : where the documents' news go through
-    static : the built page
-    limit : bytes of an upload
+    recordings : OpenRecordings
+    token : str
+        What requests must carry.
+    port : int
+        The server's own.
+    hub : Hub
+        Where news of the recordings go through.
+    static : Path
+        The built page.
+    limit : int
+        Bytes of an upload.
+
+    Returns
+    -------
+    Guard
     """
-    api = Api(documents, hub, limit=limit)
-    pages = Pages(static)
 
     def page(request: Request) -> Response:
-        answer = pages.answer(request)
+        path = static / PAGE
+        if not path.is_file():
+            return _failure("this page has not been built: npm run build", 404)
+        answer = FileResponse(path)
         if is_trusted(request):  # the recordings are read while the browser sets up the page
             names = request.query_params.getlist("open")
-            answer.background = BackgroundTask(documents.prepare, names)
+            answer.background = BackgroundTask(recordings.prepare, names)
         return answer
 
     handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _refused)
     app = Starlette(
-        routes=[*api.routes(), Route("/", page), Route("/{path:path}", pages.answer)],
+        routes=[
+            *Api(recordings, hub, limit=limit).routes(),
+            Route("/", page),
+            Mount("/assets", StaticFiles(directory=static / "assets", check_dir=False)),
+        ],
         exception_handlers={
             **handlers,
             ConflictError: _conflict,
@@ -73,19 +95,25 @@ def create_app(
 
 def _refused(_: Request, error: Exception) -> Response:
     status = next(STATUS[kind] for kind in type(error).__mro__ if kind in STATUS)
-    return JSONResponse({"error": str(error)}, status)
+    return _failure(str(error), status)
 
 
 def _conflict(_: Request, error: Exception) -> Response:
-    present = dict(error.present) if isinstance(error, ConflictError) else {}
-    return JSONResponse({**present, "error": str(error)}, 409)
+    if not isinstance(error, ConflictError):
+        return _failed(_, error)
+    fields = {name: getattr(error.present, name) for name in error.present.__struct_fields__}
+    return MessageResponse(Conflict(**fields, error=str(error)), 409)
 
 
 def _http_error(_: Request, error: Exception) -> Response:
     status = error.status_code if isinstance(error, HTTPException) else 500
     what = "this address takes other methods" if status == 405 else "there is nothing here"
-    return JSONResponse({"error": what}, status)
+    return _failure(what, status)
 
 
 def _failed(_: Request, __: Exception) -> Response:
-    return JSONResponse({"error": "the server failed; its terminal says how"}, 500)
+    return _failure("the server failed; its terminal says how", 500)
+
+
+def _failure(reason: str, status: int) -> Response:
+    return MessageResponse(Failure(error=reason), status)

@@ -1,17 +1,24 @@
-"""What the page offers: presets with the constants that matter most, and formats."""
+"""What the page offers: presets with the constants that matter most, and formats.
+
+All of it comes from the registered objects: a preset says which of its
+constants a page offers to change and within which limits, a format what it is
+for and how it is downloaded.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from kineme.errors import ParameterError
 from kineme.labels import FORMATS
-from kineme.methods.base import Preset
-from kineme.methods.presets import PRESETS, resolve_preset
+from kineme.methods import PRESETS, Constant, resolve_preset
+from kineme.methods.constants import Slider
 from kineme.web.messages import ExportFormat, Parameter, PresetChoice
 
 CLIPS, REPORT = "motions", "report"
-"""What can be taken away besides the formats of :mod:`kineme.labels`: motion files, a page."""
+"""What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""
 FORMAT_HELP = {
     "csv": "The table, for spreadsheets",
     "json": "Everything in one file",
@@ -33,59 +40,111 @@ SUFFIXES = {
     "clips": ".csv",
     "bids": ".zip",
 }
-"""Of what is taken away, where the format has none of its own or it is several files."""
+"""Of what is downloaded, where the format has none of its own or it is several files."""
 
 
 def presets() -> list[PresetChoice]:
-    """The presets, the default first."""
+    """The presets, the default first.
+
+    Returns
+    -------
+    list of PresetChoice
+    """
     return [
-        {"name": name, "help": preset.help, "parameters": _parameters(preset)}
+        PresetChoice(
+            name=name,
+            help=preset.help,
+            parameters=_parameters(name, signals=False),
+            signal_parameters=_parameters(name, signals=True),
+        )
         for name, preset in PRESETS.items()
     ]
 
 
-def preset_of(name: str, parameters: Mapping[str, float]) -> Preset:
-    """The preset with the given constants, each within its limits.
+def check_offered(preset: str, parameters: Mapping[str, float], *, signals: bool) -> None:
+    """Check constants that a page asks for against what it is offered.
+
+    Parameters
+    ----------
+    preset : str
+        Its name.
+    parameters : mapping of float
+        The constants, lengths in the unit that they have for such a recording.
+    signals : bool
+        Whether they are for signals.
 
     Raises
     ------
-    ParameterError : no such preset, a constant that is not offered, or one outside its limits
+    ParameterError
+        No such preset, a constant that is not offered, or one outside its limits.
     """
-    preset = resolve_preset(name)
-    sliders = {known.name: known.slider for known in preset.constants() if known.slider}
-    for constant, value in parameters.items():
-        if constant not in sliders:
-            raise ParameterError(f"{name} offers {', '.join(sliders)}, not {constant!r:.40}")
-        low, high, _ = sliders[constant]
+    resolve_preset(preset)
+    offered = {known.name: known for known in _parameters(preset, signals=signals)}
+    for name, value in parameters.items():
+        if name not in offered:
+            raise ParameterError(f"{preset} offers {', '.join(offered)}, not {name!r:.40}")
+        low, high = offered[name].minimum, offered[name].maximum
         if not low - 1e-9 <= value <= high + 1e-9:
-            raise ParameterError(f"{constant} can be {low:.4g} to {high:.4g}, not {value:.4g}")
-    return preset.replace(**parameters)
+            raise ParameterError(f"{name} can be {low:.4g} to {high:.4g}, not {value:.4g}")
 
 
 def export_formats() -> list[ExportFormat]:
-    """Every format that segments can be taken away in."""
-    formats: list[ExportFormat] = [
-        {"name": name, "suffix": SUFFIXES.get(name) or FORMATS[name].suffixes[0], "help": text}
-        for name, text in FORMAT_HELP.items()
-    ]
+    """Every format that segments can be downloaded in.
+
+    Returns
+    -------
+    list of ExportFormat
+    """
     return [
-        *formats,
-        {"name": CLIPS, "suffix": ".zip", "help": "A motion file per segment"},
-        {"name": REPORT, "suffix": ".html", "help": "A page that shows it all, without a server"},
+        *(
+            ExportFormat(name=name, suffix=download_suffix(name), help=FORMAT_HELP.get(name, name))
+            for name, known in FORMATS.items()
+            if known.writes
+        ),
+        ExportFormat(name=CLIPS, suffix=".zip", help="A motion file per segment"),
+        ExportFormat(
+            name=REPORT, suffix=".html", help="A page that shows it all, without a server"
+        ),
     ]
 
 
-def _parameters(preset: Preset) -> list[Parameter]:
+def download_suffix(name: str) -> str:
+    """The suffix of what is downloaded in a format."""
+    return SUFFIXES.get(name) or FORMATS[name].suffixes[0]
+
+
+def _parameters(preset: str, *, signals: bool) -> list[Parameter]:
+    constants = resolve_preset(preset).constants()
+    if signals:
+        others = resolve_preset(preset, signals=True).constants()
+        constants = tuple(map(_of_signals, constants, others))
     return [
-        {
-            "name": known.name,
-            "help": known.help,
-            "value": known.value,
-            "minimum": known.slider.minimum,
-            "maximum": known.slider.maximum,
-            "step": known.slider.step,
-            "unit": known.unit,
-        }
-        for known in preset.constants()
-        if known.slider is not None
+        _parameter(known, known.slider)
+        for known in constants
+        if known.slider is not None and known.value is not None
     ]
+
+
+def _parameter(known: Constant, slider: Slider) -> Parameter:
+    """A constant with a slider that can stand at the preset's own value."""
+    below = math.floor((known.value - slider.minimum) / slider.step + 1e-6)
+    return Parameter(
+        name=known.name,
+        help=known.help,
+        value=known.value,
+        minimum=known.value - below * slider.step,
+        maximum=slider.maximum,
+        step=slider.step,
+        unit=known.unit,
+    )
+
+
+def _of_signals(of_body: Constant, of_signals: Constant) -> Constant:
+    """A constant as signals have it: the slider of a length reaches as far to either side."""
+    slider = of_body.slider
+    if slider is None or not of_body.value or of_body.unit not in ("metres", "body sizes"):
+        return of_signals
+    scale = of_signals.value / of_body.value
+    unit = "standard deviations" if of_body.unit == "metres" else ""  # found in the recording
+    slider = Slider(*(scale * bound for bound in slider))
+    return replace(of_signals, slider=slider, unit=unit)

@@ -17,9 +17,23 @@ from kineme.segments.segmentation import Segmentation
 def annotation(path: Path, shown: Segmentation) -> tuple[Segmentation, dict[str, float]]:
     """What a label file says about the recording shown, and how well the result agrees with it.
 
+    Parameters
+    ----------
+    path : Path
+        The label file.
+    shown : Segmentation
+        The result.
+
+    Returns
+    -------
+    other : Segmentation
+        What the file says.
+    scores : dict of float
+
     Raises
     ------
-    ReadError : it cannot be read or understood, or is of another length
+    ReadError
+        It cannot be read or understood, or is of another length.
     """
     try:
         other = read_segments(path, fps=shown.fps, n_frames=shown.n_frames)
@@ -34,7 +48,17 @@ def annotation(path: Path, shown: Segmentation) -> tuple[Segmentation, dict[str,
 
 
 def agreement(shown: Segmentation, other: Segmentation) -> dict[str, float]:
-    """Scores of the result shown, the other taken for the truth; none if that has no activity."""
+    """Scores of the result shown, with the other as the truth.
+
+    Parameters
+    ----------
+    shown, other : Segmentation
+
+    Returns
+    -------
+    dict of float
+        By the name of the score; empty if the other has no activity.
+    """
     rows = other.activities
     if TRANSITION in set(rows.kind.tolist()) and not (rows.kind == "activity").any():
         return {}

@@ -1,4 +1,4 @@
-"""Segments as a file to take away: written to a folder of its own, which is gone afterwards."""
+"""Segments as a file to download: written to a folder of its own, which is gone afterwards."""
 
 from __future__ import annotations
 
@@ -15,40 +15,50 @@ from kineme.recordings import Motion
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
-from kineme.studio.choices import FORMAT_HELP, SUFFIXES
-from kineme.web.recording import Source
+from kineme.studio.choices import download_suffix
+from kineme.web.page_data import Shown
 
-PLAIN = {"bids": ".tsv", "ms-tcn": ".txt"}
-"""Suffixes of the main file, where what is taken away is several."""
+MAIN_SUFFIX = {"bids": ".tsv", "ms-tcn": ".txt"}
+"""Of the main file, where what is downloaded is several."""
 
 
 def table_file(
     segmentation: Segmentation, stem: str, name: str, level: Level | None
 ) -> tuple[str, bytes]:
-    """Name and bytes of the segments in a format; of several files a ZIP.
+    """The segments in a label format.
 
     Parameters
     ----------
-    stem : of the recording's file
-    name : of the format
-    level : of the segments to write, in formats that do not hold both always
+    segmentation : Segmentation
+    stem : str
+        Of the recording's file.
+    name : str
+        Of the format.
+    level : {"activity", "primitive"}, optional
+        Of the segments to write, in formats that do not always hold both.
+
+    Returns
+    -------
+    name : str
+        Of the file.
+    content : bytes
+        A ZIP where the format is several files.
 
     Raises
     ------
-    ParameterError : no such format
+    ParameterError
+        No such format.
     """
-    if name not in FORMAT_HELP:
+    if name not in FORMATS or not FORMATS[name].writes:
         raise ParameterError(f"there is no format {name!r:.40}")
-    known = FORMATS[name]
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        # MS-TCN keeps a mapping one folder up, the others keep to their own.
+        # MS-TCN writes a mapping one folder up, the others stay in their own.
         place = Path(folder) / "groundTruth" if name == "ms-tcn" else Path(folder)
         place.mkdir(exist_ok=True)
-        suffix = PLAIN.get(name) or SUFFIXES.get(name) or known.suffixes[0]
-        path = place / f"{stem}{suffix}"
-        chosen = None if known.holds == "all" else level
+        path = place / f"{stem}{MAIN_SUFFIX.get(name) or download_suffix(name)}"
+        chosen = None if FORMATS[name].holds == "all" else level
         write_segments(segmentation, path, format=name, level=chosen)
-        if name == "csv":  # spreadsheets take one file; JSON and Parquet hold the rest
+        if name == "csv":  # spreadsheets read one file; JSON and Parquet hold the rest
             path.with_suffix(".provenance.json").unlink(missing_ok=True)
         return _one_file(Path(folder), stem)
 
@@ -63,13 +73,13 @@ def motion_files(
 
 
 def report_file(
-    source: Source, segmentation: Segmentation, recording: Path, effectors: Names | None
+    recording: Shown, segmentation: Segmentation, file: Path, effectors: Names | None
 ) -> tuple[str, bytes]:
-    """Name and bytes of a page that shows the recording and its segments."""
+    """Name and bytes of a page that shows the recording in a file, and its segments."""
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        page = Path(folder) / f"{recording.stem}.html"
-        write_report(source, segmentation, page, name=recording.name, effectors=effectors)
-        return _one_file(Path(folder), recording.stem)
+        page = Path(folder) / f"{file.stem}.html"
+        write_report(recording, segmentation, page, name=file.name, effectors=effectors)
+        return _one_file(Path(folder), file.stem)
 
 
 def _one_file(folder: Path, stem: str) -> tuple[str, bytes]:

@@ -5,56 +5,78 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+
+from msgspec import UNSET, Struct
 
 from kineme.errors import ParameterError
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.takes import Take
-from kineme.web.messages import Edit
+from kineme.studio.loading import LoadedRecording
+from kineme.web import requests
+from kineme.web.requests import Edit
 
-BY_HAND: Mapping[str, tuple[Callable[..., Segmentation], tuple[str, ...]]] = {
-    "move_border": (editing.move_border, ("level", "frame", "to")),
-    "split": (editing.split, ("level", "frame")),
-    "merge": (editing.merge, ("level", "start_frame", "stop_frame")),
-    "delete_border": (editing.delete_border, ("level", "frame")),
-    "name_segment": (editing.name_segment, ("level", "frame", "label")),
-    "name_cluster": (editing.name_cluster, ("cluster", "label")),
-    "set_cluster": (editing.set_cluster, ("level", "frame", "cluster")),
-    "set_kind": (editing.set_kind, ("level", "frame", "to")),
+BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
+    requests.MoveBorder: editing.move_border,
+    requests.Split: editing.split,
+    requests.Merge: editing.merge,
+    requests.DeleteBorder: editing.delete_border,
+    requests.NameSegment: editing.name_segment,
+    requests.NameCluster: editing.name_cluster,
+    requests.SetCluster: editing.set_cluster,
+    requests.SetKind: editing.set_kind,
 }
-Bases = Callable[[str], Path]
+"""Corrections; the fields of each are the arguments of its function, in this order."""
 
 
 def edited(
-    table: Segmentation, edit: Edit, take: Take, knowledge_base: Bases
+    table: Segmentation,
+    edit: Edit,
+    loaded: LoadedRecording,
+    knowledge_base: Callable[[str], Path],
 ) -> tuple[Segmentation, list[str]]:
-    """The table after an edit (but undo and redo), and what to say about it.
+    """The table after an edit other than undo and redo.
 
     Parameters
     ----------
-    take : the recording
-    knowledge_base : the file of a knowledge base by its id
+    table : Segmentation
+    edit : Edit
+    loaded : LoadedRecording
+        What the table is of.
+    knowledge_base : callable
+        The file of a knowledge base by its id.
+
+    Returns
+    -------
+    table : Segmentation
+    notes : list of str
+        What to tell people.
 
     Raises
     ------
-    KinemeError : the edit cannot be made, and why
+    KinemeError
+        The edit cannot be made, and why.
     """
-    sent: dict[str, Any] = dict(edit)
-    if edit["kind"] in BY_HAND:
-        function, arguments = BY_HAND[edit["kind"]]
-        return _counted(function(table, *(sent[name] for name in arguments))), []
-    if edit["kind"] == "segment":
-        found = take.segment(edit["preset"], edit["parameters"])
+    if type(edit) in BY_HAND:
+        fields = (getattr(edit, name) for name in edit.__struct_fields__)
+        return _counted(BY_HAND[type(edit)](table, *fields)), []
+    if isinstance(edit, requests.SegmentAgain):
+        found = loaded.segment(edit.preset, edit.parameters)
         return found, list(found.provenance["notes"])
-    if edit["kind"] == "transfer":
-        from kineme.transfer import THRESHOLD, KnowledgeBase
+    if isinstance(edit, requests.Transfer):
+        return _labelled(table, edit, loaded, knowledge_base(edit.knowledge_base))
+    raise ParameterError(f"there is no edit {type(edit).__name__}")
 
-        base = KnowledgeBase.load(knowledge_base(edit["knowledge_base"]))
-        threshold, spread = edit.get("threshold", THRESHOLD), edit.get("spread", False)
-        named = take.labelled(table, base, threshold=threshold, spread=spread)
-        return named, [named.provenance["notes"][-1]]
-    raise ParameterError(f"there is no edit {edit['kind']!r}")
+
+def _labelled(
+    table: Segmentation, edit: requests.Transfer, loaded: LoadedRecording, path: Path
+) -> tuple[Segmentation, list[str]]:
+    from kineme.transfer import THRESHOLD, KnowledgeBase
+
+    threshold = THRESHOLD if edit.threshold is UNSET else edit.threshold
+    spread = False if edit.spread is UNSET else edit.spread
+    base = KnowledgeBase.load(path)
+    named = loaded.labelled(table, base, threshold=threshold, spread=spread)
+    return named, [named.provenance["notes"][-1]]
 
 
 def _counted(table: Segmentation) -> Segmentation:

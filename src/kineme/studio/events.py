@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-import json
 from collections.abc import AsyncIterator
 from contextlib import suppress
 
+from kineme.web.encoding import to_json
 from kineme.web.messages import Changed
 
 HEARTBEAT = 15.0  # seconds; without it nobody would notice a line that is dead
@@ -23,9 +23,17 @@ class Hub:
         self._closed = False
 
     def tell(self, recording: str, revision: int) -> None:
-        """A recording has this revision now; 0: it has just come."""
+        """Send news to every page.
+
+        Parameters
+        ----------
+        recording : str
+            Its id.
+        revision : int
+            Of its table, as it is now; 0: the recording is new.
+        """
         if self._loop is not None:
-            news: Changed = {"recording": recording, "revision": revision}
+            news = Changed(recording=recording, revision=revision)
             with suppress(RuntimeError):  # the server has ended
                 self._loop.call_soon_threadsafe(self._spread, news)
 
@@ -49,7 +57,7 @@ class Hub:
                     continue
                 if news is None:
                     return
-                yield f"data: {json.dumps(news)}\n\n"
+                yield f"data: {to_json(news).decode()}\n\n"
         finally:
             self._pages.discard(queue)
 

@@ -25,8 +25,10 @@ class Folder:
 
     Parameters
     ----------
-    root : where uploads go and where labels are looked for
-    files : the recordings to list; None for all that lie in the folder
+    root : Path
+        Where uploads go and where labels are looked for.
+    files : iterable of Path, optional
+        The recordings to list; by default all that lie in the folder.
     """
 
     def __init__(self, root: Path, files: Iterable[Path] | None = None):
@@ -51,7 +53,7 @@ class Folder:
         return {file_id(path): path for path in self._listed() if holds_knowledge(path)}
 
     def annotations(self) -> dict[str, Path]:
-        """The label files by id, without the tables that the studio itself keeps."""
+        """The label files by id, without the tables that the studio itself saves."""
         own = {table for path in self.recordings().values() for table in usual_tables(path)}
         found = [path for path in self._listed() if path not in own and holds_labels(path)]
         return {file_id(path): path for path in found}

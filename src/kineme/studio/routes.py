@@ -7,9 +7,11 @@ it is.
 
 from __future__ import annotations
 
-from typing import Any, cast, get_args
+from pathlib import Path
+from typing import cast, get_args
 from urllib.parse import quote
 
+from msgspec import UNSET
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
@@ -20,23 +22,24 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
-from kineme.studio.documents import Documents, UnknownError, segments_message
 from kineme.studio.events import Hub
 from kineme.studio.folder import file_id
+from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.storage import has_table
-from kineme.studio.uploads import LIMIT, TooLargeError, Upload
-from kineme.studio.validation import checked, parsed
-from kineme.web.messages import (
-    CompareRequest,
-    Comparison,
-    EditRequest,
-    FileChoice,
-    Listing,
-    State,
-)
+from kineme.studio.uploads import LIMIT, TooLargeError, Upload, recording_suffixes
+from kineme.web.encoding import from_json, to_json
+from kineme.web.messages import Comparison, FileChoice, Listing, State
+from kineme.web.requests import CompareRequest, EditRequest
 
 MOST_JSON = 1_000_000
 """Bytes of a request; the largest that a page makes has a few hundred."""
+
+
+class MessageResponse(JSONResponse):
+    """A message as JSON."""
+
+    def render(self, content: object) -> bytes:
+        return to_json(content)
 
 
 class Api:
@@ -44,19 +47,23 @@ class Api:
 
     Parameters
     ----------
-    limit : bytes of an upload
+    recordings : OpenRecordings
+    hub : Hub
+        Where news go to the pages.
+    limit : int
+        Bytes of an upload.
     """
 
-    def __init__(self, documents: Documents, hub: Hub, *, limit: int = LIMIT):
-        self._documents, self._hub, self._limit = documents, hub, limit
+    def __init__(self, recordings: OpenRecordings, hub: Hub, *, limit: int = LIMIT):
+        self._recordings, self._hub, self._limit = recordings, hub, limit
 
     async def state(self, _: Request) -> Response:
-        return JSONResponse(await run_in_threadpool(self._state))
+        return MessageResponse(await run_in_threadpool(self._state))
 
     async def upload(self, request: Request) -> Response:
         length = request.headers.get("content-length", "")
         upload = Upload(
-            self._documents.folder.root,
+            self._recordings.folder.root,
             request.query_params.get("name", ""),
             length=int(length) if length.isdigit() else None,
             limit=self._limit,
@@ -67,21 +74,18 @@ class Api:
                     upload.write(chunk)
             except ClientDisconnect:
                 return Response(status_code=400)  # nobody is there to read it
-            path = await run_in_threadpool(upload.keep)
-        self._documents.folder.add(path)
+            path = await run_in_threadpool(upload.finish)
+        self._recordings.folder.add(path)
         self._hub.tell(file_id(path), 0)
-        listing = Listing(
-            id=file_id(path), name=path.name, bytes=path.stat().st_size, corrected=has_table(path)
-        )
-        return JSONResponse(listing)
+        return MessageResponse(_listing(file_id(path), path))
 
     async def recording(self, request: Request) -> Response:
         name = request.path_params["id"]
-        return JSONResponse(await run_in_threadpool(self._documents.recording, name))
+        return MessageResponse(await run_in_threadpool(self._recordings.message, name))
 
     async def motion(self, request: Request) -> Response:
         def work() -> bytes:
-            return self._documents.get(request.path_params["id"]).take.footage().binary
+            return self._recordings.get(request.path_params["id"]).loaded.page_data().binary
 
         return Response(await run_in_threadpool(work), media_type="application/octet-stream")
 
@@ -89,7 +93,8 @@ class Api:
         place = [_number(request.path_params[name]) for name in ("level", "row", "column")]
 
         def work() -> bytes | None:
-            return self._documents.get(request.path_params["id"]).take.footage().matrix.tile(*place)
+            shown = self._recordings.get(request.path_params["id"]).loaded.page_data()
+            return shown.matrix.tile(*place)
 
         found = await run_in_threadpool(work)
         if found is None:
@@ -97,17 +102,14 @@ class Api:
         return Response(found, media_type="image/png")
 
     async def edit(self, request: Request) -> Response:
-        sent = cast(EditRequest, checked(EditRequest, await _json(request)))
-        name = request.path_params["id"]
-        work = self._documents.edit
-        return JSONResponse(await run_in_threadpool(work, name, sent["revision"], sent["edit"]))
+        sent = from_json(await _body(request), EditRequest)
+        name, work = request.path_params["id"], self._recordings.edit
+        return MessageResponse(await run_in_threadpool(work, name, sent.revision, sent.edit))
 
     async def compare(self, request: Request) -> Response:
-        sent = cast(CompareRequest, checked(CompareRequest, await _json(request)))
-        if len(sent) != 1:
-            raise ParameterError("compare with a preset or with an annotation: name one of them")
+        sent = from_json(await _body(request), CompareRequest)
         name = request.path_params["id"]
-        return JSONResponse(await run_in_threadpool(self._compare, name, sent))
+        return MessageResponse(await run_in_threadpool(self._compare, name, sent))
 
     async def export(self, request: Request) -> Response:
         wanted = request.query_params.get("level") or None
@@ -120,6 +122,7 @@ class Api:
         return Response(content, headers=headers, media_type="application/octet-stream")
 
     async def events(self, _: Request) -> Response:
+        # sse-starlette would be one more dependency for the few lines of Hub.stream, no shorter.
         return StreamingResponse(self._hub.stream(), media_type="text/event-stream")
 
     async def unknown(self, _: Request) -> Response:
@@ -141,56 +144,57 @@ class Api:
         ]
 
     def _state(self) -> State:
-        folder = self._documents.folder
-        recordings: list[Listing] = [
-            {
-                "id": name,
-                "name": path.name,
-                "bytes": path.stat().st_size,
-                "corrected": has_table(path),
-            }
-            for name, path in folder.recordings().items()
-        ]
+        folder = self._recordings.folder
         bases, annotations = (
             [FileChoice(id=name, name=path.name) for name, path in files.items()]
             for files in (folder.knowledge_bases(), folder.annotations())
         )
-        return {
-            "version": __version__,
-            "folder": str(folder.root.absolute()),
-            "recordings": recordings,
-            "presets": choices.presets(),
-            "default_preset": DEFAULT,
-            "knowledge_bases": bases,
-            "annotations": annotations,
-            "export_formats": choices.export_formats(),
-        }
+        return State(
+            version=__version__,
+            folder=str(folder.root.absolute()),
+            suffixes=recording_suffixes(),
+            recordings=[_listing(name, path) for name, path in folder.recordings().items()],
+            presets=choices.presets(),
+            default_preset=DEFAULT,
+            knowledge_bases=bases,
+            annotations=annotations,
+            export_formats=choices.export_formats(),
+        )
 
     def _compare(self, name: str, sent: CompareRequest) -> Comparison:
         from kineme.studio import comparison
+        from kineme.web.page_data import segments_message
 
-        document = self._documents.get(name)
-        shown = document.table
-        if "preset" in sent:
-            title = sent["preset"]
-            other = document.take.segment(title)
+        opened = self._recordings.get(name)
+        shown = opened.table
+        if sent.preset is not UNSET and sent.annotation is UNSET:
+            title = sent.preset
+            other = opened.loaded.segment(title)
             scores = comparison.agreement(shown, other)
-        else:
-            path = self._documents.annotation(sent["annotation"])
+        elif sent.annotation is not UNSET and sent.preset is UNSET:
+            path = self._recordings.annotation(sent.annotation)
             title = path.name
             other, scores = comparison.annotation(path, shown)
-        return {"name": title, "segmentation": segments_message(other), "scores": scores}
+        else:
+            raise ParameterError("compare with a preset or with an annotation: name one of them")
+        return Comparison(name=title, segmentation=segments_message(other), scores=scores)
 
     def _export(self, name: str, kind: str, level: Level | None) -> tuple[str, bytes]:
         from kineme.studio import downloads
 
-        document = self._documents.get(name)
-        take, stem = document.take, document.path.stem
+        opened = self._recordings.get(name)
+        loaded, stem = opened.loaded, opened.path.stem
         if kind == choices.CLIPS:
-            return downloads.motion_files(take.motion, document.table, stem, level)
+            return downloads.motion_files(loaded.motion, opened.table, stem, level)
         if kind == choices.REPORT:
-            return downloads.report_file(take.source, document.table, take.path, take.effectors)
-        return downloads.table_file(document.table, stem, kind, level)
+            return downloads.report_file(
+                loaded.recording, opened.table, loaded.path, loaded.effectors
+            )
+        return downloads.table_file(opened.table, stem, kind, level)
+
+
+def _listing(name: str, path: Path) -> Listing:
+    return Listing(id=name, name=path.name, bytes=path.stat().st_size, corrected=has_table(path))
 
 
 def _number(text: str) -> int:
@@ -198,11 +202,11 @@ def _number(text: str) -> int:
     return int(text) if text.isascii() and text.isdigit() and len(text) < 9 else -1
 
 
-async def _json(request: Request) -> Any:
-    """The value in the body, which is read no farther than a request may be long."""
+async def _body(request: Request) -> bytes:
+    """What was sent, which is read no farther than a request may be long."""
     body = bytearray()
     async for chunk in request.stream():
         body += chunk
         if len(body) > MOST_JSON:
             raise TooLargeError(f"a request has at most {MOST_JSON} bytes")
-    return parsed(bytes(body))
+    return bytes(body)

@@ -5,7 +5,7 @@ other pages in the same browser, nor names of other hosts made to point here.
 So a request must name this server as its host, must not come from the page of
 another origin, and, for anything but the page's own files, must carry the
 token, which only the address printed at the start has. What is answered is
-never kept, framed, sniffed or mixed with anything from elsewhere.
+never stored, framed, sniffed or mixed with anything from elsewhere.
 """
 
 from __future__ import annotations
@@ -51,8 +51,11 @@ class Guard:
 
     Parameters
     ----------
-    token : what requests must carry
-    port : the server's own
+    app : ASGIApp
+    token : str
+        What requests must carry.
+    port : int
+        The server's own.
     """
 
     def __init__(self, app: ASGIApp, *, token: str, port: int):
@@ -73,7 +76,9 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers[name] = value
-                headers.setdefault("cache-control", "no-store")
+                # The page's own files may be kept, if the browser asks each time for newer ones.
+                own = not scope["path"].startswith("/api")
+                headers.setdefault("cache-control", "no-cache" if own else "no-store")
             await send(message)
 
         scope[TRUSTED] = scope["type"] == "http" and self._knows(scope, Headers(scope=scope))

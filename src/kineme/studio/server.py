@@ -20,8 +20,8 @@ from kineme.studio.events import Hub
 from kineme.studio.security import new_token
 
 if TYPE_CHECKING:
-    from kineme.studio.documents import Documents
-    from kineme.studio.takes import Reading
+    from kineme.studio.open_recordings import OpenRecordings
+    from kineme.studio.reading import ReadingOptions
 
 HOST = "127.0.0.1"
 PORT = 8750
@@ -30,7 +30,7 @@ TRIES = 20
 PATIENCE = 2
 """Seconds that requests have to end in after Ctrl+C."""
 HEAD_START = 10.0
-"""Seconds before the code of the presets that are rarely used is made ready."""
+"""Seconds before the code of the published methods, which are rarely used, is made ready."""
 
 
 class Server(uvicorn.Server):
@@ -49,7 +49,7 @@ def serve(
     root: Path,
     files: Iterable[Path] | None,
     *,
-    reading: Reading,
+    options: ReadingOptions,
     port: int | None,
     browser: bool,
     announce: Callable[[str], None],
@@ -58,16 +58,23 @@ def serve(
 
     Parameters
     ----------
-    root : the folder
-    files : the recordings of it to list; None for all
-    reading : what they do not say themselves
-    port : to listen on; None for the first free one from 8750, 0 for any
-    browser : open the address there
-    announce : called with the address
+    root : Path
+        The folder.
+    files : iterable of Path, optional
+        The recordings of it to list; all by default.
+    options : ReadingOptions
+        What the recordings do not say themselves.
+    port : int or None
+        To listen on; None for the first free one from 8750, 0 for any.
+    browser : bool
+        Open the address in the browser.
+    announce : callable
+        Called with the address.
 
     Raises
     ------
-    ParameterError : the port is in use, or not one
+    ParameterError
+        The port is in use, or not one.
     """
     with listening(port) as opened, suppress(KeyboardInterrupt):
         number = opened.getsockname()[1]
@@ -78,15 +85,15 @@ def serve(
             threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
         # The browser starts meanwhile; its first request waits in the socket.
         from kineme.studio.app import create_app
-        from kineme.studio.documents import Documents
         from kineme.studio.folder import Folder
+        from kineme.studio.open_recordings import OpenRecordings
         from kineme.studio.uploads import forget_drafts
 
         hub = Hub()
-        documents = Documents(Folder(root, files), hub.tell, reading)
+        recordings = OpenRecordings(Folder(root, files), hub.tell, options)
         forget_drafts(root)
         config = uvicorn.Config(
-            create_app(documents, token=token, port=number, hub=hub),
+            create_app(recordings, token=token, port=number, hub=hub),
             log_level=logging.ERROR,
             access_log=False,  # addresses hold the token
             server_header=False,
@@ -96,7 +103,7 @@ def serve(
         )
         ended = threading.Event()
         threading.Thread(
-            target=make_ready, args=[documents, ended], name="make ready", daemon=True
+            target=make_ready, args=[recordings, ended], name="make ready", daemon=True
         ).start()
         try:
             Server(config, hub).run(sockets=[opened])
@@ -105,7 +112,22 @@ def serve(
 
 
 def listening(port: int | None) -> socket.socket:
-    """A socket of this machine alone that listens on the port, or on the next free one."""
+    """A socket of this machine alone.
+
+    Parameters
+    ----------
+    port : int or None
+        To listen on; None for the first free one from 8750, 0 for any.
+
+    Returns
+    -------
+    socket
+
+    Raises
+    ------
+    ParameterError
+        The port is in use, or not one.
+    """
     if port is not None and not 0 <= port < 2**16:
         raise ParameterError(f"the port is a number from 0 to 65535, not {port}")
     for number in range(PORT, PORT + TRIES) if port is None else [port]:
@@ -124,16 +146,16 @@ def listening(port: int | None) -> socket.socket:
     raise ParameterError(f"port {which} not free ({reason}): name another with --port")
 
 
-def make_ready(documents: Documents, ended: threading.Event) -> None:
+def make_ready(recordings: OpenRecordings, ended: threading.Event) -> None:
     """Open the only recording, which every page shows, and load or build the compiled code.
 
     What fails once the server has ended is not said: an interpreter that ends lets nobody start
     threads.
     """
     try:
-        names = list(documents.folder.recordings())
+        names = list(recordings.folder.recordings())
         if len(names) == 1:
-            documents.prepare(names)
+            recordings.prepare(names)
         load_code(ended)
     except KinemeError:  # it will be said where it matters
         return
@@ -146,13 +168,13 @@ def load_code(ended: threading.Event) -> None:
     """Show and segment the bundled recording; by the default preset first."""
     from kineme.datasets import bundled_recording
     from kineme.formats import read_motion
-    from kineme.methods.presets import DEFAULT, PRESETS
+    from kineme.methods.presets import DEFAULT, PUBLISHED
     from kineme.segmentation.segmenter import segment
-    from kineme.web.recording import footage
+    from kineme.web.page_data import page_data
 
     motion = read_motion(bundled_recording())
-    footage(motion)
+    page_data(motion)
     segment(motion, preset=DEFAULT)
     if not ended.wait(HEAD_START):
-        for name in (name for name in PRESETS if name != DEFAULT):
+        for name in PUBLISHED:
             segment(motion, preset=name)

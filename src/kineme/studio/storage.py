@@ -1,8 +1,8 @@
-"""Where a recording's table is kept, and whether somebody else has changed it there.
+"""Where a recording's table is saved, and whether somebody else has changed it there.
 
-It is ``take.segments.json`` beside ``take.bvh``. Where that file is the table of
-another recording (``take.c3d``), of an earlier one of that name, or no table at
-all, it is left alone, and ``take.bvh.segments.json`` or a numbered name serves.
+It is ``walk.segments.json`` beside ``walk.bvh``. Where that file is the table of
+another recording (``walk.c3d``), of an earlier one of that name, or no table at
+all, it is left alone, and ``walk.bvh.segments.json`` or a numbered name serves.
 """
 
 from __future__ import annotations
@@ -25,12 +25,18 @@ class ChangedOnDiskError(Exception):
     """The file is not the one that was last read or written here."""
 
 
-class Kept:
-    """The file that a table is kept in, as it was last read or written here."""
+class TableFile:
+    """The file that a table is saved in, as it was last read or written here.
+
+    Parameters
+    ----------
+    path : Path
+        It need not exist.
+    """
 
     def __init__(self, path: Path):
         self.path = path
-        self._mark = _mark(path)
+        self._stamp = _stamp(path)
         self._digest = _digest(path)
 
     @property
@@ -40,22 +46,28 @@ class Kept:
 
     def changed(self) -> bool:
         """Whether the file is another than the one last read or written here."""
-        if _mark(self.path) == self._mark:
+        if _stamp(self.path) == self._stamp:
             return False
         return _digest(self.path) != self._digest
 
     def read(self) -> Segmentation:
         """The table in the file, which counts as seen from now on."""
-        self._mark, self._digest = _mark(self.path), _digest(self.path)
+        self._stamp, self._digest = _stamp(self.path), _digest(self.path)
         return read_segments(self.path, format="json")
 
     def write(self, segmentation: Segmentation) -> None:
-        """The table in the file, on the disk; all of it, or nothing.
+        """Save the table, on the disk; all of it, or nothing.
+
+        Parameters
+        ----------
+        segmentation : Segmentation
 
         Raises
         ------
-        ChangedOnDiskError : somebody else has changed the file, which stays as it is
-        WriteError : it cannot be written, or is a link to elsewhere
+        ChangedOnDiskError
+            Somebody else has changed the file, which stays as it is.
+        WriteError
+            It cannot be written, or is a link to elsewhere.
         """
         if self.path.is_symlink():
             raise WriteError(self.path, "is a link, which could lead out of the folder: remove it")
@@ -67,35 +79,51 @@ class Kept:
                 os.fsync(file.fileno())
             if self.changed():
                 raise ChangedOnDiskError
-            mark = _mark(draft)  # which it keeps under its name; later it may be another's
-        self._mark, self._digest = mark, sha256(text).digest()
+            stamp = _stamp(draft)  # which stays with it under its name; later it may be another's
+        self._stamp, self._digest = stamp, sha256(text).digest()
 
 
 def saved_table(
-    recording: Path, fits: Callable[[Segmentation], bool], taken: set[Path]
-) -> tuple[Kept, Segmentation | None, list[str]]:
-    """Where the recording's table is kept, the table if it has been, and what to know about it.
+    recording: Path, fits: Callable[[Segmentation], bool], others: set[Path]
+) -> tuple[TableFile, Segmentation | None, list[str]]:
+    """Where the recording's table is saved, and the table if it has been.
 
     Parameters
     ----------
-    fits : whether a table is of this recording
-    taken : files that hold the tables of other recordings
+    recording : Path
+    fits : callable
+        Whether a table is of this recording.
+    others : set of Path
+        Files that hold the tables of other recordings.
+
+    Returns
+    -------
+    file : TableFile
+    table : Segmentation or None
+        None where none has been saved.
+    notes : list of str
+        What people should know: files that were left alone.
+
+    Raises
+    ------
+    WriteError
+        No name is left for the table.
     """
     notes: list[str] = []
     for path in _candidates(recording):
-        kept = Kept(path)
-        if path in taken or path.is_symlink():
+        file = TableFile(path)
+        if path in others or path.is_symlink():
             continue
-        if not kept.exists:
-            return kept, None, notes
+        if not file.exists:
+            return file, None, notes
         try:
-            table = kept.read()
+            table = file.read()
         except KinemeError as error:
             reason = error.reason if isinstance(error, ReadError) else str(error)
             notes.append(f"{path.name} was left alone: it {reason}")
             continue
         if fits(table):
-            return kept, table, notes
+            return file, table, notes
         notes.append(f"{path.name} was left alone: it is the table of another recording")
     raise WriteError(recording, "has no name left for its table")
 
@@ -116,7 +144,7 @@ def _candidates(recording: Path) -> Iterator[Path]:
         yield recording.with_name(f"{recording.name}.{number}{SUFFIX}")
 
 
-def _mark(path: Path) -> tuple[int, int, int] | None:
+def _stamp(path: Path) -> tuple[int, int, int] | None:
     """What changes when a file is written; None where there is none."""
     try:
         found = path.stat()

@@ -35,13 +35,27 @@ class TooLargeError(Exception):
 
 
 class Upload:
-    """A file on its way in; leaving the block takes away what was not kept.
+    """A file on its way in; leaving the block removes what was not given its name.
+
+    Parameters
+    ----------
+    root : Path
+        The folder.
+    name : str
+        As the page sends it.
+    length : int or None
+        Bytes, where the page announces how many.
+    limit : int
+        Bytes.
 
     Raises
     ------
-    ParameterError : a name that no file the studio opens has
-    TooLargeError : the length announced is over the limit, or there is no room for it
-    WriteError : the folder cannot be written to
+    ParameterError
+        A name that no file the studio opens has.
+    TooLargeError
+        The length announced is over the limit, or there is no room for it.
+    WriteError
+        The folder cannot be written to.
     """
 
     def __init__(self, root: Path, name: str, *, length: int | None = None, limit: int = LIMIT):
@@ -82,8 +96,14 @@ class Upload:
         except OSError as error:
             raise TooLargeError(f"{self.name} cannot be written: {error.strerror}") from error
 
-    def keep(self) -> Path:
-        """Give the file its name; the path of the same one if it is there already."""
+    def finish(self) -> Path:
+        """Give the file its name.
+
+        Returns
+        -------
+        Path
+            Of the file; of the same one if it is there already.
+        """
         self._file.close()
         for path in _free_names(self._root / self.name):
             if path.is_file() and self._is_in(path):
@@ -98,7 +118,7 @@ class Upload:
 
 
 def safe_name(name: str) -> str:
-    """A file's name without folders, and without what some system would not take in it."""
+    """A file's name without folders, and without what some system does not allow in it."""
     last = re.split(r"[/\\]", unicodedata.normalize("NFC", name))[-1]
     plain = "".join(c if c.isprintable() and c not in '<>:"|?*' else "_" for c in last).strip(" .")
     stem, suffix = Path(plain).stem, Path(plain).suffix
@@ -108,15 +128,20 @@ def safe_name(name: str) -> str:
 
 
 def forget_drafts(root: Path) -> None:
-    """Take away what a killed server left of uploads."""
+    """Remove what a killed server left of uploads."""
     for path in root.glob(".upload-*.part"):
         if DRAFT.fullmatch(path.name) and time.time() - path.stat().st_mtime > FORGOTTEN:
             path.unlink(missing_ok=True)
 
 
+def recording_suffixes() -> list[str]:
+    """The suffixes of files that can be recordings, in alphabetical order."""
+    return sorted({s for known in supported_formats() if known.read for s in known.suffixes})
+
+
 def _suffixes() -> set[str]:
-    motions = {s for known in supported_formats() if known.read for s in known.suffixes}
-    return motions | {".asf", ".npz", *LABELS}
+    """Of all that may be sent: recordings and their skeletons, labels, knowledge bases."""
+    return {*recording_suffixes(), ".asf", ".npz", *LABELS}
 
 
 def _free_names(path: Path) -> list[Path]:

@@ -1,6 +1,7 @@
 """The pages: their sources (``pages``), as built (``static``), and what they are told.
 
-``recording`` puts together what a page draws, from ``display`` (the poses) and
-``matrix`` (the tiles of the similarity matrix). The types of what pages are
-told are in ``messages``.
+``page_data`` puts together what a page draws, whichever kind the recording is,
+from ``display`` (the poses), ``similarity`` and ``matrix`` (the tiles of the
+similarity matrix). The types of what pages are told are in ``messages``, of what they send
+in ``requests``; ``encoding`` turns both into JSON and back.
 """

@@ -41,14 +41,32 @@ def display_motion(
     Parameters
     ----------
     motion : Motion
-    effectors : joints to take for head, hands and feet where names do not tell
-    most_bytes : length above which fewer digits are sent, then fewer poses
+        What is to be shown.
+    effectors : mapping, optional
+        Joints that stand for head, hands and feet where names do not tell, as
+        :func:`kineme.features.end_effectors` takes them.
+    most_bytes : int
+        Length above which fewer digits are sent, then fewer poses.
+
+    Returns
+    -------
+    MotionHead
+        Number and rate of the poses, joints, bones, and the scale of the numbers.
+    bytes
+        The poses, as described above.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording
+    >>> head, data = display_motion(kineme.read(bundled_recording()))
+    >>> head.sample_fps
+    30.0
     """
     fps = min(motion.fps, RATE)
     positions = sampled(motion, fps)
     # Fine numbers take more than a byte each, so that many of them need not be tried.
-    shares = (FINE, COARSE) if positions.size <= most_bytes else (COARSE,)
-    for share in shares:
+    for share in (FINE, COARSE) if positions.size <= most_bytes else (COARSE,):
         origin, step, data = encode(positions, share)
         if len(data) <= most_bytes:
             break
@@ -58,22 +76,34 @@ def display_motion(
         positions = sampled(motion, fps)
         origin, step, data = encode(positions, COARSE)
     joints, angles = _facing(motion, effectors, len(positions), fps)
-    head: MotionHead = {
-        "n_samples": len(positions),
-        "sample_fps": fps,
-        "joints": list(motion.skeleton.names),
-        "parents": list(motion.skeleton.parents),
-        "bones": bones(motion),
-        "origin": origin,
-        "step": step,
-        "heading": angles,
-        "effectors": joints,
-    }
+    head = MotionHead(
+        n_samples=len(positions),
+        sample_fps=fps,
+        joints=list(motion.skeleton.names),
+        parents=list(motion.skeleton.parents),
+        bones=bones(motion),
+        origin=origin,
+        step=step,
+        heading=angles,
+        effectors=joints,
+    )
     return head, data
 
 
 def sampled(motion: Motion, fps: float) -> Floats:
-    """Positions (samples, joints, 3) at 0, 1/fps, 2/fps, ...; nan in the motion's gaps."""
+    """Poses at another rate, on straight lines between those of the frames.
+
+    Parameters
+    ----------
+    motion : Motion
+    fps : float
+        Poses per second.
+
+    Returns
+    -------
+    ndarray
+        Positions (samples, joints, 3) at 0, 1/fps, 2/fps, ... seconds; nan in the motion's gaps.
+    """
     ratio = motion.fps / fps
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
     at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
@@ -89,10 +119,24 @@ def sampled(motion: Motion, fps: float) -> Floats:
 
 
 def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float], float, bytes]:
-    """Origin, step and the compressed columns of positions (samples, joints, 3), nan if not seen.
+    """Positions as whole numbers, compressed.
 
-    ``share``: the step, as a share of the largest extent of the median pose;
-    larger where 16 bits do not reach to both ends of the recording.
+    Parameters
+    ----------
+    positions : ndarray
+        (samples, joints, 3) in metres; nan where not seen.
+    share : float
+        The step, as a share of the largest extent of the median pose. It
+        becomes larger where 16 bits do not reach both ends of the recording.
+
+    Returns
+    -------
+    origin : tuple of float
+        Metres.
+    step : float
+        Metres.
+    data : bytes
+        The compressed columns.
     """
     seen = np.asarray(np.isfinite(positions).all(axis=2))
     points = positions[seen]
@@ -110,10 +154,19 @@ def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float],
 
 
 def bones(motion: Motion) -> list[tuple[int, int]]:
-    """Pairs (parent, child) of joints to draw a line between.
+    """Pairs of joints to draw a line between.
 
     Of markers only the joints made from them are joined: the markers
     themselves hang on the pelvis for want of anything better.
+
+    Parameters
+    ----------
+    motion : Motion
+
+    Returns
+    -------
+    list of tuple of int
+        (parent, child).
     """
     skeleton = motion.skeleton
     lengths = np.linalg.norm(skeleton.offsets, axis=1)

@@ -1,18 +1,15 @@
-"""The self-similarity matrix of a recording, as tiles at every zoom.
+"""A self-similarity matrix as tiles at every zoom.
 
-A cell of level 0 says how alike two moments look: ``exp(-d²)`` of the distance
-of their features, from 0 (nothing in common, or not seen) to 1. The features
-are those of the ``kineme`` method, the ends of the body in its own frame with
-what they do 0.2 s before and after; ``d`` is 1 at a fifth of a body. Motions
-without a known body are compared by the distances between their points, signals
-by their channels, each divided by its deviation.
+A cell of level 0 is the similarity of two samples: ``exp(-d²)`` of the distance
+of their features, from 0 (nothing in common, or not seen) to 1. The features of
+:mod:`kineme.web.similarity` are taken 0.2 s before to 0.2 s after.
 
-A cell of level L merges 2^L moments on either side. It compares how their poses
+A cell of level L merges 2^L samples on either side. It compares how their poses
 are distributed, mean and deviation of each feature (the Fréchet distance of
 normal distributions with independent features), so that from afar an activity
-is a plain block, whatever the phase of its moments.
+is a plain square, whatever the phase of its samples.
 
-Nothing of cells × cells is held: a tile is made from two stretches of features,
+Nothing of cells × cells is held: a tile is made from two spans of features,
 each time anew, in a few milliseconds. It is a PNG of 16 shades, white for 1.
 """
 
@@ -25,13 +22,8 @@ from itertools import product
 from math import ceil
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from kineme.errors import MotionError, ParameterError
-from kineme.features import Names, body_size, distance_features, end_effectors, pose_features
-from kineme.features.distances import SIZE
-from kineme.recordings import Motion
-from kineme.recordings.operations import resample
 from kineme.web.messages import MatrixHead
 
 Floats = NDArray[np.float64]
@@ -40,9 +32,6 @@ TILE = 256
 RATE = 10.0  # cells per second: what can still be told apart on a screen
 MOST_CELLS = 36_000  # an hour; longer recordings get fewer cells per second
 OFFSETS = (-0.2, -0.1, 0.0, 0.1, 0.2)  # seconds, as in the preset kineme
-BODY_SCALE = 0.2  # body sizes; where the activities of subject 86 stand out
-SIGNAL_SCALE = 0.5  # of the distance of two moments taken at random
-MOST_CHANNELS = 16
 MOST_BYTES = 9_000_000  # of the tiles in a report, see display.MOST_BYTES
 WHOLE = 24  # tiles a side up to which a report holds all of a level
 
@@ -53,20 +42,43 @@ class Matrix:
 
     Parameters
     ----------
-    fps : cells of level 0 per second
-    levels : (cells, dims) each, in units of the scale; rows of nan where nothing was seen
+    fps : float
+        Cells of level 0 per second.
+    levels : tuple of ndarray
+        (cells, dims) each, in units of the scale; rows of nan where nothing was seen.
     """
 
     fps: float
     levels: tuple[NDArray[np.float32], ...]
 
     def head(self, band: int | None = None) -> MatrixHead:
-        """What a page needs to know; ``band`` as in the message."""
+        """What a page needs to know of the tiles.
+
+        Parameters
+        ----------
+        band : int, optional
+            How far from the diagonal the tiles of a report reach, in cells; None: everywhere.
+
+        Returns
+        -------
+        MatrixHead
+        """
         sizes = [len(level) for level in self.levels]
-        return {"fps": self.fps, "tile": TILE, "sizes": sizes, "band": band}
+        return MatrixHead(fps=self.fps, tile=TILE, sizes=sizes, band=band)
 
     def tile(self, level: int, row: int, column: int) -> bytes | None:
-        """The PNG of a tile; None where there is none."""
+        """One tile.
+
+        Parameters
+        ----------
+        level, row, column : int
+            Its place in the pyramid, each from 0.
+
+        Returns
+        -------
+        bytes or None
+            A PNG; None where there is no such tile.
+        """
         if not 0 <= level < len(self.levels) or min(row, column) < 0:
             return None
         features = self.levels[level]
@@ -75,12 +87,24 @@ class Matrix:
         down, across = (features[TILE * i : TILE * (i + 1)] for i in (row, column))
         return _png(_similarity(down, across))
 
-    def kept(self, most_bytes: int = MOST_BYTES) -> tuple[dict[str, bytes], int | None]:
-        """Tiles for a report, by "level/row/column", and the band that they fill.
+    def report_tiles(self, most_bytes: int = MOST_BYTES) -> tuple[dict[str, bytes], int | None]:
+        """The tiles that a report holds, and the band that they fill.
 
         Those on and below the diagonal: all of the coarse levels; of the fine
         ones those at the diagonal, then those next to it, as long as there is
-        room. The band is None if none had to be left out.
+        room.
+
+        Parameters
+        ----------
+        most_bytes : int
+            Length of all of them together.
+
+        Returns
+        -------
+        tiles : dict
+            PNGs by "level/row/column".
+        band : int or None
+            How far from the diagonal they reach, in cells; None if none was left out.
         """
         sides = [ceil(len(features) / TILE) for features in self.levels]
         coarse = [level for level, side in enumerate(sides) if side <= WHOLE]
@@ -107,78 +131,23 @@ class Matrix:
         return tiles, 0 if len(tiles) >= first else None
 
 
-def matrix_of_motion(motion: Motion, *, effectors: Names | None = None) -> Matrix:
-    """The matrix of a motion; of the distances between its points where it has no known body."""
-    try:
-        found = end_effectors(motion, names=effectors)
-        values = pose_features(motion, effectors=found)
-        values /= BODY_SCALE * body_size(motion, found)
-    except MotionError:
-        motion = resample(motion, min(motion.fps, 3 * RATE))  # distances are many
-        values = _distances(motion)
-    for start, stop in motion.gaps:
-        values[start:stop] = np.nan
-    return _pyramid(values, motion.fps, motion.duration)
+def pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
+    """The matrix of features at every zoom.
 
+    Parameters
+    ----------
+    values : ndarray
+        (samples, dims), so scaled that two of them are ``exp(-1)`` similar at a distance of 1;
+        nan where nothing was seen.
+    fps : float
+        Samples per second.
+    seconds : float
+        Length of the recording.
 
-def matrix_of_signal(values: ArrayLike, fps: float) -> Matrix:
-    """The matrix of any signal (frames, channels); nan for what was not seen.
-
-    Raises
-    ------
-    ParameterError : no frames, no channels, no numbers, or a frame rate that is not positive
+    Returns
+    -------
+    Matrix
     """
-    try:
-        signal = np.asarray(values, np.float64)
-    except (ValueError, TypeError):
-        raise ParameterError(
-            "a signal is frames x channels of numbers: columns of texts?"
-        ) from None
-    signal = signal[:, None] if signal.ndim == 1 else signal
-    if signal.ndim != 2 or 0 in signal.shape:
-        raise ParameterError(f"a signal is frames x channels, not of shape {signal.shape}")
-    if not (np.isfinite(fps) and fps > 0):
-        raise ParameterError(f"the frame rate must be a positive number, not {fps}")
-    block = max(1, int(fps / (2 * RATE)))  # frames whose mean is compared: 0.05 s
-    starts = np.arange(0, len(signal), block)
-    lengths = np.diff(starts, append=len(signal))
-    means = np.add.reduceat(signal, starts, axis=0) / lengths[:, None]
-    return _pyramid(_standardised(means), fps / block, len(signal) / fps)
-
-
-def _distances(motion: Motion) -> Floats:
-    """The features of a motion without a body, in units of the scale; any where it has a gap."""
-    seen = np.ones(motion.n_frames, np.bool_)
-    for start, stop in motion.gaps:
-        seen[start:stop] = False
-    if motion.skeleton.n_joints < 2 or not seen.any():
-        return np.zeros((motion.n_frames, 1))
-    features, _ = distance_features(motion.positions[seen])
-    values = np.zeros((motion.n_frames, features.shape[1]))
-    values[seen] = features / (BODY_SCALE * SIZE)
-    return values
-
-
-def _standardised(values: Floats) -> Floats:
-    """The channels over their deviation, the main ones of many, 1 apart where ``d`` is to be 1."""
-    seen = np.asarray(np.isfinite(values).all(axis=1))
-    if not seen.any():
-        return np.full((len(values), 1), np.nan)
-    out = np.where(seen[:, None], values, np.nan) - values[seen].mean(axis=0)
-    deviation = out[seen].std(axis=0)
-    out = out[:, deviation > 0] / deviation[deviation > 0]
-    if out.shape[1] == 0:
-        return np.where(seen[:, None], 0.0, np.nan)
-    if out.shape[1] > MOST_CHANNELS:
-        from scipy.linalg import eigh
-
-        n = out.shape[1]
-        axes = eigh(np.cov(out[seen].T), subset_by_index=(n - MOST_CHANNELS, n - 1))[1]
-        out = out @ axes
-    return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[seen].var(axis=0).sum())))
-
-
-def _pyramid(values: Floats, fps: float, seconds: float) -> Matrix:
     rate = min(RATE, fps, MOST_CELLS / seconds)
     middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
     stacked = np.concatenate([_at(values, middles + offset, fps) for offset in OFFSETS], axis=1)

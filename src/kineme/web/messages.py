@@ -1,34 +1,21 @@
-"""What the pages are told: one type per message, each of them plain JSON.
+"""What the pages are told: one msgspec ``Struct`` a message, each of them plain JSON.
 
 The report carries one :class:`Recording` inside its file; the studio's server
-sends the same over HTTP. The TypeScript side of these types is made from this
-page (``src/kineme/web/pages/src/messages.ts``); a test holds the two together.
+sends the same over HTTP. What pages send is in :mod:`kineme.web.requests`; the
+TypeScript types (``web/pages/src/messages.ts``) are made from both modules. A
+row of the segment table is :class:`kineme.segments.table.Segment` itself.
 """
 
 from __future__ import annotations
 
-from typing import Any, Literal, NotRequired, TypedDict
+from typing import Any
 
-Level = Literal["activity", "primitive"]
-Kind = Literal["activity", "transition"]
+from msgspec import Struct
 
-
-class Segment(TypedDict):
-    """A row of the segment table; ``score`` is null where there is none."""
-
-    level: Level
-    kind: Kind
-    start_frame: int
-    stop_frame: int
-    start_s: float
-    stop_s: float
-    cluster: int
-    activity: int
-    label: str
-    score: float | None
+from kineme.segments.table import Segment
 
 
-class Segments(TypedDict):
+class Segments(Struct, frozen=True, kw_only=True):
     """A segment table as its JSON file has it (``kineme.segments/1``)."""
 
     schema: str
@@ -39,7 +26,7 @@ class Segments(TypedDict):
     segments: list[Segment]
 
 
-class MotionHead(TypedDict):
+class MotionHead(Struct, frozen=True, kw_only=True):
     """How to read the binary motion; see :mod:`kineme.web.display`.
 
     ``n_samples`` poses at ``sample_fps``; position of a joint in metres, y up:
@@ -60,7 +47,7 @@ class MotionHead(TypedDict):
     effectors: dict[str, int]
 
 
-class MatrixHead(TypedDict):
+class MatrixHead(Struct, frozen=True, kw_only=True):
     """The pyramid of self-similarity tiles; see :mod:`kineme.web.matrix`.
 
     Level 0 has one cell per sample of ``fps`` and ``sizes[0]`` cells a side;
@@ -77,7 +64,7 @@ class MatrixHead(TypedDict):
     band: int | None
 
 
-class Recording(TypedDict):
+class Recording(Struct, frozen=True, kw_only=True):
     """Everything a page needs of one recording but the binary parts."""
 
     id: str
@@ -94,7 +81,7 @@ class Recording(TypedDict):
     warnings: list[str]
 
 
-class Parameter(TypedDict):
+class Parameter(Struct, frozen=True, kw_only=True):
     """A constant of a preset that the page offers to change."""
 
     name: str
@@ -106,15 +93,20 @@ class Parameter(TypedDict):
     unit: str
 
 
-class PresetChoice(TypedDict):
-    """A preset, and the few of its constants that matter most."""
+class PresetChoice(Struct, frozen=True, kw_only=True):
+    """A preset, and those of its constants that the page offers to change.
+
+    ``signal_parameters`` are the same for signals, where lengths are in
+    standard deviations of the channels.
+    """
 
     name: str
     help: str
     parameters: list[Parameter]
+    signal_parameters: list[Parameter]
 
 
-class Listing(TypedDict):
+class Listing(Struct, frozen=True, kw_only=True):
     """A recording of the folder, opened or not."""
 
     id: str
@@ -123,26 +115,30 @@ class Listing(TypedDict):
     corrected: bool
 
 
-class FileChoice(TypedDict):
-    """A file of the folder that an operation can take: a knowledge base, a label file."""
+class FileChoice(Struct, frozen=True, kw_only=True):
+    """A file of the folder that an operation can use: a knowledge base, a label file."""
 
     id: str
     name: str
 
 
-class ExportFormat(TypedDict):
-    """A format segments can be written in."""
+class ExportFormat(Struct, frozen=True, kw_only=True):
+    """A format that segments can be written in, and the suffix of what is downloaded."""
 
     name: str
     suffix: str
     help: str
 
 
-class State(TypedDict):
-    """What the studio offers: the first message a page asks for."""
+class State(Struct, frozen=True, kw_only=True):
+    """What the studio offers: the first message a page asks for.
+
+    ``suffixes`` are those of files that can be recordings.
+    """
 
     version: str
     folder: str
+    suffixes: list[str]
     recordings: list[Listing]
     presets: list[PresetChoice]
     default_preset: str
@@ -151,128 +147,7 @@ class State(TypedDict):
     export_formats: list[ExportFormat]
 
 
-class MoveBorder(TypedDict):
-    """The border at ``frame`` of a level goes to ``to``."""
-
-    kind: Literal["move_border"]
-    level: Level
-    frame: int
-    to: int
-
-
-class Split(TypedDict):
-    """A new border at ``frame``."""
-
-    kind: Literal["split"]
-    level: Level
-    frame: int
-
-
-class Merge(TypedDict):
-    """The segments of ``[start_frame, stop_frame)`` become one."""
-
-    kind: Literal["merge"]
-    level: Level
-    start_frame: int
-    stop_frame: int
-
-
-class DeleteBorder(TypedDict):
-    """The two segments that meet at ``frame`` become one: the longer takes the other."""
-
-    kind: Literal["delete_border"]
-    level: Level
-    frame: int
-
-
-class NameSegment(TypedDict):
-    """The segment that starts at ``frame`` gets a label; an empty one takes it away."""
-
-    kind: Literal["name_segment"]
-    level: Level
-    frame: int
-    label: str
-
-
-class NameCluster(TypedDict):
-    """All segments of a cluster, of both levels, get a label."""
-
-    kind: Literal["name_cluster"]
-    cluster: int
-    label: str
-
-
-class SetCluster(TypedDict):
-    """The segment that starts at ``frame`` joins a cluster; -1: none."""
-
-    kind: Literal["set_cluster"]
-    level: Level
-    frame: int
-    cluster: int
-
-
-class SetKind(TypedDict):
-    """The segment that starts at ``frame`` is an activity, or a transition and in no cluster."""
-
-    kind: Literal["set_kind"]
-    level: Level
-    frame: int
-    to: Kind
-
-
-class SegmentAgain(TypedDict):
-    """The whole table anew, by a preset."""
-
-    kind: Literal["segment"]
-    preset: str
-    parameters: dict[str, float]
-
-
-class Transfer(TypedDict):
-    """Labels from a knowledge base of the folder."""
-
-    kind: Literal["transfer"]
-    knowledge_base: str
-    threshold: NotRequired[float]
-    spread: NotRequired[bool]
-
-
-class Undo(TypedDict):
-    """The last edit is taken back."""
-
-    kind: Literal["undo"]
-
-
-class Redo(TypedDict):
-    """The last edit taken back is done again."""
-
-    kind: Literal["redo"]
-
-
-Edit = (
-    MoveBorder
-    | Split
-    | Merge
-    | DeleteBorder
-    | NameSegment
-    | NameCluster
-    | SetCluster
-    | SetKind
-    | SegmentAgain
-    | Transfer
-    | Undo
-    | Redo
-)
-
-
-class EditRequest(TypedDict):
-    """An edit of the table as it was at ``revision``."""
-
-    revision: int
-    edit: Edit
-
-
-class Edited(TypedDict):
+class Edited(Struct, frozen=True, kw_only=True):
     """The table after an edit, already on the disk as ``saved``."""
 
     revision: int
@@ -283,14 +158,13 @@ class Edited(TypedDict):
     notes: list[str]
 
 
-class CompareRequest(TypedDict):
-    """Another result to lay beside the shown one: a preset's, or a file's of the folder."""
+class Conflict(Edited, frozen=True, kw_only=True):
+    """Why an edit was refused that was made on another table than the present one, and that."""
 
-    preset: NotRequired[str]
-    annotation: NotRequired[str]
+    error: str
 
 
-class Comparison(TypedDict):
+class Comparison(Struct, frozen=True, kw_only=True):
     """The other result, and how well the shown one agrees with it."""
 
     name: str
@@ -298,14 +172,14 @@ class Comparison(TypedDict):
     scores: dict[str, float]
 
 
-class Changed(TypedDict):
+class Changed(Struct, frozen=True, kw_only=True):
     """Sent to every page when a recording's table changed or a file came."""
 
     recording: str
     revision: int
 
 
-class Failure(TypedDict):
+class Failure(Struct, frozen=True, kw_only=True):
     """Why a request was refused, in one sentence."""
 
     error: str

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme.formats.files import FileContent
-from kineme.formats.registry import ReadOptions
+from kineme.formats.options import ReadOptions
 from kineme.formats.units import metres, up_rotation
 from kineme.recordings import Motion, Skeleton
 

@@ -24,8 +24,9 @@ from kineme.formats.channels.reading import to_signals
 from kineme.formats.channels.sensors import hold_channels, is_body
 from kineme.formats.channels.table import ChannelTable, channel_table, wanted_columns
 from kineme.formats.files import FileContent
+from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.registry import Format
 from kineme.recordings import Motion, Signals
 
 _RATES = (

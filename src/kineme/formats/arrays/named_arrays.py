@@ -21,8 +21,8 @@ import numpy as np
 from kineme.formats.arrays.amass import poses_to_motion
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import FileContent, unique
+from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
-from kineme.formats.registry import ReadOptions
 from kineme.recordings import Motion, Skeleton
 
 Array = np.ndarray[Any, np.dtype[Any]]

@@ -29,7 +29,8 @@ from kineme.formats.arrays.named_arrays import (
 )
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import MOST_EXPANSION, FileContent
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
 

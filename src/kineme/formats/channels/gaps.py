@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 def without_gaps(
     content: FileContent, values: Floats, timing: Timing, names: Sequence[str]
 ) -> tuple[Floats, list[tuple[int, int]], list[str]]:
-    """Finite values, the stretches in which a channel is missing for long, and what was done.
+    """Finite values, the spans in which a channel is missing for long, and what was done.
 
     Parameters
     ----------

@@ -10,7 +10,8 @@ from kineme.formats.channels.reading import to_signals
 from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.files import FileContent
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
 from kineme.recordings import Signals
 
 NAME = "MOT/STO"

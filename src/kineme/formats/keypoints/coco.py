@@ -26,7 +26,7 @@ from kineme.formats.keypoints.video import (
     in_groups,
     video_to_motion,
 )
-from kineme.formats.registry import ReadOptions
+from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
 SURE = 0.3

@@ -11,7 +11,7 @@ from __future__ import annotations
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.delimited import rows_of
 from kineme.formats.files import FileContent
-from kineme.formats.registry import ReadOptions
+from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
 LIKELY = 0.6

@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import Person, Video, video_to_motion
-from kineme.formats.registry import ReadOptions
+from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]

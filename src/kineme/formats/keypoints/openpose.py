@@ -33,7 +33,7 @@ from kineme.formats.keypoints.video import (
     parsed_json,
     video_to_motion,
 )
-from kineme.formats.registry import ReadOptions
+from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
 SURE = 0.3

@@ -11,7 +11,8 @@ from kineme.formats.keypoints.openpose import (
     read_openpose_folder,
 )
 from kineme.formats.keypoints.video import parsed_json
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
 

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import Person, Video, video_to_motion
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
 from kineme.formats.tables.pose_tables import SLEAP_SURE
 from kineme.recordings import Motion
 

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.people import Detections, rows_of_person
+from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
-from kineme.formats.registry import ReadOptions
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]

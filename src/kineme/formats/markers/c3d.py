@@ -19,8 +19,9 @@ from kineme.errors import ReadError
 from kineme.formats.files import FileContent
 from kineme.formats.markers.c3d_analog import read_analog
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
+from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.registry import Format
 from kineme.formats.units import AXES, unit_named
 from kineme.recordings import Motion, Signals
 

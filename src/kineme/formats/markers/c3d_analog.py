@@ -7,7 +7,7 @@ from kineme.formats.channels.table import ChannelTable, wanted_columns
 from kineme.formats.files import FileContent, unique
 from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.formats.markers.muscles import muscles_of
-from kineme.formats.registry import ReadOptions
+from kineme.formats.options import ReadOptions
 from kineme.recordings import Signals
 
 

@@ -1,7 +1,7 @@
 """The parameter section of C3D files: groups of named values.
 
 A record is the length of its name, the number of its group (negative: it is
-the group), the name, the way to the next record, and for a parameter its type,
+the group), the name, the distance to the next record, and for a parameter its type,
 dimensions and values. Values are looked at when they are asked for.
 """
 
@@ -95,18 +95,18 @@ def read_parameters(content: FileContent) -> Parameters:
     while at + 2 <= len(data):
         length = abs(int.from_bytes(data[at : at + 1], signed=True))
         group = int.from_bytes(data[at + 1 : at + 2], signed=True)
-        way = at + 2 + length
-        step = int.from_bytes(data[way : way + 2], order)  # type: ignore[arg-type]
+        after = at + 2 + length
+        step = int.from_bytes(data[after : after + 2], order)  # type: ignore[arg-type]
         if length == 0 or group == 0:
             break
-        name = string(data[at + 2 : way]).upper()
+        name = string(data[at + 2 : after]).upper()
         if group < 0:
             groups[-group] = name
         else:
-            found.append((group, name, way + 2))
+            found.append((group, name, after + 2))
         if step == 0:
             break
-        at = way + step
+        at = after + step
     places = {(groups.get(group, ""), name): place for group, name, place in found}
     return Parameters(content, processor, places)
 

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from kineme.formats.delimited import rows_of, separator_of
 from kineme.formats.files import FileContent, numbers, save, unique
 from kineme.formats.gaps import split_at, unseen
+from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.registry import Format
 from kineme.formats.timing import Timing, timing_of
 from kineme.formats.units import unit_named
 from kineme.recordings import Motion

@@ -25,7 +25,8 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, load, numbers
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
 from kineme.formats.skeletons.amc_writer import write_amc
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
 from kineme.formats.units import metres, place

@@ -29,7 +29,8 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, numbers
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
 from kineme.formats.skeletons.bvh_hierarchy import Joint, read_joints
 from kineme.formats.skeletons.bvh_writer import write_bvh
 from kineme.formats.units import place, rate_from_period

@@ -12,7 +12,8 @@ from kineme.formats.channels.table import named
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import FileContent, unique
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
 from kineme.recordings import Motion, Signals
 
 NAME = "Parquet table"

@@ -22,7 +22,7 @@ from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
 from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion
 from kineme.formats.keypoints.video import Person, Video, video_to_motion
-from kineme.formats.registry import ReadOptions
+from kineme.formats.options import ReadOptions
 from kineme.formats.timing import Timing
 from kineme.recordings import Motion
 

@@ -21,7 +21,8 @@ from kineme.formats.delimited import rows_of, separator_of
 from kineme.formats.files import FileContent, save, unique
 from kineme.formats.gaps import unseen
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut, read_deeplabcut
-from kineme.formats.registry import Format, ReadOptions
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
 from kineme.formats.tables.pose_tables import POSE_TABLES, PoseTable
 from kineme.recordings import Motion, Signals
 

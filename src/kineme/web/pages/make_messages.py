@@ -1,90 +1,133 @@
-"""The TypeScript side of the messages, made from the Python one.
+"""The TypeScript types of the messages, made from their msgspec structs.
 
     python src/kineme/web/pages/make_messages.py
 
-writes ``src/messages.ts`` beside this file from :mod:`kineme.web.messages`:
-the same names in the same order, with their docstrings. A test of the report
-fails while the two differ.
+writes ``src/messages.ts`` beside this file from :mod:`kineme.web.messages` and
+:mod:`kineme.web.requests`: the same names, with their docstrings. Generators
+that start from JSON Schema lose the names of ``Level`` and ``Edit`` and need a
+node package more; this one reads ``msgspec.inspect``. A test fails while the
+two sides differ.
 """
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
-from types import ModuleType, NoneType, UnionType
-from typing import (
-    Any,
-    Literal,
-    NotRequired,
-    Union,
-    get_args,
-    get_origin,
-    get_type_hints,
-    is_typeddict,
-)
+from types import ModuleType, UnionType
+from typing import Any, Literal, get_origin
+
+from msgspec import Struct, inspect
 
 from kineme._files import atomic_write
-from kineme.web import messages
+from kineme.segments.table import Kind, Level, Segment
+from kineme.web import messages, requests
 
 TARGET = Path(__file__).parent / "src" / "messages.ts"
-HEAD = "// Made from src/kineme/web/messages.py by make_messages.py; change it there.\n"
-PLAIN = {
-    str: "string",
-    int: "number",
-    float: "number",
-    bool: "boolean",
-    NoneType: "null",
-    Any: "unknown",
+HEAD = (
+    "// Made from kineme/web/messages.py and requests.py by make_messages.py; change them there.\n"
+)
+NULL_FOR_NAN = {(Segment, "score")}  # JSON has no nan
+PLAIN: dict[Any, str] = {
+    inspect.StrType: "string",
+    inspect.IntType: "number",
+    inspect.FloatType: "number",
+    inspect.BoolType: "boolean",
+    inspect.NoneType: "null",
+    inspect.AnyType: "unknown",
 }
-ALTERNATIVES = {Literal, Union, UnionType}
 
 
-def typescript(module: ModuleType) -> str:
-    """The types of a module as TypeScript: aliases as ``type``, dictionaries as ``interface``."""
-    aliases = {
-        value: name for name, value in vars(module).items() if get_origin(value) in ALTERNATIVES
+def typescript(named: dict[str, Any]) -> str:
+    """The types as TypeScript: unions and literals as ``type``, structs as ``interface``.
+
+    Parameters
+    ----------
+    named : dict
+        Types by name, in the order they are to have.
+
+    Returns
+    -------
+    str
+        A module.
+    """
+    aliases = {name: inspect.type_info(kind) for name, kind in named.items() if _is_alias(kind)}
+    return "\n".join(
+        [
+            HEAD,
+            *(
+                f"export type {name} = {_alternatives(aliases[name], aliases)};\n"
+                if name in aliases
+                else _interface(kind, aliases)
+                for name, kind in named.items()
+            ),
+        ]
+    )
+
+
+def types_of(*modules: ModuleType) -> dict[str, Any]:
+    """The structs that modules hold, but those that are there to be derived from, and unions."""
+    return {
+        name: kind
+        for module in modules
+        for name, kind in vars(module).items()
+        if isinstance(kind, UnionType) or _is_message(kind)
     }
-    parts = [HEAD]
-    for name, value in vars(module).items():
-        if is_typeddict(value):
-            parts.append(_interface(value, aliases))
-        elif get_origin(value) in ALTERNATIVES:
-            parts.append(f"export type {name} = {_alternatives(value, aliases)};\n")
-    return "\n".join(parts)
 
 
-def _interface(kind: Any, aliases: dict[Any, str]) -> str:
+def _is_alias(kind: Any) -> bool:
+    return isinstance(kind, UnionType) or get_origin(kind) is Literal
+
+
+def _is_message(kind: Any) -> bool:
+    return _is_struct(kind) and bool(kind.__struct_fields__ or not kind.__subclasses__())
+
+
+def _is_struct(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, Struct)
+
+
+def _interface(kind: Any, aliases: dict[str, inspect.Type]) -> str:
+    info: Any = inspect.type_info(kind)
     lines = [_comment(kind.__doc__ or ""), f"export interface {kind.__name__} {{"]
-    for name, hint in get_type_hints(kind, include_extras=True).items():
-        needed = get_origin(hint) is not NotRequired
-        bare = hint if needed else get_args(hint)[0]
-        lines.append(f"  {name}{'' if needed else '?'}: {_type(bare, aliases)};")
+    if _is_struct(kind) and info.tag is not None:
+        lines.append(f'  {info.tag_field}: "{info.tag}";')
+    for field in info.fields:
+        said = _type(field.type, aliases)
+        null = " | null" if (kind, field.name) in NULL_FOR_NAN else ""
+        lines.append(f"  {field.encode_name}{'' if field.required else '?'}: {said}{null};")
     return "\n".join([*lines, "}\n"])
 
 
-def _type(hint: Any, aliases: dict[Any, str]) -> str:
+def _type(info: Any, aliases: dict[str, inspect.Type]) -> str:
     """A type as TypeScript has it; TypeError for a kind that messages have not used so far."""
-    kind, inner = get_origin(hint), get_args(hint)
-    if kind in ALTERNATIVES:
-        return aliases.get(hint) or _alternatives(hint, aliases)
-    if hint in PLAIN:
-        return PLAIN[hint]
-    if is_typeddict(hint):
-        return str(hint.__name__)
-    if kind is list:
-        item = _type(inner[0], aliases)
+    for name, known in aliases.items():
+        if info == known:
+            return name
+    plain = next((text for kind, text in PLAIN.items() if isinstance(info, kind)), None)
+    if plain is not None:
+        return plain
+    if isinstance(info, inspect.StructType | inspect.DataclassType):
+        return info.cls.__name__
+    if isinstance(info, inspect.LiteralType | inspect.UnionType):
+        return _alternatives(info, aliases)
+    return _container(info, aliases)
+
+
+def _container(info: Any, aliases: dict[str, inspect.Type]) -> str:
+    if isinstance(info, inspect.ListType):
+        item = _type(info.item_type, aliases)
         return f"({item})[]" if " | " in item else f"{item}[]"
-    if kind is tuple:
-        return f"[{', '.join(_type(member, aliases) for member in inner)}]"
-    if kind is dict:
-        return f"Record<{_type(inner[0], aliases)}, {_type(inner[1], aliases)}>"
-    raise TypeError(f"no TypeScript type is known for {hint!r}: add it here")
+    if isinstance(info, inspect.TupleType):
+        return f"[{', '.join(_type(member, aliases) for member in info.item_types)}]"
+    if isinstance(info, inspect.DictType):
+        return f"Record<{_type(info.key_type, aliases)}, {_type(info.value_type, aliases)}>"
+    raise TypeError(f"no TypeScript type is known for {info!r}: add it here")
 
 
-def _alternatives(hint: Any, aliases: dict[Any, str]) -> str:
-    if get_origin(hint) is Literal:
-        return " | ".join(f'"{member}"' for member in get_args(hint))
-    return " | ".join(_type(member, aliases) for member in get_args(hint))
+def _alternatives(info: Any, aliases: dict[str, inspect.Type]) -> str:
+    if isinstance(info, inspect.LiteralType):
+        return " | ".join(f'"{value}"' for value in info.values)
+    return " | ".join(_type(member, aliases) for member in info.types)
 
 
 def _comment(text: str) -> str:
@@ -96,6 +139,12 @@ def _comment(text: str) -> str:
     return "\n".join(["/**", *(f" * {line}".rstrip() for line in lines), " */"])
 
 
+def messages_typescript() -> str:
+    """What ``messages.ts`` holds."""
+    of_table = {"Level": Level, "Kind": Kind, "Segment": Segment}
+    return typescript(of_table | types_of(messages, requests))
+
+
 if __name__ == "__main__":
     with atomic_write(TARGET) as draft:
-        draft.write_text(typescript(messages), encoding="utf-8")
+        draft.write_text(messages_typescript(), encoding="utf-8")

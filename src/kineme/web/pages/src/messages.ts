@@ -1,10 +1,10 @@
-// Made from src/kineme/web/messages.py by make_messages.py; change it there.
+// Made from kineme/web/messages.py and requests.py by make_messages.py; change them there.
 
 export type Level = "activity" | "primitive";
 
 export type Kind = "activity" | "transition";
 
-/** A row of the segment table; `score` is null where there is none. */
+/** One row of the table: a span `[start_frame, stop_frame)` and what it is. */
 export interface Segment {
   level: Level;
   kind: Kind;
@@ -93,11 +93,17 @@ export interface Parameter {
   unit: string;
 }
 
-/** A preset, and the few of its constants that matter most. */
+/**
+ * A preset, and those of its constants that the page offers to change.
+ *
+ * `signal_parameters` are the same for signals, where lengths are in
+ * standard deviations of the channels.
+ */
 export interface PresetChoice {
   name: string;
   help: string;
   parameters: Parameter[];
+  signal_parameters: Parameter[];
 }
 
 /** A recording of the folder, opened or not. */
@@ -108,29 +114,73 @@ export interface Listing {
   corrected: boolean;
 }
 
-/** A file of the folder that an operation can take: a knowledge base, a label file. */
+/** A file of the folder that an operation can use: a knowledge base, a label file. */
 export interface FileChoice {
   id: string;
   name: string;
 }
 
-/** A format segments can be written in. */
+/** A format that segments can be written in, and the suffix of what is downloaded. */
 export interface ExportFormat {
   name: string;
   suffix: string;
   help: string;
 }
 
-/** What the studio offers: the first message a page asks for. */
+/**
+ * What the studio offers: the first message a page asks for.
+ *
+ * `suffixes` are those of files that can be recordings.
+ */
 export interface State {
   version: string;
   folder: string;
+  suffixes: string[];
   recordings: Listing[];
   presets: PresetChoice[];
   default_preset: string;
   knowledge_bases: FileChoice[];
   annotations: FileChoice[];
   export_formats: ExportFormat[];
+}
+
+/** The table after an edit, already on the disk as `saved`. */
+export interface Edited {
+  revision: number;
+  segmentation: Segments;
+  can_undo: boolean;
+  can_redo: boolean;
+  saved: string;
+  notes: string[];
+}
+
+/** Why an edit was refused that was made on another table than the present one, and that. */
+export interface Conflict {
+  revision: number;
+  segmentation: Segments;
+  can_undo: boolean;
+  can_redo: boolean;
+  saved: string;
+  notes: string[];
+  error: string;
+}
+
+/** The other result, and how well the shown one agrees with it. */
+export interface Comparison {
+  name: string;
+  segmentation: Segments;
+  scores: Record<string, number>;
+}
+
+/** Sent to every page when a recording's table changed or a file came. */
+export interface Changed {
+  recording: string;
+  revision: number;
+}
+
+/** Why a request was refused, in one sentence. */
+export interface Failure {
+  error: string;
 }
 
 /** The border at `frame` of a level goes to `to`. */
@@ -156,7 +206,7 @@ export interface Merge {
   stop_frame: number;
 }
 
-/** The two segments that meet at `frame` become one: the longer takes the other. */
+/** The two segments that meet at `frame` become one, like the longer of them. */
 export interface DeleteBorder {
   kind: "delete_border";
   level: Level;
@@ -227,36 +277,8 @@ export interface EditRequest {
   edit: Edit;
 }
 
-/** The table after an edit, already on the disk as `saved`. */
-export interface Edited {
-  revision: number;
-  segmentation: Segments;
-  can_undo: boolean;
-  can_redo: boolean;
-  saved: string;
-  notes: string[];
-}
-
 /** Another result to lay beside the shown one: a preset's, or a file's of the folder. */
 export interface CompareRequest {
   preset?: string;
   annotation?: string;
-}
-
-/** The other result, and how well the shown one agrees with it. */
-export interface Comparison {
-  name: string;
-  segmentation: Segments;
-  scores: Record<string, number>;
-}
-
-/** Sent to every page when a recording's table changed or a file came. */
-export interface Changed {
-  recording: string;
-  revision: number;
-}
-
-/** Why a request was refused, in one sentence. */
-export interface Failure {
-  error: string;
 }

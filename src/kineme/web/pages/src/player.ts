@@ -1,6 +1,7 @@
 /** Moves the playhead while the page plays. */
 import { effect } from "@preact/signals";
-import type { Span, Store } from "./store";
+import type { Store } from "./store";
+import type { Span } from "./view";
 import { ticker } from "./ticker";
 
 /** Starts the clock of a page; call the result to stop it. */

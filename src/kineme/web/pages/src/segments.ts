@@ -63,7 +63,7 @@ export function nameOf(segment: Segment): string {
   return segment.kind === "transition" ? "transition" : "no cluster";
 }
 
-/** Neighbours of one label joined; stretches without a label are left out. */
+/** Neighbours of one label joined; segments without a label are left out. */
 export function labelSpans(
   activities: readonly Segment[],
   primitives: readonly Segment[],

@@ -1,5 +1,6 @@
 /** `window.kineme`: a read-only picture of the state, for tests and for the curious. */
-import type { Selection, Span, Store } from "./store";
+import type { Selection, Store } from "./store";
+import type { Span } from "./view";
 import { ticker } from "./ticker";
 
 export interface Snapshot {
@@ -34,7 +35,7 @@ export function exposeSnapshot(store: Store): void {
   Object.defineProperty(window, "kineme", { get: () => snapshotOf(store), configurable: true });
 }
 
-/** What the page shows at this moment. */
+/** What the page shows now. */
 export function snapshotOf(store: Store): Snapshot {
   const recording = store.recording.value;
   return Object.freeze({

@@ -3,12 +3,12 @@ import { batch, computed, signal, type ReadonlySignal, type Signal } from "@prea
 import type { Level, Recording, Segment, Segments } from "./messages";
 import { unpackMotion, type Motion } from "./motion";
 import { clustersOf, durationOf, indexAt, laneOf, segmentAt, type Cluster } from "./segments";
-import type { Source } from "./source";
-import { following, panned, zoomed } from "./view";
+import type { RecordingData } from "./recordingData";
+import { following, panned, zoomed, type Span } from "./view";
 
 /** A recording on the page; the table inside `recording` changes with each edit. */
-export interface Opened {
-  source: Source;
+export interface OpenRecording {
+  data: RecordingData;
   recording: Signal<Recording>;
   /** null without a skeleton, and until it has come. */
   motion: Signal<Motion | null>;
@@ -18,11 +18,6 @@ export interface Opened {
 export interface Selection {
   level: Level;
   start_frame: number;
-}
-
-export interface Span {
-  start_s: number;
-  stop_s: number;
 }
 
 /** What the page asks for when the user drags a border or names a cluster. The report has none. */
@@ -39,7 +34,7 @@ export interface OtherResult {
 
 export class Store {
   /** The recordings shown side by side. */
-  readonly opened = signal<Opened[]>([]);
+  readonly opened = signal<OpenRecording[]>([]);
   /** Which of them the timeline, the matrix and the clusters belong to. */
   readonly current = signal(0);
   readonly playhead = signal(0);
@@ -55,12 +50,12 @@ export class Store {
   readonly inStep = signal(false);
   readonly follow = signal(true);
   readonly trails = signal(true);
-  /** The stretch of time that the timeline and the matrix show; null: all of it. */
+  /** The span of time that the timeline and the matrix show; null: all of it. */
   readonly zoom = signal<Span | null>(null);
   readonly other = signal<OtherResult | null>(null);
   readonly edits = signal<EditHooks | null>(null);
 
-  readonly active: ReadonlySignal<Opened | undefined> = computed(
+  readonly active: ReadonlySignal<OpenRecording | undefined> = computed(
     () => this.opened.value[this.current.value],
   );
   readonly recording: ReadonlySignal<Recording | undefined> = computed(
@@ -103,7 +98,7 @@ export class Store {
     });
   }
 
-  /** Shows more (`factor` > 1) or less time, around a moment that stays where it is. */
+  /** Shows more (`factor` > 1) or less time, around a time that stays where it is. */
   zoomBy(factor: number, around: number = this.playhead.value): void {
     const total = this.duration.value;
     if (total <= 0) return;
@@ -162,7 +157,7 @@ export class Store {
   }
 
   /** One more recording; it becomes the current one. */
-  add(opened: Opened): void {
+  add(opened: OpenRecording): void {
     this.opened.value = [...this.opened.value, opened];
     this.show(this.opened.value.length - 1);
   }
@@ -194,16 +189,16 @@ export class Store {
   }
 }
 
-/** A recording from its source; the motion comes later, so that the lanes show at once. */
-export async function openRecording(source: Source): Promise<Opened> {
-  const recording = signal(await source.recording());
-  return { source, recording, motion: signal<Motion | null>(null) };
+/** A recording from where its data are; the motion comes later, so that the lanes show at once. */
+export async function openRecording(data: RecordingData): Promise<OpenRecording> {
+  const recording = signal(await data.recording());
+  return { data, recording, motion: signal<Motion | null>(null) };
 }
 
 /** Loads the motion of an opened recording. */
-export async function loadMotion(opened: Opened): Promise<void> {
+export async function loadMotion(opened: OpenRecording): Promise<void> {
   const { motion: head } = opened.recording.value;
-  if (head) opened.motion.value = await unpackMotion(head, await opened.source.motion());
+  if (head) opened.motion.value = await unpackMotion(head, await opened.data.motion());
 }
 
 function contains(segment: Segment, frame: number): boolean {

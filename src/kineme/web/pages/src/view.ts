@@ -1,5 +1,9 @@
-/** From time to pixels and back: the stretch of a recording that is shown. Pure functions. */
-import type { Span } from "./store";
+/** From time to pixels and back: the span of a recording that is shown. Pure functions. */
+
+export interface Span {
+  start_s: number;
+  stop_s: number;
+}
 
 /** Least seconds that fill the screen. */
 const LEAST = 0.2;

@@ -1,13 +1,13 @@
 import { expect, test } from "vitest";
-import { along, curveOf, liveliest, SAMPLES, someOf, spreadOf } from "../src/clusters/curves";
+import { component, curveOf, liveliest, SAMPLES, someOf, spreadOf } from "../src/clusters/curves";
 import { motion, segment } from "./recordings";
 
 test("directions of the body: it looks forward, and left is to its left", () => {
-  expect(along("forward", 0, 0, 1, 0)).toBeCloseTo(1);
-  expect(along("left", 1, 0, 0, 0)).toBeCloseTo(1);
-  expect(along("forward", 1, 0, 0, Math.PI / 2)).toBeCloseTo(1);
-  expect(along("left", 0, 0, -1, Math.PI / 2)).toBeCloseTo(1);
-  expect(along("up", 5, 2, 7, 1)).toBe(2);
+  expect(component("forward", 0, 0, 1, 0)).toBeCloseTo(1);
+  expect(component("left", 1, 0, 0, 0)).toBeCloseTo(1);
+  expect(component("forward", 1, 0, 0, Math.PI / 2)).toBeCloseTo(1);
+  expect(component("left", 0, 0, -1, Math.PI / 2)).toBeCloseTo(1);
+  expect(component("up", 5, 2, 7, 1)).toBe(2);
 });
 
 test("curves go from the first to the last moment, seen from the pelvis", () => {

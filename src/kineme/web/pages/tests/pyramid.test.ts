@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { keptPlace, levelFor, parentOf, rowsFor, tilesFor } from "../src/matrix/pyramid";
+import { storedPlace, levelFor, parentOf, rowsFor, tilesFor } from "../src/matrix/pyramid";
 
 const head = { fps: 10, tile: 256, sizes: [1000, 500, 250], band: null };
 
@@ -22,11 +22,11 @@ test("the tiles of a view, and no others", () => {
 });
 
 test("tiles above the diagonal are mirror images", () => {
-  expect(keptPlace({ level: 0, row: 1, column: 3 })).toEqual({
+  expect(storedPlace({ level: 0, row: 1, column: 3 })).toEqual({
     place: { level: 0, row: 3, column: 1 },
     mirrored: true,
   });
-  expect(keptPlace({ level: 0, row: 3, column: 1 }).mirrored).toBe(false);
+  expect(storedPlace({ level: 0, row: 3, column: 1 }).mirrored).toBe(false);
 });
 
 test("a coarser tile stands in for a missing one", () => {

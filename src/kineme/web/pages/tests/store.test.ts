@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 import type { Recording } from "../src/messages";
-import type { Source } from "../src/source";
+import type { RecordingData } from "../src/recordingData";
 import { Store } from "../src/store";
 import { segment } from "./recordings";
 
@@ -20,7 +20,7 @@ function page(): Store {
     ...{ matrix: { fps: 10, tile: 256, sizes: [50], band: null }, revision: 0 },
     ...{ can_undo: false, can_redo: false, saved: "", warnings: [] },
   } satisfies Recording);
-  store.add({ source: {} as Source, recording, motion: signal(null) });
+  store.add({ data: {} as RecordingData, recording, motion: signal(null) });
   return store;
 }
 

@@ -5,7 +5,7 @@ import { headingAt, poseAt, rootOf, type Motion } from "../motion";
 export const AXES = ["forward", "up", "left"] as const;
 export type Axis = (typeof AXES)[number];
 
-/** Samples of a curve, from the first to the last moment of a member. */
+/** Samples of a curve, from the first to the last frame of a member. */
 export const SAMPLES = 61;
 
 /** A point of the body followed along one axis of the body's own frame. */
@@ -14,7 +14,7 @@ export interface Track {
   axis: Axis;
 }
 
-/** The track of a member: metres from the root, at `SAMPLES` moments from its start to its end. */
+/** The track of a member: metres from the root, at `SAMPLES` times from its start to its end. */
 export function curveOf(motion: Motion, segment: Segment, { joint, axis }: Track): Float32Array {
   const curve = new Float32Array(SAMPLES);
   const pose = new Float32Array(motion.head.joints.length * 3);
@@ -26,13 +26,13 @@ export function curveOf(motion: Motion, segment: Segment, { joint, axis }: Track
     const x = pose[3 * joint]! - pose[root]!;
     const y = pose[3 * joint + 1]! - pose[root + 1]!;
     const z = pose[3 * joint + 2]! - pose[root + 2]!;
-    curve[i] = along(axis, x, y, z, headingAt(motion, seconds));
+    curve[i] = component(axis, x, y, z, headingAt(motion, seconds));
   }
   return curve;
 }
 
 /** A direction of the world seen from a body that looks to `heading`. */
-export function along(axis: Axis, x: number, y: number, z: number, heading: number): number {
+export function component(axis: Axis, x: number, y: number, z: number, heading: number): number {
   if (axis === "up") return y;
   const [sin, cos] = [Math.sin(heading), Math.cos(heading)];
   return axis === "forward" ? x * sin + z * cos : x * cos - z * sin;
@@ -43,7 +43,7 @@ export interface Spread {
   deviation: Float32Array;
 }
 
-/** Mean and standard deviation at each moment; what is missing (NaN) does not count. */
+/** Mean and standard deviation of each sample; what is missing (NaN) does not count. */
 export function spreadOf(curves: readonly Float32Array[]): Spread {
   const mean = new Float32Array(SAMPLES);
   const deviation = new Float32Array(SAMPLES);

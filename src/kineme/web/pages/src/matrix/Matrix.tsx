@@ -1,18 +1,18 @@
-/** The self-similarity matrix: what looks alike is bright; click to go there. */
+/** The self-similarity matrix: similar frames are bright; click to go there. */
 import { useEffect, useMemo } from "preact/hooks";
 import type { JSX } from "preact";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
-import type { Span, Store } from "../store";
+import type { Store } from "../store";
 import { theme } from "../theme";
-import { clock, toPixel } from "../view";
+import { clock, toPixel, type Span } from "../view";
 import { drawMatrix, EDGE } from "./drawing";
 import { MatrixGestures } from "./gestures";
 import { Tiles } from "./tiles";
 
 export function Matrix({ store }: { store: Store }): JSX.Element {
-  const source = store.active.value?.source;
-  const tiles = useMemo(() => (source ? new Tiles(source) : null), [source]);
+  const data = store.active.value?.data;
+  const tiles = useMemo(() => (data ? new Tiles(data) : null), [data]);
   const gestures = useMemo(() => new MatrixGestures(store), [store]);
   const { pointed, rows } = gestures;
   useEffect(() => tiles?.recolor(), [tiles, theme.value]);
@@ -22,7 +22,7 @@ export function Matrix({ store }: { store: Store }): JSX.Element {
     <div class="matrix">
       <div class="matrix-square">
         <Canvas
-          label="Self-similarity: how alike each moment looks to each other. Click to go there; use the wheel or two fingers to zoom, drag to pan."
+          label="Self-similarity: how similar any two frames are. Click to go there; use the wheel or two fingers to zoom, drag to pan."
           watch={() => {
             void [store.activities.value, store.primitives.value, store.selected.value];
             void [rows.value, store.range.value, store.hovered.value, tiles.arrived.value];
@@ -39,7 +39,7 @@ export function Matrix({ store }: { store: Store }): JSX.Element {
       <p class="matrix-note quiet number">
         {pointed.value
           ? `${clock(Math.max(pointed.value.x, 0), 1)} and ${clock(Math.max(pointed.value.y, 0), 1)}`
-          : "What looks alike, at any two moments"}
+          : "How similar any two frames are"}
       </p>
     </div>
   );

@@ -1,11 +1,11 @@
 /** How the matrix looks: tiles, and over them the segments and what is selected. */
 import { clusterColor } from "../colors";
 import type { MatrixHead, Segment } from "../messages";
-import type { Span, Store } from "../store";
+import type { Store } from "../store";
 import { cssColor } from "../theme";
 import { visible } from "../timeline/lanes";
-import { toPixel } from "../view";
-import { cellSeconds, keptPlace, levelFor, parentOf, tilesFor, type Place } from "./pyramid";
+import { toPixel, type Span } from "../view";
+import { cellSeconds, storedPlace, levelFor, parentOf, tilesFor, type Place } from "./pyramid";
 import type { Tiles } from "./tiles";
 
 type Pen = CanvasRenderingContext2D;
@@ -50,8 +50,8 @@ export function drawMatrix(
 /** A tile, or the part of a coarser one that stands in for it. */
 function drawTile(pen: Pen, head: MatrixHead, tiles: Tiles, wanted: Place, frame: Frame): void {
   for (let place = wanted; place.level < head.sizes.length; place = parentOf(place)) {
-    const kept = keptPlace(place);
-    const picture = tiles.get(kept.place);
+    const stored = storedPlace(place);
+    const picture = tiles.get(stored.place);
     if (!picture) continue;
     pen.save();
     clipTo(pen, head, wanted, frame);
@@ -61,7 +61,7 @@ function drawTile(pen: Pen, head: MatrixHead, tiles: Tiles, wanted: Place, frame
     const x = toPixel(frame.across, frame.side, place.column * head.tile * seconds);
     const y = toPixel(frame.down, frame.side, place.row * head.tile * seconds);
     pen.translate(x, y);
-    if (kept.mirrored) pen.transform(0, 1, 1, 0, 0, 0);
+    if (stored.mirrored) pen.transform(0, 1, 1, 0, 0, 0);
     pen.drawImage(picture, 0, 0, picture.width * scale, picture.height * scale);
     pen.restore();
     return;

@@ -1,14 +1,14 @@
-/** What pointers do on the matrix: go to a moment, pan, zoom; two fingers zoom, too. */
+/** What pointers do on the matrix: go to a time, pan, zoom; two fingers zoom, too. */
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
 import { CLICK, Fingers, placeOf, wheelFactor, type Point } from "../canvas/pointers";
 import { segmentAt } from "../segments";
-import type { Span, Store } from "../store";
-import { panned, toSeconds, zoomed } from "../view";
+import type { Store } from "../store";
+import { panned, toSeconds, zoomed, type Span } from "../view";
 import { EDGE } from "./drawing";
 import { rowsFor } from "./pyramid";
 
 export class MatrixGestures {
-  /** The two moments under the pointer, in seconds. */
+  /** The two times under the pointer, in seconds. */
   readonly pointed = signal<Point | null>(null);
   /** What is shown from top to bottom; from left to right it is what the timeline shows. */
   readonly rows: ReadonlySignal<Span>;
@@ -30,10 +30,10 @@ export class MatrixGestures {
   move(event: PointerEvent): void {
     const place = placeOf(event);
     const side = sideOf(event);
-    this.pointed.value = this.momentsAt(place, side);
+    this.pointed.value = this.timesAt(place, side);
     const pinch = this.fingers.move(event.pointerId, place);
     if (pinch) {
-      this.zoom(pinch.factor, this.momentsAt(pinch.from, side));
+      this.zoom(pinch.factor, this.timesAt(pinch.from, side));
       this.pan(pinch.from, pinch.to, side);
     }
     const { pressed } = this;
@@ -50,7 +50,7 @@ export class MatrixGestures {
     this.pressed = null;
     this.fingers.lift(event.pointerId);
     if (!clicked) return;
-    const { x } = this.momentsAt(placeOf(event), sideOf(event));
+    const { x } = this.timesAt(placeOf(event), sideOf(event));
     const segment = segmentAt(this.store.primitives.value, this.store.frameAt(x));
     if (segment) this.store.select(segment, { seek: false });
     this.store.seek(x);
@@ -66,7 +66,7 @@ export class MatrixGestures {
   }
 
   wheel(event: WheelEvent): void {
-    this.zoom(wheelFactor(event), this.momentsAt(placeOf(event), sideOf(event)));
+    this.zoom(wheelFactor(event), this.timesAt(placeOf(event), sideOf(event)));
   }
 
   private zoom(factor: number, at: Point): void {
@@ -77,12 +77,12 @@ export class MatrixGestures {
 
   private pan(from: Point, to: Point, side: number): void {
     if (!this.store.zoom.value) return;
-    const [before, after] = [this.momentsAt(from, side), this.momentsAt(to, side)];
+    const [before, after] = [this.timesAt(from, side), this.timesAt(to, side)];
     this.moved.value = panned(this.rows.value, before.y - after.y, this.store.duration.value);
     this.store.panBy(before.x - after.x);
   }
 
-  private momentsAt({ x, y }: Point, side: number): Point {
+  private timesAt({ x, y }: Point, side: number): Point {
     return {
       x: toSeconds(this.store.range.value, side, x - EDGE),
       y: toSeconds(this.rows.value, side, y - EDGE),

@@ -1,6 +1,6 @@
 /** Which tiles of the similarity pyramid a view needs, and where they lie. Pure functions. */
 import type { MatrixHead } from "../messages";
-import type { Span } from "../store";
+import type { Span } from "../view";
 
 /** A tile by its place: `row` down, `column` across. */
 export interface Place {
@@ -37,8 +37,8 @@ export function parentOf({ level, row, column }: Place): Place {
   return { level: level + 1, row: row >> 1, column: column >> 1 };
 }
 
-/** The same or its mirror image on or below the diagonal, where tiles are kept. */
-export function keptPlace(place: Place): { place: Place; mirrored: boolean } {
+/** The same or its mirror image on or below the diagonal, where the tiles of a report lie. */
+export function storedPlace(place: Place): { place: Place; mirrored: boolean } {
   const { level, row, column } = place;
   if (row >= column) return { place, mirrored: false };
   return { place: { level, row: column, column: row }, mirrored: true };

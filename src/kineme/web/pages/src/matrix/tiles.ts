@@ -1,11 +1,11 @@
 /** Tiles as pictures in the page's colours, loaded when they are first asked for. */
 import { signal } from "@preact/signals";
 import { channelsOf } from "../colors";
-import type { Source } from "../source";
+import type { RecordingData } from "../recordingData";
 import { cssColor } from "../theme";
 import type { Place } from "./pyramid";
 
-const MOST = 240; // tiles kept, a quarter of a megabyte each
+const MOST = 240; // tiles in memory, a quarter of a megabyte each
 const AT_ONCE = 6;
 
 export class Tiles {
@@ -16,7 +16,7 @@ export class Tiles {
   private loading = 0;
   private shades = shadesOfPage();
 
-  constructor(private readonly source: Source) {}
+  constructor(private readonly data: RecordingData) {}
 
   /** The picture of a tile; undefined while it is on its way, null where there is none. */
   get(place: Place): OffscreenCanvas | null | undefined {
@@ -54,11 +54,11 @@ export class Tiles {
     this.loading += 1;
     const { shades } = this;
     try {
-      const blob = await this.source.tile(level, row, column);
+      const blob = await this.data.tile(level, row, column);
       const picture = blob && (await colored(blob, shades));
-      if (shades === this.shades) this.keep(key, picture);
+      if (shades === this.shades) this.store(key, picture);
     } catch {
-      this.keep(key, null); // a coarser tile is shown in its place
+      this.store(key, null); // a coarser tile is shown in its place
     } finally {
       this.loading -= 1;
     }
@@ -66,14 +66,14 @@ export class Tiles {
     void this.load();
   }
 
-  private keep(key: string, picture: OffscreenCanvas | null): void {
+  private store(key: string, picture: OffscreenCanvas | null): void {
     this.pictures.set(key, picture);
     const first = this.pictures.keys().next().value;
     if (this.pictures.size > MOST && first !== undefined) this.pictures.delete(first);
   }
 }
 
-/** Grey becomes the colour between those of unlike and alike. */
+/** Grey becomes the colour between those of unlike and equal. */
 async function colored(blob: Blob, shades: Uint8ClampedArray): Promise<OffscreenCanvas> {
   const bitmap = await createImageBitmap(blob);
   const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);

@@ -4,13 +4,13 @@ import "../styles/index.css";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
 import { exposeSnapshot } from "../snapshot";
-import { EmbeddedSource } from "../source";
+import { EmbeddedData } from "../recordingData";
 import { loadMotion, openRecording, Store } from "../store";
 import { Report } from "./Report";
 
 async function start(): Promise<void> {
   const store = new Store();
-  const opened = await openRecording(new EmbeddedSource());
+  const opened = await openRecording(new EmbeddedData());
   store.add(opened);
   document.title = `${opened.recording.value.name} · kineme report`;
   exposeSnapshot(store);

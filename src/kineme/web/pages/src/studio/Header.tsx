@@ -12,8 +12,8 @@ interface Props {
 }
 
 export function Header({ session, show }: Props): JSX.Element {
-  const document = session.document.value;
-  const recording = document?.shown.value;
+  const edited = session.edited.value;
+  const recording = edited?.shown.value;
   const other = theme.value === "dark" ? "light" : "dark";
   return (
     <>
@@ -27,7 +27,7 @@ export function Header({ session, show }: Props): JSX.Element {
           type="button"
           disabled={!recording?.can_undo && !session.unsent.value.length}
           title="Undo (Ctrl+Z)"
-          onClick={() => document?.undo()}
+          onClick={() => edited?.undo()}
         >
           ↶ Undo
         </button>
@@ -35,7 +35,7 @@ export function Header({ session, show }: Props): JSX.Element {
           type="button"
           disabled={!recording?.can_redo}
           title="Redo (Ctrl+Shift+Z)"
-          onClick={() => document?.edit({ kind: "redo" })}
+          onClick={() => edited?.edit({ kind: "redo" })}
         >
           ↷ Redo
         </button>
@@ -102,7 +102,7 @@ function Opener(props: {
 
 /** "saved as …", or how many edits are not. */
 function SaveState({ session }: { session: Session }): JSX.Element {
-  const saved = session.document.value?.confirmed.value.saved;
+  const saved = session.edited.value?.confirmed.value.saved;
   const waiting = session.unsent.value.length;
   const text = waiting
     ? `saving ${waiting} ${waiting === 1 ? "edit" : "edits"}…`
@@ -111,7 +111,7 @@ function SaveState({ session }: { session: Session }): JSX.Element {
       : "not corrected yet";
   return (
     <span class="save-state quiet" role="status" data-unsent={waiting} title={text}>
-      {session.document.value ? text : ""}
+      {session.edited.value ? text : ""}
     </span>
   );
 }

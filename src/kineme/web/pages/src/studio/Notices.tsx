@@ -1,6 +1,6 @@
 /** What needs attention, across the page; and the news of the moment. */
 import type { JSX } from "preact";
-import type { Document } from "./document";
+import type { EditedRecording } from "./editing/editedRecording";
 import type { Session } from "./session";
 
 export function Notices({ session }: { session: Session }): JSX.Element {
@@ -17,7 +17,7 @@ export function Notices({ session }: { session: Session }): JSX.Element {
           </div>
         )}
         {!trouble.value &&
-          session.held.value.map((document) => <Held key={document.id} document={document} />)}
+          session.held.value.map((edited) => <Held key={edited.id} edited={edited} />)}
         {bulletin.problems.value.map((text) => (
           <div class="notice danger" data-notice="problem" key={text}>
             <p>{text}</p>
@@ -49,17 +49,17 @@ export function Notices({ session }: { session: Session }): JSX.Element {
 }
 
 /** Edits that could not be made, and the choice to make or drop them. */
-function Held({ document }: { document: Document }): JSX.Element {
+function Held({ edited }: { edited: EditedRecording }): JSX.Element {
   return (
     <div class="notice" data-notice="held">
       <p>
-        {document.confirmed.value.name}: {document.held.value}. It is shown as it is now, with your
-        edits on it. <Waiting edits={document.unsent()} />
+        {edited.confirmed.value.name}: {edited.held.value}. It is shown as it is now, with your
+        edits on it. <Waiting edits={edited.unsent()} />
       </p>
-      <button type="button" class="primary" onClick={() => document.retry()}>
+      <button type="button" class="primary" onClick={() => edited.retry()}>
         Make them here
       </button>
-      <button type="button" onClick={() => document.drop()}>
+      <button type="button" onClick={() => edited.drop()}>
         Drop them
       </button>
     </div>

@@ -9,21 +9,21 @@ import { MatrixPlace } from "../matrix/MatrixPlace";
 import { Timeline } from "../timeline/Timeline";
 import { Transport } from "../transport/Transport";
 import { Viewer } from "../viewer/Viewer";
-import { CompareDialog } from "./CompareDialog";
-import { ComparePanel } from "./ComparePanel";
-import { DropZone } from "./DropZone";
-import type { Editor } from "./editor";
-import { EditTools } from "./EditTools";
-import { ExportDialog } from "./ExportDialog";
-import { FolderPanel } from "./FolderPanel";
+import { CompareDialog } from "./dialogs/CompareDialog";
+import { ComparePanel } from "./panels/ComparePanel";
+import { DropZone } from "./panels/DropZone";
+import type { Editor } from "./editing/editor";
+import { EditTools } from "./panels/EditTools";
+import { ExportDialog } from "./dialogs/ExportDialog";
+import { FolderPanel } from "./panels/FolderPanel";
 import { type DialogName, Header } from "./Header";
-import { HelpDialog } from "./HelpDialog";
+import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
-import { PresetPanel } from "./PresetPanel";
-import { SegmentPanel } from "./SegmentPanel";
+import { PresetPanel } from "./panels/PresetPanel";
+import { SegmentPanel } from "./panels/SegmentPanel";
 import type { Session } from "./session";
-import { TransferDialog } from "./TransferDialog";
-import type { Uploads } from "./uploads";
+import { TransferDialog } from "./dialogs/TransferDialog";
+import type { Uploads } from "./server/uploads";
 
 /** What of the page is in front. */
 export class Front {

@@ -1,6 +1,6 @@
 /** The keys of the studio, beyond those of every page. */
 import type { DialogName } from "./Header";
-import type { Editor } from "./editor";
+import type { Editor } from "./editing/editor";
 
 /** Keys and what they do, as the help shows them. */
 export const STUDIO_KEYS: readonly (readonly [string, string])[] = [

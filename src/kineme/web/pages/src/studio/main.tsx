@@ -6,15 +6,15 @@ import "./studio.css";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
 import { Store } from "../store";
-import { Api } from "./api";
-import { Editor } from "./editor";
+import { Api } from "./server/api";
+import { Editor } from "./editing/editor";
 import { commandOf } from "./keys";
 import { Session } from "./session";
 import { exposeStudio } from "./snapshot";
 import { Front, Studio } from "./Studio";
-import { pageToken } from "./token";
-import { announceTab } from "./unsent";
-import { Uploads } from "./uploads";
+import { pageToken } from "./server/token";
+import { announceTab } from "./editing/unsent";
+import { Uploads } from "./server/uploads";
 
 function start(): void {
   const store = new Store();

@@ -8,11 +8,11 @@
 import { computed, effect, signal } from "@preact/signals";
 import type { Changed, Comparison, CompareRequest, State } from "../messages";
 import type { Motion } from "../motion";
-import { loadMotion, type Opened, type Store } from "../store";
-import { type Api, explain, Refused, RETRY, Unreachable } from "./api";
-import { Document } from "./document";
-import { ServerSource } from "./serverSource";
-import { shareToken } from "./token";
+import { loadMotion, type OpenRecording, type Store } from "../store";
+import { type Api, explain, Refused, RETRY, Unreachable } from "./server/api";
+import { EditedRecording } from "./editing/editedRecording";
+import { ServerData } from "./server/serverData";
+import { shareToken } from "./server/token";
 import { Bulletin } from "./news";
 
 const NO_ANSWER =
@@ -29,14 +29,14 @@ export class Session {
   /** Only this class lays another result beside the shown one. */
   readonly comparison = computed(() => this.store.other.value as Comparison | null);
   readonly bulletin = new Bulletin();
-  readonly document = computed(() => this.shownAs.get(this.store.active.value!));
+  readonly edited = computed(() => this.shownAs.get(this.store.active.value!));
   /** Recordings whose edits wait for a decision. */
-  readonly held = computed(() => this.documents.value.filter((document) => document.held.value));
+  readonly held = computed(() => this.recordings.value.filter((edited) => edited.held.value));
   /** Edits of all recordings that the server has not confirmed. */
-  readonly unsent = computed(() => this.documents.value.flatMap((document) => document.unsent()));
+  readonly unsent = computed(() => this.recordings.value.flatMap((edited) => edited.unsent()));
 
-  private readonly documents = signal<Document[]>([]);
-  private readonly shownAs = new WeakMap<Opened, Document>();
+  private readonly recordings = signal<EditedRecording[]>([]);
+  private readonly shownAs = new WeakMap<OpenRecording, EditedRecording>();
   private retrying = 0;
   private begun = false;
 
@@ -95,10 +95,10 @@ export class Session {
 
   /** Lays another result below the shown one; whether there is one. */
   async compare(request: CompareRequest): Promise<boolean> {
-    const document = this.document.value;
-    if (!document) return false;
+    const edited = this.edited.value;
+    if (!edited) return false;
     try {
-      this.store.other.value = await this.api.compare(document.id, request);
+      this.store.other.value = await this.api.compare(edited.id, request);
       return true;
     } catch (error) {
       this.bulletin.problem(explain(error));
@@ -123,7 +123,7 @@ export class Session {
     this.retrying = 0;
     this.trouble.value = null;
     if (!this.begun) await this.begin();
-    else for (const document of this.documents.value) await document.resume();
+    else for (const edited of this.recordings.value) await edited.resume();
   }
 
   /** Opens what was open before, and listens for changes from then on. */
@@ -141,25 +141,25 @@ export class Session {
     effect(() => toAddress(this.store.opened.value));
   }
 
-  private async fetch(id: string): Promise<Opened> {
-    const source = new ServerSource(this.api, id).askAhead();
-    const document =
-      this.documents.value.find((each) => each.id === id) ??
-      (await Document.open(id, {
+  private async fetch(id: string): Promise<OpenRecording> {
+    const data = new ServerData(this.api, id).askAhead();
+    const edited =
+      this.recordings.value.find((each) => each.id === id) ??
+      (await EditedRecording.open(id, {
         api: this.api,
         folder: this.state.value?.folder ?? "",
         lost: () => this.lost(),
         tell: (text, undo) => this.bulletin.tell(text, undo),
       }));
-    if (!this.documents.value.includes(document))
-      this.documents.value = [...this.documents.value, document];
+    if (!this.recordings.value.includes(edited))
+      this.recordings.value = [...this.recordings.value, edited];
     const opened = {
-      source,
-      recording: signal(document.shown.peek()),
+      data,
+      recording: signal(edited.shown.peek()),
       motion: signal<Motion | null>(null),
     };
-    effect(() => void (opened.recording.value = document.shown.value));
-    this.shownAs.set(opened, document);
+    effect(() => void (opened.recording.value = edited.shown.value));
+    this.shownAs.set(opened, edited);
     return opened;
   }
 
@@ -169,8 +169,8 @@ export class Session {
   }
 
   private async changed(change: Changed): Promise<void> {
-    const document = this.documents.value.find((each) => each.id === change.recording);
-    if (document) await document.changed(change.revision);
+    const edited = this.recordings.value.find((each) => each.id === change.recording);
+    if (edited) await edited.changed(change.revision);
     else await this.refresh();
   }
 }
@@ -180,7 +180,7 @@ function fromAddress(): string[] {
   return new URLSearchParams(location.search).getAll("open");
 }
 
-function toAddress(opened: Opened[]): void {
+function toAddress(opened: OpenRecording[]): void {
   const address = new URLSearchParams(location.search);
   address.delete("open");
   for (const each of opened) address.append("open", each.recording.peek().id);

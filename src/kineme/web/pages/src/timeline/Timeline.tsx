@@ -52,7 +52,7 @@ export function Timeline({ store }: { store: Store }): JSX.Element {
   );
 }
 
-/** The line of the present moment; apart from the canvas, so that playing redraws no lanes. */
+/** The line of the present time; apart from the canvas, so that playing redraws no lanes. */
 function Playhead({ store }: { store: Store }): JSX.Element {
   const share = toPixel(store.range.value, 1, store.playhead.value);
   return (

@@ -2,9 +2,9 @@
 import { clusterColor, inkOn } from "../colors";
 import type { Segment } from "../messages";
 import { nameOf } from "../segments";
-import type { Span, Store } from "../store";
+import type { Store } from "../store";
 import { cssColor } from "../theme";
-import { ticksOf, toPixel } from "../view";
+import { ticksOf, toPixel, type Span } from "../view";
 import { GUTTER, RULER, visible, type Lane } from "./lanes";
 
 type Pen = CanvasRenderingContext2D;

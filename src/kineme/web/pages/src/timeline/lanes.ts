@@ -56,7 +56,7 @@ export function laneAt(lanes: readonly Lane[], y: number): Lane | undefined {
   return lanes.find((lane) => y >= lane.top && y < lane.top + lane.height);
 }
 
-/** The segments of a lane that a stretch of time shows: from the first to behind the last. */
+/** The segments of a lane that a span of time shows: from the first to behind the last. */
 export function visible(
   segments: readonly Segment[],
   start_s: number,
@@ -89,7 +89,7 @@ export function borderNear(
   return near && near.far < reach ? near.frame : null;
 }
 
-/** Where a border may go: its two segments keep a frame each. */
+/** Where a border may go: at least a frame is left of its two segments each. */
 export function roomFor(segments: readonly Segment[], border: number): [number, number] {
   const i = indexAt(segments, border);
   return [(segments[i - 1]?.start_frame ?? -1) + 1, (segments[i]?.stop_frame ?? border + 1) - 1];

@@ -52,7 +52,7 @@ export function Transport({ store }: { store: Store }): JSX.Element {
           </option>
         ))}
       </select>
-      <Moment store={store} />
+      <Clock store={store} />
       <div class="group">
         <IconButton icon="minus" label="Zoom out" keys="−" onClick={() => store.zoomBy(1 / 0.7)} />
         <IconButton
@@ -68,15 +68,15 @@ export function Transport({ store }: { store: Store }): JSX.Element {
 }
 
 /** Time and frame, and a slider over the whole recording. */
-function Moment({ store }: { store: Store }): JSX.Element {
+function Clock({ store }: { store: Store }): JSX.Element {
   const { duration } = store;
   const playhead = useCalm(store.playhead, store.playing);
   const frame = store.frameAt(playhead.value);
   return (
     <>
-      <output class="moment number">
+      <output class="clock number">
         <b>{clock(playhead.value, 2)}</b> <span class="quiet">/ {clock(duration.value, 2)}</span>
-        <span class="quiet moment-frame">frame {frame}</span>
+        <span class="quiet clock-frame">frame {frame}</span>
       </output>
       <input
         type="range"

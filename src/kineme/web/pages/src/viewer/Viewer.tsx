@@ -4,19 +4,19 @@ import type { JSX } from "preact";
 import { clusterColor } from "../colors";
 import { nameOf } from "../segments";
 import type { Store } from "../store";
-import { MOST_MEMBERS } from "./cast";
-import { direct, turnByKey } from "./direct";
-import { Director } from "./director";
+import { MOST_MEMBERS } from "./placement";
+import { keepUpToDate, turnByKey } from "./updates";
+import { FigureScene } from "./scene";
 import { ViewerButtons } from "./ViewerButtons";
 
 export function Viewer({ store }: { store: Store }): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const director = useRef<Director | null>(null);
+  const scene = useRef<FigureScene | null>(null);
   useEffect(() => {
     const element = canvas.current!;
-    const made = new Director(store, element);
-    director.current = made;
-    const stop = direct(store, made, element);
+    const made = new FigureScene(store, element);
+    scene.current = made;
+    const stop = keepUpToDate(store, made, element);
     return () => {
       stop();
       made.dispose();
@@ -29,15 +29,15 @@ export function Viewer({ store }: { store: Store }): JSX.Element {
         tabIndex={0}
         role="img"
         aria-label="Figure in 3-D. Drag or press alt and an arrow key to look from another side."
-        onKeyDown={(event) => turnByKey(event, director.current)}
+        onKeyDown={(event) => turnByKey(event, scene.current)}
       />
       <Caption store={store} />
-      <ViewerButtons store={store} onFrame={() => director.current?.frame()} />
+      <ViewerButtons store={store} onFrame={() => scene.current?.frame()} />
     </div>
   );
 }
 
-/** What is played: the primitive under the playhead, and whose members stand on the stage. */
+/** What is played: the primitive under the playhead, and which cluster is shown. */
 function Caption({ store }: { store: Store }): JSX.Element {
   const present = store.present.value;
   const shown = store.shownCluster.value;

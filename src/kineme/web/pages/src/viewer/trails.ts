@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { type Haze, trailPaint } from "./paints";
 
-/** Moments a trail is drawn at. */
+/** Times a trail is drawn at. */
 const POINTS = 32;
 
 export class Trails {
@@ -26,12 +26,12 @@ export class Trails {
     this.mesh.frustumCulled = false;
   }
 
-  /** The moments a trail is drawn at, oldest first: the last `length` seconds. */
-  static moments(now: number, length: number): number[] {
+  /** The times a trail is drawn at, oldest first: the last `length` seconds. */
+  static times(now: number, length: number): number[] {
     return Array.from({ length: POINTS }, (_, i) => now - length * (1 - i / (POINTS - 1)));
   }
 
-  /** `paths[trail]` holds x, y, z of each moment; `colors` has one colour per moment. */
+  /** `paths[trail]` holds x, y, z at each time; `colors` has one colour per time. */
   draw(
     paths: readonly Float32Array[],
     colors: readonly THREE.Color[],

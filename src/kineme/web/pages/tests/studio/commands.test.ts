@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import * as commands from "../../src/studio/commands";
+import * as commands from "../../src/studio/editing/commands";
 import { laneOf } from "../../src/segments";
 import { table } from "./tables";
 

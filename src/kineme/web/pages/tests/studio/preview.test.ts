@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Edit, Segments } from "../../src/messages";
-import { fingerprint, inWords, isDone, preview } from "../../src/studio/preview";
+import { fingerprint, inWords, isDone, preview } from "../../src/studio/editing/preview";
 import { row, starts, table } from "./tables";
 
 const EDITS: Edit[] = [

@@ -1,0 +1,96 @@
+"""The code on the pages, run as it stands there; the pictures that pages draw themselves.
+
+    python docs/run_pages.py [PAGE.md ...]
+
+runs these pages, by default all that draw pictures, and keeps what they draw: a
+page that shows ``images/made/NAME.png`` leaves ``NAME.png`` in the folder it
+runs in. Needs the packages of the ``test`` extra. The tests run every
+page (``tests/test_docs.py``).
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from contextlib import chdir
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib import pyplot as plt
+from PIL import Image
+from sybil import Example, Sybil
+from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
+
+import kineme
+
+HERE = Path(__file__).resolve().parent
+MADE = HERE / "images" / "made"
+WIDEST = 1200  # pixels
+
+
+def run_page(page: Path, folder: Path) -> None:
+    """Run the blocks marked ``python`` and ``bash``, from top to bottom.
+
+    Parameters
+    ----------
+    page : Path
+        A page of Markdown.
+    folder : Path
+        Where it runs; the bundled recording is put there as ``take.bvh``.
+    """
+    mpl.use("agg")
+    shutil.copy(kineme.bundled_recording(), folder / "take.bvh")
+    with chdir(folder):
+        for example in BLOCKS.parse(page).examples():
+            example.evaluate()
+    plt.close("all")
+
+
+def pictures_of(page: Path) -> list[str]:
+    """Names of the pictures that a page draws itself, in the order in which it shows them."""
+    return re.findall(r"\]\((?:\.\./)?images/made/(\w+\.png)\)", page.read_text(encoding="utf-8"))
+
+
+def main() -> None:
+    MADE.mkdir(exist_ok=True)
+    named = [Path(name).resolve() for name in sys.argv[1:]]
+    for page in named or filter(pictures_of, sorted(HERE.rglob("*.md"))):
+        with tempfile.TemporaryDirectory() as folder:
+            run_page(page, Path(folder))
+            for name in pictures_of(page):
+                _save(Path(folder) / name)
+        print(f"{page.name}: {', '.join(pictures_of(page))}")
+
+
+def _run_in_shell(example: Example) -> None:
+    """Each command with this interpreter and its scripts first on the path."""
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    done = subprocess.run(  # noqa: S603 (what our own pages say)
+        ["bash", "-euo", "pipefail", "-c", str(example.parsed)],  # noqa: S607
+        env={**os.environ, "PATH": path, "COLUMNS": "100"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    if done.returncode:
+        raise RuntimeError(f"{example.parsed}\n{done.stdout}\n{done.stderr}")
+
+
+BLOCKS = Sybil(parsers=[PythonCodeBlockParser(), CodeBlockParser("bash", _run_in_shell)])
+
+
+def _save(path: Path) -> None:
+    """The picture in few enough pixels and colours for a small file."""
+    picture: Any = Image.open(path).convert("RGB")
+    picture.thumbnail((WIDEST, WIDEST))
+    picture.quantize(255).save(MADE / path.name, optimize=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,172 @@
+"""A recording as the studio works with it, with what was computed from it.
+
+What a page draws stays in memory; the recording itself is read again when it
+is needed after others were.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from kineme.errors import MotionError, ParameterError, ReadError
+from kineme.methods.presets import DEFAULT
+from kineme.recordings import Motion
+from kineme.segments.segmentation import Segmentation
+from kineme.studio.choices import check_offered
+from kineme.studio.reading import RecordingCache, stamp_of
+
+if TYPE_CHECKING:
+    from kineme.recordings import Signals
+    from kineme.transfer import KnowledgeBase
+    from kineme.web.page_data import PageData
+
+
+class LoadedRecording:
+    """A recording as its file was when it was opened.
+
+    Parameters
+    ----------
+    path : Path
+    cache : RecordingCache
+        Where it is read from.
+
+    Raises
+    ------
+    ReadError
+        The file cannot be read, or is another now.
+    """
+
+    def __init__(self, path: Path, cache: RecordingCache):
+        self.path = path
+        self._cache = cache
+        self.effectors = cache.options.effectors
+        self._stamp = stamp_of(path)
+        found = cache.read(path)
+        self.warnings = [str(note) for note in found.provenance.warnings]  # plain texts
+        self.n_frames, self.fps = found.n_frames, found.fps
+        self.provenance = found.provenance
+        self._lock = threading.Lock()
+        self._page_data: PageData | None = None
+
+    @property
+    def recording(self) -> Motion | Signals:
+        """The recording itself, read again if need be."""
+        if self.changed():
+            raise ReadError(self.path, "has changed since it was opened: open it again")
+        return self._cache.read(self.path)
+
+    @property
+    def motion(self) -> Motion:
+        """The same where it is the motion of a body; ParameterError otherwise."""
+        found = self.recording
+        if not isinstance(found, Motion):
+            raise ParameterError(f"{self.path.name} holds signals: this needs the motion of a body")
+        return found
+
+    def changed(self) -> bool:
+        """Whether the file is another now, or gone."""
+        try:
+            return stamp_of(self.path) != self._stamp
+        except ReadError:
+            return True
+
+    def page_data(self) -> PageData:
+        """All that a page draws but the segments."""
+        from kineme.web.page_data import page_data
+
+        with self._lock:
+            if self._page_data is None:
+                self._page_data = page_data(self.recording, effectors=self.effectors)
+            return self._page_data
+
+    def segment(
+        self, preset: str = DEFAULT, parameters: Mapping[str, float] | None = None
+    ) -> Segmentation:
+        """The segments by a preset.
+
+        Parameters
+        ----------
+        preset : str
+            Its name.
+        parameters : mapping of float, optional
+            Those of the constants it offers that are to be changed.
+
+        Returns
+        -------
+        Segmentation
+        """
+        from kineme.segmentation.segmenter import segment
+
+        found, changed = self.recording, dict[str, Any](parameters or {})
+        check_offered(preset, changed, signals=not isinstance(found, Motion))
+        return segment(found, preset=preset, effectors=self.effectors, **changed)
+
+    def first_table(self) -> tuple[Segmentation, list[str]]:
+        """The table before anybody made another.
+
+        Returns
+        -------
+        table : Segmentation
+            The segments by the default preset; one for all where there is a single point only.
+        notes : list of str
+            What people should know about it.
+        """
+        try:
+            return self.segment(), []
+        except MotionError as error:  # a single point
+            return self._one_segment(), [f"not segmented: {error}"]
+
+    def labelled(
+        self,
+        segmentation: Segmentation,
+        base: KnowledgeBase,
+        *,
+        threshold: float,
+        spread: bool,
+    ) -> Segmentation:
+        """The segments with labels from a knowledge base.
+
+        Parameters
+        ----------
+        segmentation : Segmentation
+        base : KnowledgeBase
+        threshold, spread
+            As :func:`kineme.transfer.transfer_labels` takes them.
+
+        Returns
+        -------
+        Segmentation
+        """
+        from kineme.transfer import transfer_features, transfer_labels
+
+        features = transfer_features(self.motion, effectors=self.effectors)
+        return transfer_labels(segmentation, features, base, threshold=threshold, spread=spread)
+
+    def fits(self, segmentation: Segmentation) -> bool:
+        """Whether a table is of this recording: as long, and made from it if it says from what."""
+        if segmentation.n_frames != self.n_frames:
+            return False
+        said = segmentation.provenance.get("input")
+        if not isinstance(said, dict) or not said.get("sha256"):
+            return True
+        name = Path(str(said.get("path") or "")).name
+        return said["sha256"] == self.provenance.sha256 or name == self.path.name
+
+    def _one_segment(self) -> Segmentation:
+        columns: dict[str, list[str] | list[int]] = {
+            "level": ["activity"],
+            "kind": ["activity"],
+            "start_frame": [0],
+            "stop_frame": [self.n_frames],
+        }
+        read = self.provenance
+        provenance = {
+            "input": {"path": read.path, "format": read.format, "sha256": read.sha256},
+            "notes": [*read.notes],
+        }
+        return Segmentation.from_columns(
+            columns, n_frames=self.n_frames, fps=self.fps, provenance=provenance
+        )

@@ -1,0 +1,110 @@
+"""The open recordings of a folder, each found by its id."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from pathlib import Path
+
+from kineme.errors import KinemeError
+from kineme.studio.folder import Folder
+from kineme.studio.open_recording import OpenRecording
+from kineme.studio.reading import ReadingOptions, RecordingCache
+from kineme.web.messages import Edited, Recording
+from kineme.web.requests import Edit
+
+Listener = Callable[[str, int], None]
+NO_OPTIONS = ReadingOptions()
+
+
+class UnknownError(Exception):
+    """There is no such recording, file or tile."""
+
+
+class OpenRecordings:
+    """The recordings of a folder, each opened once.
+
+    Parameters
+    ----------
+    folder : Folder
+    changed : callable
+        Called with id and revision when a table has changed.
+    options : ReadingOptions
+        What the files do not say themselves.
+    """
+
+    def __init__(self, folder: Folder, changed: Listener, options: ReadingOptions = NO_OPTIONS):
+        self.folder = folder
+        self._changed = changed
+        self._cache = RecordingCache(options)
+        self._open: dict[str, OpenRecording] = {}
+        self._lock = threading.Lock()
+        self._opening: dict[str, threading.Lock] = {}
+
+    def get(self, name: str) -> OpenRecording:
+        """The recording of that id, opened if it is not, and again if its file has changed.
+
+        Parameters
+        ----------
+        name : str
+            The id.
+
+        Returns
+        -------
+        OpenRecording
+
+        Raises
+        ------
+        UnknownError
+            No such recording is listed.
+        ReadError
+            It cannot be read.
+        """
+        known = self._open.get(name)
+        if known is not None and not known.loaded.changed():
+            return known
+        path = _found(self.folder.recordings(), name, "recording")
+        with self._lock:
+            opening = self._opening.setdefault(name, threading.Lock())
+        with opening:
+            known = self._open.get(name)
+            if known is None or known.loaded.changed():
+                others = [other for other in list(self._open.values()) if other.path != path]
+                tables = {other.table_path for other in others}
+                revision = 1 if known is None else known.revision + 1
+                self._open[name] = OpenRecording(name, path, self._cache, tables, revision)
+            return self._open[name]
+
+    def message(self, name: str) -> Recording:
+        """All that a page shows of the recording of that id."""
+        message, anew = self.get(name).message()
+        if anew:
+            self._changed(name, message.revision)
+        return message
+
+    def prepare(self, names: Iterable[str]) -> None:
+        """Open recordings before they are asked for; what is wrong with one is said then."""
+        for name in names:
+            with suppress(KinemeError, UnknownError):
+                self.message(name)
+
+    def edit(self, name: str, revision: int, edit: Edit) -> Edited:
+        """The recording's table after an edit, as `OpenRecording.edit` makes it."""
+        result = self.get(name).edit(revision, edit, self.knowledge_base)
+        self._changed(name, result.revision)
+        return result
+
+    def knowledge_base(self, name: str) -> Path:
+        """The file of the knowledge base of that id."""
+        return _found(self.folder.knowledge_bases(), name, "knowledge base")
+
+    def annotation(self, name: str) -> Path:
+        """The label file of that id."""
+        return _found(self.folder.annotations(), name, "label file")
+
+
+def _found(files: dict[str, Path], name: str, what: str) -> Path:
+    if name not in files:
+        raise UnknownError(f"there is no such {what}; it may have been taken away")
+    return files[name]

@@ -1,0 +1,107 @@
+"""Recordings from files: those used last stay in memory."""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from kineme.errors import ReadError
+from kineme.formats import ReadOptions, read_quietly
+
+if TYPE_CHECKING:
+    from kineme.features import Names
+    from kineme.recordings import Motion, Signals
+
+MOST_IN_MEMORY = 3
+"""Recordings; that of an hour can have most of a gigabyte."""
+Stamp = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class ReadingOptions:
+    """What the files do not say themselves.
+
+    Parameters
+    ----------
+    file : ReadOptions
+        As :func:`kineme.formats.read_quietly` takes them.
+    effectors : mapping, optional
+        The names of head, hands and feet, as :func:`kineme.features.end_effectors` takes them.
+    """
+
+    file: ReadOptions = field(default_factory=ReadOptions)
+    effectors: Names | None = None
+
+
+class RecordingCache:
+    """The recordings used last; several can be read at once.
+
+    Parameters
+    ----------
+    options : ReadingOptions
+    """
+
+    def __init__(self, options: ReadingOptions) -> None:
+        self.options = options
+        self._lock = threading.Lock()
+        self._reading: dict[tuple[Path, Stamp], threading.Lock] = {}
+        self._known: OrderedDict[tuple[Path, Stamp], Motion | Signals] = OrderedDict()
+
+    def read(self, path: Path) -> Motion | Signals:
+        """The recording in a file, read if it is not in memory.
+
+        Parameters
+        ----------
+        path : Path
+
+        Returns
+        -------
+        Motion or Signals
+            Its provenance has what there is to warn of.
+
+        Raises
+        ------
+        ReadError
+            The file is gone or cannot be read.
+        """
+        key = path, stamp_of(path)
+        with self._lock:
+            reading = self._reading.setdefault(key, threading.Lock())
+        with reading:
+            with self._lock:
+                known = self._known.get(key)
+            found = read_quietly(path, self.options.file) if known is None else known
+            with self._lock:
+                self._known[key] = found
+                self._known.move_to_end(key)
+                while len(self._known) > MOST_IN_MEMORY:
+                    self._known.popitem(last=False)
+                self._reading.pop(key, None)
+        return found
+
+
+def stamp_of(path: Path) -> Stamp:
+    """What changes when a file is written.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    tuple of int
+        Time of the last change in nanoseconds, and length in bytes.
+
+    Raises
+    ------
+    ReadError
+        It is gone.
+    """
+    try:
+        found = path.stat()
+    except OSError as error:
+        raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
+    return found.st_mtime_ns, found.st_size

@@ -1,0 +1,85 @@
+"""Messages to JSON and back, checked against their types."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, TypeVar
+
+import msgspec
+
+from kineme.errors import ParameterError
+
+Message = TypeVar("Message")
+
+
+def to_json(message: object) -> bytes:
+    """A message as JSON; numbers that are not finite are null.
+
+    Parameters
+    ----------
+    message : object
+        A message, or anything made of messages, texts, numbers, lists and dicts.
+
+    Returns
+    -------
+    bytes
+        UTF-8. What is not Unicode in the name of a file becomes "?".
+
+    Examples
+    --------
+    >>> to_json({"score": float("nan")})
+    b'{"score":null}'
+    """
+    try:
+        return msgspec.json.encode(message)
+    except UnicodeEncodeError:  # names of files may hold any bytes
+        return msgspec.json.encode(_unicode(msgspec.to_builtins(message)))
+
+
+def from_json(body: bytes, kind: type[Message]) -> Message:
+    """The message in a body.
+
+    Parameters
+    ----------
+    body : bytes
+        JSON.
+    kind : type
+        A request of :mod:`kineme.web.requests`.
+
+    Returns
+    -------
+    Message
+        Of that type; every field of its own type and within its limits.
+
+    Raises
+    ------
+    ParameterError
+        The body is not JSON, or not that message: which field, and what is wrong with it.
+
+    Examples
+    --------
+    >>> from kineme.web.requests import CompareRequest
+    >>> from_json(b'{"preset": "kineme"}', CompareRequest).preset
+    'kineme'
+    """
+    try:
+        return msgspec.json.decode(body, type=kind)
+    except msgspec.ValidationError as error:
+        raise ParameterError(_sentence(str(error))) from error
+    except (ValueError, RecursionError) as error:  # ValueError: also what is not UTF-8
+        raise ParameterError("the request does not hold JSON") from error
+
+
+def _sentence(problem: str) -> str:
+    """What msgspec says of a message, with the place first and no signs of its own."""
+    what, _, place = problem.partition(" - at ")
+    where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or "the request"
+    return f"{where}: {what[:1].lower()}{what[1:].replace('`', '')}"
+
+
+def _unicode(value: Any) -> Any:
+    if isinstance(value, str):
+        return value.encode(errors="replace").decode()
+    if isinstance(value, dict):
+        return {_unicode(name): _unicode(item) for name, item in value.items()}
+    return [_unicode(item) for item in value] if isinstance(value, list) else value

@@ -1,0 +1,164 @@
+"""What a page shows of a recording, whichever kind it is, and of its segments."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kineme.errors import ParameterError
+from kineme.features import Names
+from kineme.labels.json_table import SCHEMA
+from kineme.recordings import Motion, Signals
+from kineme.segments.segmentation import Segmentation
+from kineme.web.display import RATE, display_motion
+from kineme.web.matrix import Matrix
+from kineme.web.messages import MotionHead, Recording, Segments
+from kineme.web.similarity import matrix_of_motion, matrix_of_signal
+
+Shown = Motion | Signals | ArrayLike
+
+
+@dataclass(frozen=True, eq=False)
+class PageData:
+    """All that a page draws of a recording, whatever becomes of its segments.
+
+    Parameters
+    ----------
+    n_frames : int
+        Length of the recording.
+    fps : float
+        Frames per second of the recording.
+    motion : MotionHead or None
+        How to read ``binary``; None for signals.
+    binary : bytes
+        The poses, see :mod:`kineme.web.display`; empty for signals.
+    matrix : Matrix
+        The self-similarity of the recording.
+    """
+
+    n_frames: int
+    fps: float
+    motion: MotionHead | None
+    binary: bytes
+    matrix: Matrix
+
+
+def page_data(
+    recording: Shown, *, fps: float | None = None, effectors: Names | None = None
+) -> PageData:
+    """What a page draws of a motion, of signals, or of an array.
+
+    Parameters
+    ----------
+    recording : Motion, Signals or array_like
+        Arrays are (frames, channels).
+    fps : float, optional
+        Frames per second of an array; recordings know their own.
+    effectors : mapping, optional
+        Joints that stand for head, hands and feet where names do not tell.
+
+    Returns
+    -------
+    PageData
+
+    Raises
+    ------
+    ParameterError
+        An array without frame rate, or of another shape.
+
+    Examples
+    --------
+    >>> page_data([[0.0], [1.0], [0.0]], fps=10.0).n_frames
+    3
+    """
+    if isinstance(recording, Motion):
+        head, binary = display_motion(recording, effectors=effectors)
+        matrix = matrix_of_motion(recording, effectors=effectors)
+        return PageData(recording.n_frames, recording.fps, head, binary, matrix)
+    if isinstance(recording, Signals):
+        values, fps = np.array(recording.values), recording.fps
+        for start, stop in recording.gaps:
+            values[start:stop] = np.nan
+        return PageData(len(values), fps, None, b"", matrix_of_signal(values, fps))
+    if fps is None:
+        raise ParameterError("an array does not tell its frame rate: give fps")
+    matrix = matrix_of_signal(recording, fps)
+    return PageData(len(np.asarray(recording)), float(fps), None, b"", matrix)
+
+
+def recording_message(
+    data: PageData, segmentation: Segmentation, *, name: str, band: int | None = None
+) -> Recording:
+    """The message that goes with the binary parts of a report.
+
+    Parameters
+    ----------
+    data : PageData
+        Of the recording.
+    segmentation : Segmentation
+        Of the same recording.
+    name : str
+        What people call it.
+    band : int, optional
+        Of the tiles that go along, see :meth:`kineme.web.matrix.Matrix.report_tiles`.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    ParameterError
+        The segments are of a recording of another length or frame rate.
+    """
+    frames, fps = segmentation.n_frames, segmentation.fps
+    if frames != data.n_frames or not np.isclose(fps, data.fps, rtol=1e-6, atol=0):
+        raise ParameterError(
+            f"the segments are of {frames} frames at {fps:g} Hz, the recording is of "
+            f"{data.n_frames} frames at {data.fps:g} Hz: give the table of this recording"
+        )
+    return Recording(
+        id="report",
+        name=name,
+        n_frames=data.n_frames,
+        fps=data.fps,
+        motion=data.motion,
+        matrix=data.matrix.head(band),
+        segmentation=segments_message(segmentation),
+        revision=0,
+        can_undo=False,
+        can_redo=False,
+        saved="",
+        warnings=_warnings(data),
+    )
+
+
+def segments_message(segmentation: Segmentation) -> Segments:
+    """A segment table as pages have it.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+
+    Returns
+    -------
+    Segments
+    """
+    return Segments(
+        schema=SCHEMA,
+        n_frames=segmentation.n_frames,
+        fps=segmentation.fps,
+        provenance=dict(segmentation.provenance),
+        timings=dict(segmentation.timings),
+        segments=list(segmentation),
+    )
+
+
+def _warnings(data: PageData) -> list[str]:
+    motion = data.motion
+    if motion is None or motion.sample_fps >= min(RATE, data.fps):
+        return []
+    rate = motion.sample_fps
+    return [f"so that the page stays small, the figure moves {rate:.3g} times a second"]

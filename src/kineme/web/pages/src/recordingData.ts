@@ -1,0 +1,47 @@
+/** Where a page gets its data: out of its own file (report) or from the server (studio). */
+import type { Recording } from "./messages";
+
+export interface RecordingData {
+  recording(): Promise<Recording>;
+  /** The binary motion as it was sent: deflated, see motion.ts; empty where there is no skeleton. */
+  motion(): Promise<ArrayBuffer>;
+  /** A tile of the similarity matrix as PNG, or null where there is none. */
+  tile(level: number, row: number, column: number): Promise<Blob | null>;
+}
+
+/** The data inside a report: three script elements that no browser runs. */
+export class EmbeddedData implements RecordingData {
+  private readonly tiles: Record<string, string>;
+
+  constructor(private readonly page: Document = document) {
+    this.tiles = JSON.parse(this.text("kineme-tiles") || "{}") as Record<string, string>;
+  }
+
+  recording(): Promise<Recording> {
+    const text = this.text("kineme-recording");
+    if (!text) return Promise.reject(new Error("This page holds no recording."));
+    return Promise.resolve(JSON.parse(text) as Recording);
+  }
+
+  motion(): Promise<ArrayBuffer> {
+    return Promise.resolve(bytesOf(this.text("kineme-motion")).buffer);
+  }
+
+  tile(level: number, row: number, column: number): Promise<Blob | null> {
+    const text = this.tiles[`${level}/${row}/${column}`];
+    const blob = text ? new Blob([bytesOf(text)], { type: "image/png" }) : null;
+    return Promise.resolve(blob);
+  }
+
+  private text(id: string): string {
+    return this.page.getElementById(id)?.textContent?.trim() ?? "";
+  }
+}
+
+/** The bytes that base64 text stands for. */
+export function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}

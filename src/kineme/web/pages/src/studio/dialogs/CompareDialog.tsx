@@ -1,0 +1,61 @@
+/** Another result beside the shown one: a preset's, or a label file's of the folder. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import type { CompareRequest } from "../../messages";
+import { Dialog } from "./Dialog";
+import type { Session } from "../session";
+
+interface Props {
+  session: Session;
+  close: () => void;
+}
+
+export function CompareDialog({ session, close }: Props): JSX.Element {
+  const busy = useSignal("");
+  const { presets = [], annotations = [] } = session.state.value ?? {};
+  const compare = async (name: string, request: CompareRequest): Promise<void> => {
+    busy.value = name;
+    if (await session.compare(request)) close();
+    busy.value = "";
+  };
+  return (
+    <Dialog title="Compare with another result" close={close}>
+      <p class="quiet">Its segments are laid below the shown ones, with how well they agree.</p>
+      <h2>What a preset finds</h2>
+      <div class="choices">
+        {presets.map(({ name, help }) => (
+          <button
+            key={name}
+            type="button"
+            title={help}
+            disabled={busy.value !== ""}
+            onClick={() => void compare(name, { preset: name })}
+          >
+            {name}
+            {busy.value === name && <span class="busy" />}
+          </button>
+        ))}
+      </div>
+      <h2>A label file of the folder</h2>
+      <div class="choices">
+        {annotations.map(({ id, name }) => (
+          <button
+            key={id}
+            type="button"
+            disabled={busy.value !== ""}
+            onClick={() => void compare(name, { annotation: id })}
+          >
+            {name}
+            {busy.value === name && <span class="busy" />}
+          </button>
+        ))}
+        {annotations.length === 0 && (
+          <p class="quiet">
+            There is none in {session.state.value?.folder}. Put a segment table or a label file
+            there (CSV, JSON, ELAN, Praat, Audacity, …), or drop it on this page.
+          </p>
+        )}
+      </div>
+    </Dialog>
+  );
+}

@@ -1,0 +1,81 @@
+/** The segments as a file, in every format the package writes. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import type { Level } from "../../messages";
+import { explain } from "../server/api";
+import { Dialog } from "./Dialog";
+import type { Session } from "../session";
+
+interface Props {
+  session: Session;
+  close: () => void;
+}
+
+const CHOICES: readonly (readonly [Level | "", string])[] = [
+  ["", "both levels, or the activities in formats of one"],
+  ["activity", "activities"],
+  ["primitive", "primitives"],
+];
+
+export function ExportDialog({ session, close }: Props): JSX.Element {
+  const level = useSignal<Level | "">("");
+  const busy = useSignal("");
+  const write = async (format: string): Promise<void> => {
+    const edited = session.edited.value;
+    if (!edited) return;
+    busy.value = format;
+    try {
+      const { name, data } = await session.api.exported(edited.id, format, level.value);
+      download(name, data);
+    } catch (error) {
+      session.bulletin.problem(explain(error));
+    }
+    busy.value = "";
+  };
+  return (
+    <Dialog title="Write the segments as a file" close={close}>
+      <fieldset>
+        {CHOICES.map(([each, title]) => (
+          <label class="check" key={each}>
+            <input
+              type="radio"
+              name="level"
+              checked={level.value === each}
+              onChange={() => (level.value = each)}
+            />
+            {title}
+          </label>
+        ))}
+      </fieldset>
+      <table class="formats">
+        <tbody>
+          {session.state.value?.export_formats.map(({ name, suffix, help }) => (
+            <tr key={name}>
+              <td>
+                <button
+                  type="button"
+                  data-format={name}
+                  disabled={busy.value !== ""}
+                  onClick={() => void write(name)}
+                >
+                  {name}
+                  {busy.value === name && <span class="busy" />}
+                </button>
+              </td>
+              <td class="quiet">{suffix}</td>
+              <td>{help}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </Dialog>
+  );
+}
+
+function download(name: string, data: Blob): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(data);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}

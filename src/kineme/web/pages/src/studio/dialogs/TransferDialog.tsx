@@ -1,0 +1,84 @@
+/** Labels from a knowledge base of the folder. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { Dialog } from "./Dialog";
+import type { Session } from "../session";
+
+interface Props {
+  session: Session;
+  close: () => void;
+}
+
+export function TransferDialog({ session, close }: Props): JSX.Element {
+  const bases = session.state.value?.knowledge_bases ?? [];
+  const base = useSignal(bases[0]?.id ?? "");
+  const threshold = useSignal("");
+  const spread = useSignal(true);
+  const transfer = (event: Event): void => {
+    event.preventDefault();
+    const limit = Number.parseFloat(threshold.value);
+    session.edited.value?.edit({
+      kind: "transfer",
+      knowledge_base: base.value,
+      spread: spread.value,
+      ...(Number.isFinite(limit) && { threshold: limit }),
+    });
+    close();
+  };
+  return (
+    <Dialog title="Labels from a knowledge base" close={close}>
+      {bases.length === 0 ? (
+        <p>
+          There is no knowledge base in {session.state.value?.folder}. Make one there from a
+          recording with names:{" "}
+          <code>kineme label walk.bvh --labels walk.segments.json --knowledge moves.npz</code>
+        </p>
+      ) : (
+        <form onSubmit={transfer}>
+          <p class="quiet">
+            Each primitive without a name takes that of the most similar one in the knowledge base,
+            if it is similar enough.
+          </p>
+          <label class="field">
+            <span>Knowledge base</span>
+            <select
+              value={base.value}
+              onChange={(event) => (base.value = event.currentTarget.value)}
+            >
+              {bases.map(({ id, name }) => (
+                <option key={id} value={id}>
+                  {name}
+                </option>
+              ))}
+            </select>
+          </label>
+          <label class="field">
+            <span>Largest difference, body sizes</span>
+            <input
+              type="number"
+              min="0.01"
+              max="1"
+              step="0.01"
+              placeholder="as usual"
+              value={threshold.value}
+              onInput={(event) => (threshold.value = event.currentTarget.value)}
+            />
+          </label>
+          <label class="check">
+            <input
+              type="checkbox"
+              checked={spread.value}
+              onChange={(event) => (spread.value = event.currentTarget.checked)}
+            />
+            Give each cluster the name that most of its members got
+          </label>
+          <p class="actions">
+            <button type="submit" class="primary">
+              Transfer labels
+            </button>
+          </p>
+        </form>
+      )}
+    </Dialog>
+  );
+}

@@ -1,0 +1,62 @@
+/** Edits at the playhead or of the selected segment; null where there is nothing to do. */
+import type { Edit, Level, Segment } from "../../messages";
+import { indexAt } from "../../segments";
+
+/** What a command looks at: the lane in which one works, and where the playhead is. */
+export interface Where {
+  lane: readonly Segment[];
+  frame: number;
+}
+
+/** A new border at the playhead. */
+export function split({ lane, frame }: Where): Edit | null {
+  const segment = lane[indexAt(lane, frame)];
+  if (!segment || segment.start_frame === frame) return null;
+  return { kind: "split", level: segment.level, frame };
+}
+
+/** A segment and the next one become one. */
+export function mergeWithNext({ lane }: Where, segment: Segment): Edit | null {
+  const next = lane[lane.indexOf(segment) + 1];
+  if (!next) return null;
+  const { level, start_frame } = segment;
+  return { kind: "merge", level, start_frame, stop_frame: next.stop_frame };
+}
+
+/** The border nearest to the playhead goes. */
+export function deleteBorder(where: Where): Edit | null {
+  const border = nearestBorder(where);
+  return border === null
+    ? null
+    : { kind: "delete_border", level: border.level, frame: border.start_frame };
+}
+
+/** The border nearest to the playhead goes some frames on, or back, as far as its neighbours let it. */
+export function nudgeBorder(
+  where: Where,
+  by: number,
+): Extract<Edit, { kind: "move_border" }> | null {
+  const after = nearestBorder(where);
+  if (!after) return null;
+  const before = where.lane[where.lane.indexOf(after) - 1]!;
+  const frame = after.start_frame;
+  const to = Math.min(Math.max(frame + by, before.start_frame + 1), after.stop_frame - 1);
+  return to === frame ? null : { kind: "move_border", level: after.level, frame, to };
+}
+
+/** The segment that starts at the border nearest to the playhead; the recording's start is none. */
+export function nearestBorder({ lane, frame }: Where): Segment | null {
+  const at = indexAt(lane, frame);
+  const candidates = [lane[at], lane[at + 1]].filter(
+    (segment): segment is Segment => segment !== undefined && segment.start_frame > 0,
+  );
+  const distance = (segment: Segment) => Math.abs(segment.start_frame - frame);
+  return candidates.sort((a, b) => distance(a) - distance(b))[0] ?? null;
+}
+
+/** Where a segment starts after an edit; null where it was not the one that moved. */
+export function followed(edit: Edit, level: Level, start: number): number | null {
+  return edit.kind === "move_border" && edit.level === level && edit.frame === start
+    ? edit.to
+    : null;
+}

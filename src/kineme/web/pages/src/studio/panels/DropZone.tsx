@@ -1,0 +1,47 @@
+/** Files dropped anywhere on the page go into the folder. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+import type { Session } from "../session";
+import type { Uploads } from "../server/uploads";
+
+interface Props {
+  session: Session;
+  uploads: Uploads;
+}
+
+export function DropZone({ session, uploads }: Props): JSX.Element | null {
+  const over = useSignal(false);
+  useEffect(() => {
+    const holdsFiles = (event: DragEvent): boolean =>
+      event.dataTransfer?.types.includes("Files") ?? false;
+    const onOver = (event: DragEvent): void => {
+      if (!holdsFiles(event)) return;
+      event.preventDefault();
+      over.value = true;
+    };
+    const onLeave = (event: DragEvent): void => {
+      if (event.relatedTarget === null) over.value = false;
+    };
+    const onDrop = (event: DragEvent): void => {
+      if (!holdsFiles(event)) return;
+      event.preventDefault();
+      over.value = false;
+      void uploads.add([...(event.dataTransfer?.files ?? [])]);
+    };
+    addEventListener("dragover", onOver);
+    addEventListener("dragleave", onLeave);
+    addEventListener("drop", onDrop);
+    return () => {
+      removeEventListener("dragover", onOver);
+      removeEventListener("dragleave", onLeave);
+      removeEventListener("drop", onDrop);
+    };
+  }, [uploads]);
+  if (!over.value) return null;
+  return (
+    <div class="drop-zone" aria-hidden="true">
+      <p>Drop to add to {session.state.value?.folder}</p>
+    </div>
+  );
+}

@@ -1,0 +1,35 @@
+/** The buttons that cut and join, for those without a keyboard at hand. */
+import type { JSX } from "preact";
+import type { Editor } from "../editing/editor";
+
+export function EditTools({ editor }: { editor: Editor }): JSX.Element {
+  const disabled = !editor.segment.value;
+  return (
+    <span class="group" role="group" aria-label="Segments">
+      <button
+        type="button"
+        disabled={disabled}
+        title="A border at the playhead (S)"
+        onClick={() => editor.split()}
+      >
+        Split
+      </button>
+      <button
+        type="button"
+        disabled={disabled}
+        title="The segment and the next one become one (M)"
+        onClick={() => editor.mergeWithNext()}
+      >
+        Merge
+      </button>
+      <button
+        type="button"
+        disabled={disabled}
+        title="Delete the border nearest to the playhead (Delete)"
+        onClick={() => editor.deleteBorder()}
+      >
+        Delete border
+      </button>
+    </span>
+  );
+}

@@ -1,0 +1,137 @@
+/** The segment one works on: its times, name and cluster, and the name of the cluster. */
+import type { JSX } from "preact";
+import { useLayoutEffect, useRef } from "preact/hooks";
+import { clusterColor } from "../../colors";
+import type { Kind, Segment } from "../../messages";
+import { NameInput } from "../../layout/NameInput";
+import { durationOf } from "../../segments";
+import type { Editor } from "../editing/editor";
+import type { Session } from "../session";
+
+interface Props {
+  session: Session;
+  editor: Editor;
+}
+
+export function SegmentPanel({ session, editor }: Props): JSX.Element {
+  const segment = editor.segment.value;
+  if (!segment) return <p class="hint quiet">Open a recording to see its segments.</p>;
+  const { store } = session;
+  const members = store.clusters.value.find((each) => each.id === segment.cluster);
+  return (
+    <div class="segment-panel">
+      <p class="times number">
+        <b>{segment.level}</b> {segment.start_s.toFixed(2)} – {segment.stop_s.toFixed(2)} s{" "}
+        <span class="quiet">({durationOf(segment).toFixed(2)} s)</span>
+        <br />
+        <span class="quiet">
+          frames {segment.start_frame} – {segment.stop_frame}
+          {segment.score !== null && `, score ${segment.score.toFixed(2)}`}
+        </span>
+      </p>
+      <NameField
+        key={`segment ${segment.level} ${segment.start_frame} ${segment.label}`}
+        title="Name"
+        value={segment.label}
+        names={namesOf(session)}
+        focus={editor.naming.value === "segment"}
+        onDone={() => (editor.naming.value = null)}
+        onName={(label) => editor.name(segment, label)}
+      />
+      <div class="pair">
+        <label class="field">
+          <span>Kind</span>
+          <select
+            value={segment.kind}
+            onChange={(event) => editor.setKind(segment, event.currentTarget.value as Kind)}
+          >
+            <option value="activity">{segment.level}</option>
+            <option value="transition">transition</option>
+          </select>
+        </label>
+        <label class="field">
+          <span>Cluster</span>
+          <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
+          <ClusterChoice session={session} editor={editor} segment={segment} />
+        </label>
+      </div>
+      {segment.cluster >= 0 && (
+        <NameField
+          key={`cluster ${segment.cluster} ${members?.label}`}
+          title={`Name of all in cluster ${segment.cluster}`}
+          value={members?.label ?? ""}
+          names={namesOf(session)}
+          focus={editor.naming.value === "cluster"}
+          onDone={() => (editor.naming.value = null)}
+          onName={(label) => editor.nameCluster(segment.cluster, label)}
+        />
+      )}
+    </div>
+  );
+}
+
+function ClusterChoice(props: Props & { segment: Segment }): JSX.Element {
+  const { session, editor, segment } = props;
+  const clusters = session.store.clusters.value;
+  const rows = session.store.recording.value?.segmentation.segments ?? [];
+  const next = rows.reduce((most, row) => Math.max(most, row.cluster), -1) + 1;
+  const known = new Set([-1, next, ...rows.map((row) => row.cluster)]);
+  const title = (id: number): string => {
+    const label = clusters.find((each) => each.id === id)?.label;
+    if (id < 0) return "none";
+    if (id === next) return `${id} (new)`;
+    return label ? `${id}: ${label}` : String(id);
+  };
+  return (
+    <select
+      aria-label="Cluster of the segment"
+      value={segment.cluster}
+      onChange={(event) => editor.setCluster(segment, Number(event.currentTarget.value))}
+    >
+      {[...known]
+        .sort((a, b) => a - b)
+        .map((id) => (
+          <option key={id} value={id}>
+            {title(id)}
+          </option>
+        ))}
+    </select>
+  );
+}
+
+interface NameProps {
+  title: string;
+  value: string;
+  /** Names in use, offered while one types. */
+  names: string[];
+  focus: boolean;
+  onDone: () => void;
+  onName: (label: string) => void;
+}
+
+function NameField({ title, value, names, focus, onDone, onName }: NameProps): JSX.Element {
+  const field = useRef<HTMLInputElement>(null);
+  useLayoutEffect(() => {
+    if (!focus) return;
+    field.current?.focus();
+    field.current?.select();
+    onDone();
+  }, [focus]);
+  const list = `names-${title.replaceAll(" ", "-")}`;
+  return (
+    <label class="field">
+      <span>{title}</span>
+      <NameInput field={field} value={value} list={list} onName={onName} />
+      <datalist id={list}>
+        {names.map((name) => (
+          <option key={name} value={name} />
+        ))}
+      </datalist>
+    </label>
+  );
+}
+
+function namesOf(session: Session): string[] {
+  const rows = session.store.recording.value?.segmentation.segments ?? [];
+  return [...new Set(rows.map((row) => row.label))].filter(Boolean).sort();
+}

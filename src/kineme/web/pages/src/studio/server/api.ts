@@ -1,0 +1,177 @@
+/**
+ * Every request the studio makes, and what can become of it.
+ *
+ * A request ends in its answer, in `Refused` (the server says no, with a
+ * sentence why), or in `Unreachable` (nobody answers; it may or may not have
+ * been carried out). Nothing else is thrown.
+ */
+
+import type {
+  Changed,
+  CompareRequest,
+  Comparison,
+  Edited,
+  EditRequest,
+  Failure,
+  Level,
+  Listing,
+  Recording,
+  State,
+} from "../../messages";
+
+/** Milliseconds between two tries to reach the server. */
+export const RETRY = 1000;
+
+export class Refused extends Error {
+  constructor(
+    readonly status: number,
+    message: string,
+    readonly body: unknown,
+  ) {
+    super(message);
+  }
+}
+
+export class Unreachable extends Error {
+  constructor() {
+    super("The studio's server does not answer.");
+  }
+}
+
+export class Api {
+  /** @param token what the server printed in its address; another server has another one */
+  constructor(public token: string) {}
+
+  state(): Promise<State> {
+    return this.json("/api/state");
+  }
+
+  recording(id: string): Promise<Recording> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}`);
+  }
+
+  async motion(id: string): Promise<ArrayBuffer> {
+    const answer = await this.ask(`/api/recordings/${encodeURIComponent(id)}/motion`);
+    return unbroken(answer.arrayBuffer());
+  }
+
+  /** A tile of the matrix; null where the server has none. */
+  async tile(id: string, level: number, row: number, column: number): Promise<Blob | null> {
+    const path = `/api/recordings/${encodeURIComponent(id)}/matrix/${level}/${row}/${column}`;
+    try {
+      return await unbroken((await this.ask(path)).blob());
+    } catch (error) {
+      if (error instanceof Refused && error.status === 404) return null;
+      throw error;
+    }
+  }
+
+  edit(id: string, request: EditRequest): Promise<Edited> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}/edits`, request);
+  }
+
+  compare(id: string, request: CompareRequest): Promise<Comparison> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}/compare`, request);
+  }
+
+  /** The segments of a level, or of all that the format holds, as a file named by the server. */
+  async exported(
+    id: string,
+    format: string,
+    level: Level | "",
+  ): Promise<{ name: string; data: Blob }> {
+    const path = `/api/recordings/${encodeURIComponent(id)}/export/${encodeURIComponent(format)}`;
+    const answer = await this.ask(`${path}?level=${level}`);
+    const name = filename(answer.headers.get("content-disposition") ?? "") || `segments.${format}`;
+    return { name, data: await unbroken(answer.blob()) };
+  }
+
+  /** A file into the folder; `progress` is told the share sent, 0 to 1. */
+  upload(file: File, progress: (share: number) => void): Promise<Listing> {
+    return new Promise((resolve, reject) => {
+      const request = new XMLHttpRequest(); // fetch cannot tell how much is sent
+      request.open("POST", `/api/recordings?name=${encodeURIComponent(file.name)}`);
+      request.setRequestHeader("X-Kineme-Token", this.token);
+      request.setRequestHeader("Content-Type", "application/octet-stream");
+      request.upload.onprogress = (event) => {
+        if (event.lengthComputable) progress(event.loaded / event.total);
+      };
+      request.onerror = () => reject(new Unreachable());
+      request.onload = () => {
+        const body = parsed(request.responseText);
+        if (request.status < 300) resolve(body as Listing);
+        else reject(new Refused(request.status, sentence(body, request.status), body));
+      };
+      request.send(file);
+    });
+  }
+
+  /** Calls back for every change, and when the line drops or returns; it is set up again by itself. */
+  listen(changed: (change: Changed) => void, line: (up: boolean) => void, up = true): void {
+    const source = new EventSource(`/api/events?token=${encodeURIComponent(this.token)}`);
+    source.onmessage = (event) => changed(JSON.parse(event.data as string) as Changed);
+    source.onopen = () => {
+      if (!up) line(true);
+      up = true;
+    };
+    source.onerror = () => {
+      source.close();
+      if (up) line(false);
+      setTimeout(() => this.listen(changed, line, false), RETRY);
+    };
+  }
+
+  private async json<T>(path: string, body?: unknown): Promise<T> {
+    const answer = await this.ask(path, body);
+    return (await unbroken(answer.json())) as T;
+  }
+
+  private async ask(path: string, body?: unknown): Promise<Response> {
+    const headers: Record<string, string> = { "X-Kineme-Token": this.token };
+    if (body !== undefined) headers["Content-Type"] = "application/json";
+    const answer = await unbroken(
+      fetch(path, {
+        method: body === undefined ? "GET" : "POST",
+        headers,
+        body: body === undefined ? null : JSON.stringify(body),
+        cache: "no-store",
+      }),
+    );
+    if (answer.ok) return answer;
+    const said = parsed(await unbroken(answer.text()));
+    throw new Refused(answer.status, sentence(said, answer.status), said);
+  }
+}
+
+/** What to tell a person about anything thrown by this page. */
+export function explain(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
+/** The file name of a Content-Disposition header, its UTF-8 form first; empty if it has none. */
+export function filename(disposition: string): string {
+  const encoded = /filename\*=utf-8''([^;]+)/i.exec(disposition)?.[1];
+  if (encoded) return decodeURIComponent(encoded);
+  return /filename="?([^";]+)"?/i.exec(disposition)?.[1] ?? "";
+}
+
+async function unbroken<T>(work: Promise<T>): Promise<T> {
+  try {
+    return await work;
+  } catch {
+    throw new Unreachable();
+  }
+}
+
+function parsed(text: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return null;
+  }
+}
+
+function sentence(body: unknown, status: number): string {
+  const error = (body as Partial<Failure> | null)?.error;
+  return error ?? `The server refused this with status ${status}.`;
+}

@@ -1,0 +1,42 @@
+/** Files on their way into the folder. */
+import { signal } from "@preact/signals";
+import { explain } from "./api";
+import type { Session } from "../session";
+
+export interface Upload {
+  name: string;
+  /** How much is sent, 0 to 1. */
+  share: number;
+}
+
+export class Uploads {
+  readonly running = signal<Upload[]>([]);
+
+  constructor(private readonly session: Session) {}
+
+  /** Sends files one after the other, then opens the first that is a recording. */
+  async add(files: readonly File[]): Promise<void> {
+    const { session } = this;
+    const came: string[] = [];
+    const uploads = files.map((file) => ({ name: file.name, share: 0 }));
+    this.running.value = [...this.running.value, ...uploads];
+    for (const [i, file] of files.entries()) {
+      let upload = uploads[i]!;
+      const progress = (share: number): void => {
+        const now = { ...upload, share };
+        this.running.value = this.running.value.map((each) => (each === upload ? now : each));
+        upload = now;
+      };
+      try {
+        came.push((await session.api.upload(file, progress)).id);
+      } catch (error) {
+        session.bulletin.problem(`${file.name}: ${explain(error)}`);
+      }
+      this.running.value = this.running.value.filter((each) => each !== upload);
+    }
+    await session.refresh();
+    const known = new Set(session.state.value?.recordings.map((each) => each.id));
+    const first = came.find((id) => known.has(id));
+    if (first) await session.open(first);
+  }
+}

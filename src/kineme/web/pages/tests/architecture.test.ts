@@ -1,0 +1,51 @@
+/** The rooms of the pages: no circles between files, no folder too full to find one's way in. */
+import { readdirSync, readFileSync, statSync } from "node:fs";
+import { dirname, join, normalize } from "node:path";
+import { expect, test } from "vitest";
+
+const SRC = join(import.meta.dirname, "..", "src");
+const MOST_FILES = 20;
+
+function foldersIn(folder: string): string[] {
+  const inside = readdirSync(folder).map((name) => join(folder, name));
+  return [folder, ...inside.filter((path) => statSync(path).isDirectory()).flatMap(foldersIn)];
+}
+
+const folders = foldersIn(SRC);
+const files = folders.flatMap((folder) =>
+  readdirSync(folder)
+    .filter((name) => /\.tsx?$/.test(name))
+    .map((name) => join(folder, name)),
+);
+
+/** The files that a file imports, types too. */
+function importsOf(file: string): string[] {
+  const specs = readFileSync(file, "utf-8").matchAll(/(?:from|import) "(\.[^"]+)"/g);
+  return [...specs]
+    .map(([, spec]) => normalize(join(dirname(file), spec!)))
+    .flatMap((path) => files.filter((each) => each === `${path}.ts` || each === `${path}.tsx`));
+}
+
+test("no files import each other in a circle", () => {
+  const imports = new Map(files.map((file) => [file, importsOf(file)]));
+  const done = new Set<string>();
+  const visit = (file: string, above: string[]): void => {
+    expect(above, `circle through ${file}`).not.toContain(file);
+    if (done.has(file)) return;
+    for (const each of imports.get(file)!) visit(each, [...above, file]);
+    done.add(file);
+  };
+  expect(files.length).toBeGreaterThan(50);
+  for (const file of files) visit(file, []);
+});
+
+test("what the report and the studio share knows neither of them", () => {
+  const pages = /\/src\/(report|studio)\//;
+  const shared = files.filter((file) => !pages.test(file));
+  expect(shared.filter((file) => importsOf(file).some((each) => pages.test(each)))).toEqual([]);
+});
+
+test.each(folders)("%s holds no more files than one looks through", (folder) => {
+  const own = readdirSync(folder).filter((name) => statSync(join(folder, name)).isFile());
+  expect(own.length).toBeLessThanOrEqual(MOST_FILES);
+});

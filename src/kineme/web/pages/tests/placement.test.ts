@@ -1,0 +1,39 @@
+import { expect, test } from "vitest";
+import { inStep, timeOf, MOST_MEMBERS, putInPlace, sideBySide } from "../src/viewer/placement";
+import { motion, segment } from "./recordings";
+
+const walk = motion(41, (i, joint) => [100 * i, 1000, joint * 200], {
+  heading: Array(41).fill(Math.PI / 2),
+});
+
+test("one figure moves freely, several keep their places", () => {
+  expect(sideBySide([{ motion: walk, name: "a" }], 2)[0]!.place.still).toBe(false);
+  const two = sideBySide(
+    [walk, walk].map((each) => ({ motion: each, name: "" })),
+    2,
+  );
+  const [left, right] = two.map((figure) => figure.place.slot[0]);
+  expect(right! - left!).toBeGreaterThan(1);
+  expect(two.every((figure) => figure.place.still)).toBe(true);
+});
+
+test("members begin on their places and look the same way", () => {
+  const [figure] = inStep(walk, [segment(10, 20), segment(20, 30)], 2);
+  const pose = Float32Array.from([1, 1, 0, 2, 1, 0]); // it looks along x, as the walk does
+  putInPlace(pose, figure!.place, 0);
+  const [x, z] = figure!.place.slot;
+  expect([pose[0], pose[2]]).toEqual([expect.closeTo(x), expect.closeTo(z)]);
+  expect([pose[3], pose[5]]).toEqual([expect.closeTo(x), expect.closeTo(z + 1)]);
+});
+
+test("a crowd is cut short", () => {
+  const members = Array.from({ length: 100 }, (_, i) => segment(i, i + 1));
+  expect(inStep(walk, members, 2)).toHaveLength(MOST_MEMBERS);
+});
+
+test("all have done the same share of their repetition", () => {
+  const members = [segment(10, 20), segment(20, 40)];
+  const figures = inStep(walk, members, 2);
+  const times = figures.map((figure) => timeOf(figure, 1.5, members[0]));
+  expect(times).toEqual([expect.closeTo(1.5), expect.closeTo(3)]);
+});

@@ -1,0 +1,144 @@
+"""What the pages send: edits of a table, and what to compare it with.
+
+Fields are checked as they are decoded (:func:`kineme.web.encoding.from_json`):
+types strictly, texts and numbers within the limits below, no unknown fields.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from msgspec import UNSET, Meta, Struct, UnsetType
+
+from kineme.segments.table import Kind, Level
+
+LONGEST_TEXT = 500
+"""Characters; nobody names a movement with more."""
+LARGEST = 2**53
+"""Whole numbers up to here are the same in the page and in Python."""
+
+Text = Annotated[str, Meta(max_length=LONGEST_TEXT)]
+Whole = Annotated[int, Meta(ge=-LARGEST, le=LARGEST)]
+Number = Annotated[float, Meta(ge=-LARGEST, le=LARGEST)]
+
+
+class Request(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What every request has in common."""
+
+
+class EditBase(Request, frozen=True, kw_only=True, tag_field="kind"):
+    """An edit; ``kind`` tells which."""
+
+
+class MoveBorder(EditBase, frozen=True, kw_only=True, tag="move_border"):
+    """The border at ``frame`` of a level goes to ``to``."""
+
+    level: Level
+    frame: Whole
+    to: Whole
+
+
+class Split(EditBase, frozen=True, kw_only=True, tag="split"):
+    """A new border at ``frame``."""
+
+    level: Level
+    frame: Whole
+
+
+class Merge(EditBase, frozen=True, kw_only=True, tag="merge"):
+    """The segments of ``[start_frame, stop_frame)`` become one."""
+
+    level: Level
+    start_frame: Whole
+    stop_frame: Whole
+
+
+class DeleteBorder(EditBase, frozen=True, kw_only=True, tag="delete_border"):
+    """The two segments that meet at ``frame`` become one, like the longer of them."""
+
+    level: Level
+    frame: Whole
+
+
+class NameSegment(EditBase, frozen=True, kw_only=True, tag="name_segment"):
+    """The segment that starts at ``frame`` gets a label; an empty one takes it away."""
+
+    level: Level
+    frame: Whole
+    label: Text
+
+
+class NameCluster(EditBase, frozen=True, kw_only=True, tag="name_cluster"):
+    """All segments of a cluster, of both levels, get a label."""
+
+    cluster: Whole
+    label: Text
+
+
+class SetCluster(EditBase, frozen=True, kw_only=True, tag="set_cluster"):
+    """The segment that starts at ``frame`` joins a cluster; -1: none."""
+
+    level: Level
+    frame: Whole
+    cluster: Whole
+
+
+class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
+    """The segment that starts at ``frame`` is an activity, or a transition and in no cluster."""
+
+    level: Level
+    frame: Whole
+    to: Kind
+
+
+class SegmentAgain(EditBase, frozen=True, kw_only=True, tag="segment"):
+    """The whole table anew, by a preset."""
+
+    preset: Text
+    parameters: dict[Text, Number]
+
+
+class Transfer(EditBase, frozen=True, kw_only=True, tag="transfer"):
+    """Labels from a knowledge base of the folder."""
+
+    knowledge_base: Text
+    threshold: Number | UnsetType = UNSET
+    spread: bool | UnsetType = UNSET
+
+
+class Undo(EditBase, frozen=True, kw_only=True, tag="undo"):
+    """The last edit is taken back."""
+
+
+class Redo(EditBase, frozen=True, kw_only=True, tag="redo"):
+    """The last edit taken back is done again."""
+
+
+Edit = (
+    MoveBorder
+    | Split
+    | Merge
+    | DeleteBorder
+    | NameSegment
+    | NameCluster
+    | SetCluster
+    | SetKind
+    | SegmentAgain
+    | Transfer
+    | Undo
+    | Redo
+)
+
+
+class EditRequest(Request, frozen=True, kw_only=True):
+    """An edit of the table as it was at ``revision``."""
+
+    revision: Whole
+    edit: Edit
+
+
+class CompareRequest(Request, frozen=True, kw_only=True):
+    """Another result to lay beside the shown one: a preset's, or a file's of the folder."""
+
+    preset: Text | UnsetType = UNSET
+    annotation: Text | UnsetType = UNSET
