@@ -29,7 +29,7 @@ from kineme.synthesis import (
     random_route,
     synthesize,
 )
-from kineme.synthesis.blending import jump_frames, pieces_of
+from kineme.synthesis.blending import jump_frames, spans_of
 from kineme.synthesis.feet import foot_contacts, slides
 
 FOLDER = DATA / "cmu86"
@@ -108,7 +108,7 @@ def show_walks(graph: MotionGraph, motion: Motion) -> None:
         new = synthesize(graph, [motion], route)
         seconds = time.perf_counter() - began
         near = np.zeros(new.n_frames - 1, bool)
-        for t in jump_frames(pieces_of(graph, route, Placement())):
+        for t in jump_frames(spans_of(graph, route, Placement())):
             near[max(t - half, 0) : t + half] = True
         moves, turns = steps(new)
         slid, bare = sliding(new), sliding(synthesize(graph, [motion], route, plant=False))

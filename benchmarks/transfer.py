@@ -163,7 +163,7 @@ def copies(real: Primitives, n: int, seed: int) -> Primitives:
     shift = rng.normal(0, 0.05 / real.features.shape[1] ** 0.5, (n, real.features.shape[1]))
     features = real.features[frames]
     features += np.repeat(shift.astype(np.float32), lengths, axis=0)
-    return replace(real, features=features, lengths=lengths, stretches=np.arange(n))
+    return replace(real, features=features, lengths=lengths, runs=np.arange(n))
 
 
 def measure(real: Primitives, n_unknown: int, n_known: int, runs: int) -> float:

@@ -25,11 +25,11 @@ from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.region_growing.preset import KRUEGER2017
 from kineme.methods.region_growing.preset import VOEGELE2014 as PRESET
 from kineme.methods.region_growing.primitives import primitive_cuts
-from kineme.plot.segmentation import (
+from kineme.plot.matrix import (
     BORDER,
     INK,
     SHADES,
-    draw_segmentation,
+    plot_matrix,
     similarity_image,
 )
 from kineme.segmentation.bodies import motion_features
@@ -45,7 +45,7 @@ def main() -> None:
     segments, found = kineme.segment_and_found(motion, preset=KINEME)
 
     figure = _figure(7.6, 6.6)
-    draw_segmentation(figure.add_subplot(), segments, found.graph)
+    plot_matrix(segments, found.graph, ax=figure.add_subplot())
     _save(figure, "exercises")
 
     figure = _figure(8, 3)

@@ -89,8 +89,17 @@ from .methods import (
 from .methods import (
     Preset as Preset,
 )
-from .plot.segmentation import (
+from .plot import (
+    compare as compare,
+)
+from .plot import (
+    plot_matrix as plot_matrix,
+)
+from .plot import (
     plot_segmentation as plot_segmentation,
+)
+from .plot import (
+    plot_timeline as plot_timeline,
 )
 from .recordings import (
     Motion as Motion,

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 import kineme as package
 from kineme.cli.app import app
+from kineme.cli.constant_texts import shown
 from kineme.datasets import bundled_recording
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
@@ -64,13 +65,37 @@ def test_help_is_light() -> None:
     assert done.stdout.strip() == "set()"
 
 
-def test_every_constant_of_a_preset_has_an_option_with_help() -> None:
-    text = CliRunner().invoke(app, ["segment", "--help"], env={"COLUMNS": "400"}).stdout
+def help_of(command: str) -> str:
+    done = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "400", "NO_COLOR": "1"})
+    return done.stdout
+
+
+def line_of(option: str, text: str) -> str:
+    (line,) = (line for line in text.splitlines() if f"--{option.replace('_', '-')} " in line)
+    return line
+
+
+@pytest.mark.parametrize("command", ["segment", "split", "report"])
+def test_every_constant_of_a_preset_has_an_option_with_help(command: str) -> None:
+    text = help_of(command)
     for preset in PRESETS.values():
-        for name in preset.constants():
-            (line,) = (line for line in text.splitlines() if f"--{name.replace('_', '-')} " in line)
-            assert f"{preset.name} " in line
-            assert len(line.split("[")[0].split()) > 4, line
+        assert f"{preset.name}: {preset.help}" in text
+        for known in preset.constants():
+            line = line_of(known.name, text)
+            assert known.help in line
+            (values,) = re.findall(r"\[([^]]*)\]", line)
+            assert shown(known.value) in values
+            assert preset.name in values or ";" not in values
+
+
+def test_finer_constants_come_last() -> None:
+    text = help_of("segment")
+    fine = [known for preset in PRESETS.values() for known in preset.constants() if known.fine]
+    rest = [known for preset in PRESETS.values() for known in preset.constants() if not known.fine]
+    assert fine
+    start = text.index("Finer constants")
+    assert all(text.index(line_of(known.name, text)) > start for known in fine)
+    assert all(text.index(line_of(known.name, text)) < start for known in rest)
 
 
 @pytest.mark.parametrize("preset", PRESETS.values(), ids=lambda preset: preset.name)
@@ -79,17 +104,77 @@ def test_constants_given_one_by_one_make_the_preset(
 ) -> None:
     asked: dict[str, object] = {}
 
-    def remember(name: str, **overrides: object) -> Preset:
-        asked.update(overrides)
+    def remember(name: str, **constants: object) -> Preset:
+        asked.update(constants)
         raise package.ParameterError("enough")
 
     monkeypatch.setattr("kineme.cli.request.resolve_preset", remember)
     options = []
-    for name in preset.constants():
-        options += [f"--{name.replace('_', '-')}", typed(getattr(preset, name))]
-    assert CliRunner().invoke(app, ["segment", "x.bvh", *options]).exit_code == 2
+    for known in preset.constants():
+        options += [f"--{known.name.replace('_', '-')}", typed(known.value)]
+    given = ["segment", "x.bvh", "--preset", preset.name, *options]
+    assert CliRunner().invoke(app, given).exit_code == 2
     assert preset.replace(**asked) == preset
-    assert set(asked) == {field.name for field in fields(preset)} - {"name", "unit"}
+    assert set(asked) == {known.name for known in preset.constants()}
+
+
+def test_a_value_that_is_none_names_its_option(kineme_here) -> None:
+    done = kineme_here("segment", "x.bvh", "--any-pace", "perhaps")
+    assert done.returncode == 2
+    told = " ".join(done.stderr.split())
+    assert "--any-pace" in told
+    assert "'perhaps' is not yes|no" in told
+    done = kineme_here("segment", "x.bvh", "--radius", "0.3")
+    assert done.returncode == 2
+    assert "kineme has no parameter 'radius'" in " ".join(done.stderr.split())
+
+
+THIRD_PARTY = """
+from dataclasses import dataclass
+
+from kineme.methods import Preset, constant, register
+from kineme.methods.baselines.presets import UniformPreset
+
+
+@dataclass(frozen=True, kw_only=True)
+class Toy(UniformPreset):
+    method = "toy"
+    window: int = constant("whatever a toy does with a window", unit="samples", default=7)
+    level: int = constant("called as an option of the command", default=1)
+
+
+register(Toy(name="toy", help="Cuts as a toy does.", interval=2.0))
+
+from kineme.cli import main
+
+main()
+"""
+
+
+def test_the_preset_of_another_package_is_an_option_like_any_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "400")
+    monkeypatch.setenv("NO_COLOR", "1")
+
+    def toy(*arguments: object) -> str:
+        given = [sys.executable, "-c", THIRD_PARTY, *map(str, arguments)]
+        done = subprocess.run(given, capture_output=True, text=True, check=True, cwd=tmp_path)
+        return done.stdout
+
+    text = toy("segment", "--help")
+    assert "toy: Cuts as a toy does." in text
+    window = line_of("window", text)
+    assert "samples this far apart" in window  # as kineme means it
+    assert "[kineme 60]" in window
+    after = text[text.index(window) + len(window) :].splitlines()[1]
+    assert "whatever a toy does with a window, samples [toy 7]" in after
+    data = json.loads(
+        toy("segment", bundled_recording(), "--preset", "toy", "--window", 9, "--json")
+    )
+    parameters = data["provenance"]["parameters"]
+    assert (parameters["window"], parameters["interval"], parameters["level"]) == (9, 2.0, 1)
+    assert len(data["segments"]) == 25
 
 
 def typed(value: object) -> str:

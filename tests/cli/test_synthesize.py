@@ -98,9 +98,7 @@ def test_graphs_that_cannot_be_used_are_one_clear_error(
 
     assert "not valid JSON, or is cut short" in refused(graph.read_text()[:-50])
     assert "make one with kineme graph" in refused("[1, 2]")
-    assert "reads 'kineme.recordings.motion-graph/1'" in refused(
-        '{"schema": "kineme.recordings.motion-graph/9"}'
-    )
+    assert "reads 'kineme.motion-graph/1'" in refused('{"schema": "kineme.motion-graph/9"}')
     assert "damaged (no 'nodes')" in refused(json.dumps({**whole, "nodes": None}).replace(
         '"nodes": null, ', ""))  # fmt: skip
     for table, name, value in (

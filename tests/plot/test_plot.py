@@ -18,12 +18,7 @@ from matplotlib.image import imread
 from kineme._colors import NO_CLUSTER, PALETTE, cluster_color
 from kineme.errors import WriteError
 from kineme.graph import NeighborGraph, neighbor_graph
-from kineme.plot import segmentation as plot
-from kineme.plot.segmentation import (
-    draw_segmentation,
-    plot_segmentation,
-    similarity_image,
-)
+from kineme.plot import matrix, plot_matrix, plot_segmentation, similarity_image
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 
@@ -71,7 +66,7 @@ def test_a_smaller_image_keeps_the_most_similar_pair(frames: int, pixels: int, b
         cell = t * size // frames, j * size // frames
         expected[cell] = max(expected[cell], full[t, j])
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(plot, "ENTRIES_AT_ONCE", block)
+        patch.setattr(matrix, "ENTRIES_AT_ONCE", block)
         np.testing.assert_array_equal(similarity_image(graph, pixels), expected)
 
 
@@ -119,7 +114,7 @@ def test_what_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
 @given(segmentations())
 def test_every_segmentation_can_be_drawn(result: Segmentation) -> None:
     axes = Figure().add_subplot()
-    draw_segmentation(axes, result, turning(max(1, result.n_frames // 4)))
+    plot_matrix(result, turning(max(1, result.n_frames // 4)), ax=axes)
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     for cluster, count in result.repetitions().items():
         assert f"{cluster}  ({count}×)" in legend
@@ -136,14 +131,14 @@ def test_a_legend_of_many_clusters_says_how_many_are_left_out() -> None:
     }
     result = Segmentation.from_columns(columns, n_frames=n, fps=30.0)
     axes = Figure().add_subplot()
-    draw_segmentation(axes, result, turning(n))
+    plot_matrix(result, turning(n), ax=axes)
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     assert "17  (2×)" in legend
-    assert legend[-1] == f"and {n - 1 - plot.MAX_LEGEND} more"
+    assert legend[-1] == f"and {n - 1 - matrix.MAX_LEGEND} more"
 
 
 def test_no_global_plotting_state() -> None:
-    code = "import sys, kineme.plot.segmentation; print('matplotlib.pyplot' in sys.modules)"
+    code = "import sys, kineme.plot; print('matplotlib.pyplot' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
 

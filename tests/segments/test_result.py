@@ -56,6 +56,8 @@ def test_cuts_repetitions_and_frames() -> None:
     )
     assert len(result) == len(list(result)) == 8
     assert "2 activities, 1 transition, 4 primitives, 2 clusters" in repr(result)
+    assert repr(result.primitives) == "<SegmentTable of 5 segments, 0.00 to 3.00 s>"
+    assert repr(result.table[:0]) == "<SegmentTable of 0 segments>"
 
 
 def test_rows_are_picked_as_in_numpy() -> None:
@@ -85,9 +87,11 @@ def test_what_picks_no_rows_is_said() -> None:
         table["a":"b"]
 
 
-def test_pandas_sees_the_documented_columns() -> None:
-    frame = walk_jump().to_pandas()
-    assert tuple(frame.columns) == COLUMNS
+def test_pandas_sees_the_documented_columns_and_durations() -> None:
+    frame = walk_jump().to_dataframe()
+    assert tuple(frame.columns.drop("duration_s")) == COLUMNS
+    np.testing.assert_array_equal(frame.duration_s, frame.stop_s - frame.start_s)
+    assert walk_jump().primitives.to_dataframe().duration_s.sum() == pytest.approx(3.0)
     assert frame.query("level == 'primitive' and cluster == 0").start_frame.tolist() == [0, 20, 70]
 
 
@@ -162,9 +166,10 @@ def test_provenance_must_fit_into_json() -> None:
         Segmentation(walk_jump().table, 90, 30.0, provenance={"radius": object()})
 
 
-def test_the_table_needs_no_pandas() -> None:
+def test_the_table_needs_neither_pandas_nor_matplotlib() -> None:
     code = (
-        "import sys, kineme.segments.segmentation; print({'pandas', 'pyarrow'} & set(sys.modules))"
+        "import sys, kineme.segments.segmentation;"
+        "print({'pandas', 'pyarrow', 'matplotlib'} & set(sys.modules))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"

@@ -155,7 +155,7 @@ def test_a_route_is_found_exactly_where_there_is_one(
                 waiting.append((head, ahead))
     actions = [(name, 1) for name in wanted]
     if not any(done == len(wanted) - 1 and made.nodes[node].name for node, done in found):
-        with pytest.raises(ParameterError, match="no way leads"):
+        with pytest.raises(ParameterError, match="no route leads"):
             action_route(made, actions)
         return
     route = action_route(made, actions)

@@ -1,4 +1,4 @@
-"""New motion: what was asked for, smooth where pieces meet, with feet that stand."""
+"""New motion: what was asked for, smooth where spans meet, with feet that stand."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from kineme.synthesis import (
     random_route,
     synthesize,
 )
-from kineme.synthesis.blending import jump_frames, pieces_of
+from kineme.synthesis.blending import jump_frames, spans_of
 from kineme.synthesis.feet import slides
 
 
@@ -115,10 +115,10 @@ def test_far_from_jumps_every_frame_is_one_of_the_recording(
 ) -> None:
     route = action_route(graph, [("run", 9)])
     motion = synthesize(graph, [exercises], route, plant=False)
-    pieces = pieces_of(graph, route, Placement())
-    edges = [0, *jump_frames(pieces), motion.n_frames]
+    spans = spans_of(graph, route, Placement())
+    edges = [0, *jump_frames(spans), motion.n_frames]
     half = round(graph.window * graph.fps / 2)
-    for piece, (start, stop) in zip(pieces, pairwise(edges)):
+    for piece, (start, stop) in zip(spans, pairwise(edges)):
         middle = slice(start + half, stop - half)
         source = exercises.positions[piece.start + half : piece.stop - half]
         assert np.abs(motion.positions[middle, :, 1] - source[:, :, 1]).max() < 1e-9

@@ -37,7 +37,7 @@ def test_every_labelled_primitive_is_in_it_once() -> None:
     assert BASE.counts() == {"kick": 2, "walk": 5}
     lasts = BASE.stop_s - BASE.start_s
     np.testing.assert_allclose(BASE.lengths / 10, lasts, atol=0.101)
-    assert len(np.unique(BASE.primitives().stretches)) == 3
+    assert len(np.unique(BASE.primitives().runs)) == 3
 
 
 def test_labels_of_activities_are_inherited_and_suffice() -> None:

@@ -1,4 +1,4 @@
-"""Two-way warping costs: a naive twin, and the laws of stretches and labels."""
+"""Mutual warping costs: a naive twin, and the laws of runs and labels."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ def naive_cost(distances: np.ndarray) -> float:
     best = [[(0.0, 0)] * m for _ in range(n)]
     for i in range(n):
         for j in range(m):
-            ways = [(0.0, 0)] if i == 0 else []
+            before = [(0.0, 0)] if i == 0 else []
             for a, b in ((1, 1), (1, 0), (0, 1)):
                 if i >= a and j >= b:
-                    ways.append(best[i - a][j - b])
-            cost, nodes = min(ways)
+                    before.append(best[i - a][j - b])
+            cost, nodes = min(before)
             best[i][j] = (cost + distances[i, j], nodes + 1)
     cost, nodes = min(best[-1])
     return cost / nodes
@@ -32,8 +32,8 @@ def naive_cost(distances: np.ndarray) -> float:
 def naive_label_costs(unknown: Primitives, known: Primitives, codes, n_labels: int) -> np.ndarray:
     costs = np.full((len(unknown), n_labels), np.inf)
 
-    def pieces(side: Primitives, stretch: int) -> np.ndarray:
-        return side.features[side.frame_stretches == stretch]
+    def frames_of(side: Primitives, run: int) -> np.ndarray:
+        return side.features[side.frame_runs == run]
 
     def one(side: Primitives, p: int) -> np.ndarray:
         return side.features[side.starts[p] : side.starts[p + 1]]
@@ -43,8 +43,8 @@ def naive_label_costs(unknown: Primitives, known: Primitives, codes, n_labels: i
 
     for u in range(len(unknown)):
         for k in range(len(known)):
-            there = between(one(unknown, u), pieces(known, known.stretches[k]))
-            back = between(one(known, k), pieces(unknown, unknown.stretches[u]))
+            there = between(one(unknown, u), frames_of(known, known.runs[k]))
+            back = between(one(known, k), frames_of(unknown, unknown.runs[u]))
             costs[u, codes[k]] = min(costs[u, codes[k]], max(there, back))
     return costs
 
@@ -54,15 +54,15 @@ def primitives(draw: st.DrawFn, most: int = 5) -> Primitives:
     n = draw(st.integers(1, most))
     lengths = np.array(draw(st.lists(st.integers(2, 6), min_size=n, max_size=n)))
     follows = draw(st.lists(st.booleans(), min_size=n - 1, max_size=n - 1))
-    stretches = np.concatenate([[0], np.cumsum(~np.array(follows, bool))]).astype(np.int64)
+    runs = np.concatenate([[0], np.cumsum(~np.array(follows, bool))]).astype(np.int64)
     rng = np.random.default_rng(draw(st.integers(0, 2**32)))
-    return Primitives(rng.normal(size=(lengths.sum(), DIMS)), lengths, stretches)
+    return Primitives(rng.normal(size=(lengths.sum(), DIMS)), lengths, runs)
 
 
 @settings(max_examples=60)
 @given(primitives(), primitives())
 def test_equal_to_the_naive_version(unknown: Primitives, known: Primitives) -> None:
-    codes = known.stretches % 3
+    codes = known.runs % 3
     costs = label_costs(unknown, known, codes, 3, radius=1e3)
     expected = naive_label_costs(unknown, known, codes, 3)
     np.testing.assert_allclose(costs, expected, rtol=1e-5, atol=1e-5)
@@ -71,10 +71,10 @@ def test_equal_to_the_naive_version(unknown: Primitives, known: Primitives) -> N
 @settings(max_examples=30)
 @given(primitives(), primitives(9), st.integers(1, 40))
 def test_blocks_change_nothing(unknown: Primitives, known: Primitives, frames: int) -> None:
-    codes = known.stretches % 4
+    codes = known.runs % 4
     whole = label_costs(unknown, known, codes, 4, radius=2.0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(matching, "BLOCK_FRAMES", frames)
+        patch.setattr(matching, "BATCH_FRAMES", frames)
         np.testing.assert_allclose(label_costs(unknown, known, codes, 4, radius=2.0), whole)
 
 
@@ -83,10 +83,10 @@ def cycles(n: int, *, phase: float = 0.0, frames: int = 12) -> np.ndarray:
     return np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
 
 
-def test_a_cycle_cut_at_another_phase_matches_inside_a_stretch_only() -> None:
+def test_a_cycle_cut_at_another_phase_matches_inside_a_run_only() -> None:
     unknown = Primitives(cycles(2, phase=0.5), np.array([12, 12]), np.array([0, 0]))
-    for stretches, cost in (([0, 0, 0], 0.0), ([0, 1, 2], np.inf)):
-        known = Primitives(cycles(3), np.array([12] * 3), np.array(stretches))
+    for runs, cost in (([0, 0, 0], 0.0), ([0, 1, 2], np.inf)):
+        known = Primitives(cycles(3), np.array([12] * 3), np.array(runs))
         found = label_costs(unknown, known, np.zeros(3, int), 1, radius=0.2)
         np.testing.assert_allclose(found, cost, atol=1e-5)
 

@@ -12,10 +12,11 @@ from kineme.cli.data import data
 from kineme.cli.demo import demo
 from kineme.cli.evaluate import evaluate
 from kineme.cli.graph import graph
+from kineme.cli.help import Command
 from kineme.cli.info import info
 from kineme.cli.label import label
 from kineme.cli.preset_options import with_preset_options
-from kineme.cli.reading import with_reading_options
+from kineme.cli.reading import BODY, with_reading_options
 from kineme.cli.report import report
 from kineme.cli.segment import segment
 from kineme.cli.split import split
@@ -30,19 +31,19 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
-app.command()(with_preset_options(with_reading_options(segment)))
-app.command()(with_preset_options(with_reading_options(split)))
-app.command()(with_preset_options(with_reading_options(report)))
-app.command()(with_reading_options(convert))
-app.command()(with_reading_options(info))
-app.command()(demo)
-app.command()(evaluate)
-app.command()(data)
-app.command()(with_reading_options(label))
-app.command()(with_reading_options(transfer))
-app.command()(with_reading_options(graph))
-app.command()(synthesize)
-app.command()(with_reading_options(studio))
+app.command(cls=Command)(with_preset_options(with_reading_options(segment)))
+app.command(cls=Command)(with_preset_options(with_reading_options(split)))
+app.command(cls=Command)(with_preset_options(with_reading_options(report)))
+app.command(cls=Command)(with_reading_options(convert))
+app.command(cls=Command)(with_reading_options(info))
+app.command(cls=Command)(demo)
+app.command(cls=Command)(evaluate)
+app.command(cls=Command)(data)
+app.command(cls=Command)(with_reading_options(label, BODY))
+app.command(cls=Command)(with_reading_options(transfer, BODY))
+app.command(cls=Command)(with_reading_options(graph, BODY))
+app.command(cls=Command)(synthesize)
+app.command(cls=Command)(with_reading_options(studio, BODY))
 
 
 def _show_version(wanted: bool) -> None:

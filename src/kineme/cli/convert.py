@@ -7,17 +7,21 @@ from typing import Annotated, Any
 
 import typer
 
+from kineme.cli.help import LABELS
 from kineme.cli.inputs import Batch, Recursive
 from kineme.cli.request import Request
-from kineme.cli.signals import Columns
 from kineme.cli.targets import make_folder_of
 from kineme.errors import WriteError
-from kineme.labels import label_formats, read_segments, write_segments
+from kineme.labels import read_segments, write_segments
 from kineme.segments.table import Level
 
 
 def _known(name: str | None) -> str | None:
-    if name not in (None, *label_formats()):
+    if name is None:
+        return None
+    from kineme.labels import label_formats
+
+    if name not in label_formats():
         raise typer.BadParameter(f"{name!r} is not one of {', '.join(label_formats())}")
     return name
 
@@ -57,7 +61,7 @@ def convert(
     ],
     from_format: Annotated[
         str | None,
-        typer.Option("--from", callback=_known, help=f"Format read: {', '.join(label_formats())}."),
+        typer.Option("--from", callback=_known, help=f"Format read: {LABELS}."),
     ] = None,
     to_format: Annotated[
         str | None,
@@ -70,7 +74,6 @@ def convert(
         int | None, typer.Option(help="Length of the recording, where labels end before it.")
     ] = None,
     recursive: Recursive = False,
-    columns: Columns = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Turn segments into labels of another program and back, or a recording into another format.
@@ -82,7 +85,8 @@ def convert(
     if len(files) < 2:
         raise typer.BadParameter("give what to read and the file to write", param_hint="FROM… TO")
     *sources, target = files
-    request = Request.of(reading=reading, columns=columns)
+
+    request = Request.of(reading=reading)
     batch = Batch(sources, recursive=recursive)
     several = not batch.single or "{" in target.name
     if several and (target.is_dir() or not target.suffix):
@@ -96,7 +100,7 @@ def convert(
                 raise WriteError(place, "is there already: remove it or name another file")
             if several:
                 make_folder_of(place)
-            if from_format is None and (columns is not None or _is_recording(path)):
+            if from_format is None and ("columns" in request.reading or _is_recording(path)):
                 _convert_recording(request, path, place)
             else:
                 segments = read_segments(
@@ -117,4 +121,4 @@ def _convert_recording(request: Request, path: Path, target: Path) -> None:
     else:
         from kineme.formats.channels.writing import write_signals
 
-        write_signals(recording, target, columns=request.signals.columns)
+        write_signals(recording, target, columns=request.reading.get("columns"))

@@ -1,4 +1,4 @@
-"""``kineme demo``: the whole way once, on the recording that comes with the package."""
+"""``kineme demo``: table and picture of the recording that comes with the package."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def demo(
         check_writable(table, picture)
         request = Request.of()
         with progress(path.name, quiet=quiet) as stage:
-            result, analysis = request.segment(request.read(path), stage)
-        write_results(result, analysis, table, picture)
+            result, found = request.segment(request.read(path), stage)
+        write_results(result, found, table, picture)
         if not quiet:
             from kineme.cli.tables import show_segments
 

@@ -10,12 +10,13 @@ import typer
 from kineme.cli.inputs import Batch, Files, Recursive
 from kineme.cli.reading import Effectors, Json
 from kineme.cli.request import Request
-from kineme.cli.signals import Columns, show_signals, signal_facts
 from kineme.errors import EndEffectorError
 
 if TYPE_CHECKING:
     from kineme.features import Names
-    from kineme.recordings import Motion
+    from kineme.recordings import Motion, Signals
+
+Facts = dict[str, Any]
 
 
 def info(
@@ -24,72 +25,87 @@ def info(
     recursive: Recursive = False,
     json: Json = False,
     effectors: Effectors = None,
-    columns: Columns = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Tell a recording's format, length, frame rate and skeleton or channels."""
-    request = Request.of(reading=reading, effectors=effectors, columns=columns)
+    request = Request.of(reading=reading, effectors=effectors)
     batch = Batch(files, recursive=recursive)
     for path in batch.paths:
         with batch.caught(path):
             recording = request.read(path)
-            from kineme.recordings import Motion
-
-            if isinstance(recording, Motion):
-                facts = _facts(recording, request.effectors)
-            else:
-                facts = signal_facts(recording)
+            facts = _facts(recording, request.effectors)
             if json:
                 typer.echo(dumps(facts))
-            elif isinstance(recording, Motion):
-                _show(facts, recording, joints=joints)
             else:
-                show_signals(facts)
+                _show(facts, recording, joints=joints)
     batch.exit()
 
 
-def _facts(motion: Motion, names: Names | None) -> dict[str, Any]:
-    from kineme.features import PARTS, end_effectors
+def _facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
+    """What is told of a recording, by name: of its file, then of its body or its channels."""
+    from kineme.recordings import Motion
 
-    source, skeleton = motion.provenance, motion.skeleton
-    notes = [str(note) for note in source.notes]
-    try:
-        found = end_effectors(motion, names=names)
-        parts = {
-            part: skeleton.names[joint] for part, joint in zip(PARTS, found.indices, strict=True)
-        }
-    except EndEffectorError as error:
-        parts = None
-        notes.append(f"{error}; until then segments come from the distances between points")
-    return {
+    source = recording.provenance
+    facts: Facts = {
         "path": source.path,
         "format": source.format,
         "sha256": source.sha256,
-        "frames": motion.n_frames,
-        "fps": motion.fps,
-        "seconds": motion.duration,
+        "frames": recording.n_frames,
+        "fps": recording.fps,
+        "seconds": recording.duration,
+        "gaps": [list(gap) for gap in recording.gaps],
+        "notes": list(map(str, source.notes)),
+    }
+    if isinstance(recording, Motion):
+        return _with_body(facts, recording, effectors)
+    return facts | {"channels": list(recording.names)}
+
+
+def _with_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
+    from kineme.features import PARTS, end_effectors
+
+    skeleton = motion.skeleton
+    notes, named = facts["notes"], None
+    try:
+        found = end_effectors(motion, names=effectors)
+        named = {
+            part: skeleton.names[joint] for part, joint in zip(PARTS, found.indices, strict=True)
+        }
+    except EndEffectorError as error:
+        until = "until then segments come from the distances between points"
+        notes = [*notes, f"{error}; {until}"]
+    return facts | {
         "joints": [name for j, name in enumerate(skeleton.names) if j not in skeleton.end_sites],
         "end_sites": [skeleton.names[j] for j in sorted(skeleton.end_sites)],
-        "end_effectors": parts,
+        "end_effectors": named,
         "notes": notes,
     }
 
 
-def _show(facts: dict[str, Any], motion: Motion, *, joints: bool) -> None:
+def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
+    """Print the facts for people."""
     from kineme.cli.tables import show_facts
+    from kineme.recordings import Motion
 
-    parts = facts["end_effectors"] or {}
-    lines = {
-        "format": facts["format"],
-        "length": f"{facts['frames']} frames at {facts['fps']:g} Hz, {facts['seconds']:.2f} s",
-        "joints": f"{len(facts['joints'])}, and {len(facts['end_sites'])} end sites",
-        "end effectors": ", ".join(
-            f"{part.replace('_', ' ')} {name}" for part, name in parts.items()
-        )
-        or "not found",
-        "SHA-256": facts["sha256"],
-    }
-    show_facts(facts, lines, below=_tree(motion) if joints else None)
+    length = f"{facts['frames']} frames at {facts['fps']:g} Hz, {facts['seconds']:.2f} s"
+    if isinstance(recording, Motion):
+        named = (facts["end_effectors"] or {}).items()
+        effectors = ", ".join(f"{part.replace('_', ' ')} {name}" for part, name in named)
+        lines = {
+            "format": facts["format"],
+            "length": length,
+            "joints": f"{len(facts['joints'])}, and {len(facts['end_sites'])} end sites",
+            "end effectors": effectors or "not found",
+        }
+        tree = _tree(recording) if joints else None
+    else:
+        lines = {
+            "format": f"{facts['format']}, signals without a skeleton",
+            "length": length,
+            "channels": f"{len(facts['channels'])}: {', '.join(facts['channels'])}",
+        }
+        tree = None
+    show_facts(facts, lines | {"SHA-256": facts["sha256"]}, below=tree)
 
 
 def _tree(motion: Motion) -> Any:

@@ -14,6 +14,7 @@ from typing import Annotated
 
 import typer
 
+from kineme.cli.help import RECORDINGS
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
 from kineme.cli.targets import absolute, files_for, folders_for, tables_for, targets_for
 from kineme.errors import KinemeError, WriteError
@@ -22,7 +23,7 @@ Files = Annotated[
     list[Path],
     typer.Argument(
         metavar="FILES",
-        help="Recordings, or folders of them: BVH, AMC, C3D, TRC, tables, npz, MOT.",
+        help=f"Recordings, or folders of them: {RECORDINGS}.",
     ),
 ]
 Recursive = Annotated[

@@ -1,129 +1,142 @@
-"""Each constant of a preset as an option of its own, made from the fields of the presets.
+"""``--preset``, and each constant of each preset as an option of its own.
 
-Names, types, choices and help come from the dataclass and its docstring: a
-constant added there appears here.
+All of it comes from the registered presets: their names and help, and what each
+`Constant` says of itself. A preset or a constant that is added, here or by
+another package, appears in every command that segments.
 """
 
 from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from functools import partial, wraps
-from types import NoneType
-from typing import Annotated, Any, Literal, get_args, get_origin
+from functools import cache, wraps
+from typing import Annotated, Any
 
 import typer
 
-from kineme.methods.base import Preset
-from kineme.methods.constants import Constant
-from kineme.methods.presets import PRESETS
+from kineme.cli.constant_texts import metavar, parsed, shown
+from kineme.errors import ParameterError
+from kineme.methods import PRESETS, Constant
 
-PANEL = "Constants of the preset"
-FINE = "Finer constants of the preset, which hardly anybody needs to change"
+FINE = "Finer constants, which hardly anybody needs to change"
+SHARED = "Constants of presets of several methods"
+NARROW = 1000
+"""Limits below this are told: somebody may meet them."""
+
+PresetName = Annotated[
+    str,
+    typer.Option(
+        "--preset",
+        metavar="NAME",
+        help="\n\n".join(f"{name}: {preset.help}" for name, preset in PRESETS.items()),
+    ),
+]
+Uses = dict[str, Constant]
+"""A constant in each preset that has it, by the name of the preset."""
 
 
 def with_preset_options(command: Callable[..., None]) -> Callable[..., None]:
-    """The command with one option per constant; those given reach it as ``overrides``."""
+    """The command with one option per constant; those given reach it as ``constants``.
+
+    A constant that is called as an option of the command has none of its own.
+    """
     signature = inspect.signature(command, eval_str=True)
-    own = [p for p in signature.parameters.values() if p.name != "overrides"]
-    known = _constants()
-    options = [_parameter(each) for each in known.values()]
+    own = [p for p in signature.parameters.values() if p.name != "constants"]
+    taken = {parameter.name for parameter in own}
+    added = [option for option in _options() if option.name not in taken]
 
     @wraps(command)
     def wrapped(**values: Any) -> None:
-        given = {name: values.pop(name) for name in known}
-        overrides = {name: value[0] for name, value in given.items() if value is not None}
-        command(**values, overrides=overrides)
+        given = {option.name: values.pop(option.name) for option in added}
+        typed = {name: text for name, text in given.items() if text is not None}
+        command(**values, constants=_values(values["preset"], typed))
 
-    wrapped.__signature__ = signature.replace(parameters=[*own, *options])  # type: ignore[attr-defined]
-    wrapped.__annotations__ = {p.name: p.annotation for p in (*own, *options)}
+    wrapped.__signature__ = signature.replace(parameters=[*own, *added])  # type: ignore[attr-defined]
+    wrapped.__annotations__ = {p.name: p.annotation for p in (*own, *added)}
     return wrapped
 
 
-def _constants() -> dict[str, Constant]:
-    """Each constant that a preset has, by name, as the first preset that has it tells it."""
-    found: dict[str, Constant] = {}
+def _values(preset: str, typed: dict[str, str]) -> dict[str, Any]:
+    """What was typed, as values of the preset's own types; as it is, what it does not have."""
+    known = {each.name: each for each in PRESETS[preset].constants()} if preset in PRESETS else {}
+    values: dict[str, Any] = {}
+    for name, text in typed.items():
+        try:
+            values[name] = parsed(known[name].hint, text) if name in known else text
+        except ParameterError as error:
+            raise typer.BadParameter(str(error), param_hint=_flag(name)) from error
+    return values
+
+
+@cache
+def _options() -> tuple[inspect.Parameter, ...]:
+    """An option for each constant: shared ones, then method by method, then the finer ones."""
+    uses: dict[str, Uses] = {}
     for preset in PRESETS.values():
         for known in preset.constants():
-            found.setdefault(known.name, known)
-    return found
+            uses.setdefault(known.name, {})[preset.name] = known
+    panels = {name: _panel(each) for name, each in uses.items()}
+    order = sorted(set(panels.values()), key=[SHARED, *panels.values()].index)
+    order = [*(panel for panel in order if panel != FINE), FINE]
+    names = sorted(uses, key=lambda name: order.index(panels[name]))
+    return tuple(_option(name, uses[name], panels[name]) for name in names)
 
 
-def _parameter(known: Constant) -> inspect.Parameter:
-    name = known.name
-    defaults = ", ".join(
-        f"{preset.name} {_shown(preset, name)}"
-        for preset in PRESETS.values()
-        if hasattr(preset, name)
-    )
-    unit = f", {known.unit}" if known.unit else ""
+def _panel(uses: Uses) -> str:
+    if all(known.fine for known in uses.values()):
+        return FINE
+    methods = {PRESETS[name].method for name in uses}
+    if len(methods) > 1:
+        return SHARED
+    return f"Constants of {', '.join(_of_method(methods.pop()))}"
+
+
+def _of_method(method: str) -> list[str]:
+    """The names of its presets."""
+    return [preset.name for preset in PRESETS.values() if preset.method == method]
+
+
+def _option(name: str, uses: Uses, panel: str) -> inspect.Parameter:
     option = typer.Option(
-        f"--{name.replace('_', '-')}",
-        parser=partial(_parse, known.hint),
-        metavar=_metavar(known.hint),
-        help=f"{known.help}{unit} [dim]\\[{defaults}][/dim]",
-        rich_help_panel=FINE if known.fine else PANEL,
+        _flag(name),
+        metavar=metavar(next(iter(uses.values())).hint),
+        help="\n\n".join(_told(uses, panel)),
+        rich_help_panel=panel,
         show_default=False,
     )
-    return inspect.Parameter(
-        name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[Any, option]
-    )
+    hint = Annotated[str | None, option]
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=hint)
 
 
-def _parse(hint: Any, text: str) -> tuple[Any]:
-    """The value in a tuple, which tells ``none`` from an option that was not given."""
-    try:
-        return (_value(hint, text.strip()),)
-    except (ValueError, IndexError):
-        raise typer.BadParameter(f"{text!r} is not {_metavar(hint)}") from None
+def _told(uses: Uses, panel: str) -> list[str]:
+    """What the constant does, with its values; more than once where presets mean several things."""
+    meanings: dict[str, Uses] = {}
+    for preset, known in uses.items():
+        parts = (known.help, known.unit, _limits(known))
+        meanings.setdefault(", ".join(filter(None, parts)), {})[preset] = known
+    return [
+        f"{meaning} [dim]\\[{_defaults(these, panel)}][/dim]" for meaning, these in meanings.items()
+    ]
 
 
-def _value(hint: Any, text: str) -> Any:
-    """``text`` as a value of one of the types that presets have."""
-    members = get_args(hint)
-    if NoneType in members:
-        return None if text.lower() == "none" else _value(_without_none(hint), text)
-    if get_origin(hint) is Literal:
-        return members[members.index(text)]
-    if get_origin(hint) is tuple and get_origin(members[0]) is tuple:
-        return tuple(_pair(part) for part in text.split())
-    if get_origin(hint) is tuple:
-        return tuple(_value(members[0], part) for part in text.split(","))
-    if hint is bool:
-        return {"true": True, "yes": True, "false": False, "no": False}[text.lower()]
-    return hint(text)
+def _limits(known: Constant) -> str:
+    limits = known.limits
+    if limits is None or limits.maximum >= NARROW:
+        return ""
+    low = f"above {limits.minimum:g}" if limits.above else f"{limits.minimum:g}"
+    return f"{low} to {limits.maximum:g}"
 
 
-def _pair(text: str) -> tuple[int, int]:
-    a, b = text.split(",")
-    return int(a), int(b)
+def _defaults(uses: Uses, panel: str) -> str:
+    """The value in each preset: ``kineme 30; aca, haca 120``; alone where the panel agrees."""
+    presets_of: dict[str, list[str]] = {}
+    for preset, known in uses.items():
+        presets_of.setdefault(shown(known.value), []).append(preset)
+    everyone = [*PRESETS] if panel == SHARED else _of_method(PRESETS[next(iter(uses))].method)
+    if panel != FINE and [*presets_of.values()] == [everyone]:
+        return next(iter(presets_of))
+    return "; ".join(f"{', '.join(presets)} {value}" for value, presets in presets_of.items())
 
 
-def _metavar(hint: Any) -> str:
-    members = get_args(hint)
-    if NoneType in members:
-        return f"{_metavar(_without_none(hint))}|none"
-    if get_origin(hint) is Literal:
-        return "|".join(members)
-    if get_origin(hint) is tuple:
-        return '"A,B A,B …"' if get_origin(members[0]) is tuple else "NUMBER,NUMBER,…"
-    return {int: "COUNT", float: "NUMBER", bool: "yes|no"}[hint]
-
-
-def _without_none(hint: Any) -> Any:
-    return next(member for member in get_args(hint) if member is not NoneType)
-
-
-def _shown(preset: Preset, name: str) -> str:
-    """A preset's own value, as it would be typed."""
-    value = getattr(preset, name)
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, tuple):
-        pairs = isinstance(value[0], tuple)
-        return " ".join(f"{a},{b}" for a, b in value) if pairs else ",".join(map(_short, value))
-    return "none" if value is None else _short(value)
-
-
-def _short(value: object) -> str:
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+def _flag(name: str) -> str:
+    return f"--{name.replace('_', '-')}"

@@ -1,4 +1,8 @@
-"""Options shared by the commands that read a recording, and what they become."""
+"""What people say of a recording that its file does not: options shared by the commands.
+
+`with_reading_options` gives a command those of `OPTIONS`, which are the keywords
+of `kineme.read`.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +18,7 @@ import typer
 from kineme.errors import ParameterError
 
 PANEL = "What the file does not say"
+CHANNELS = "Signals without a skeleton"
 
 Skeleton = Annotated[
     Path | None,
@@ -53,11 +58,26 @@ Effectors = Annotated[
         rich_help_panel=PANEL,
     ),
 ]
+Columns = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME,NAME,…",
+        help="Take these columns or analog channels as signals, in place of joints.",
+        rich_help_panel=CHANNELS,
+    ),
+]
+Emg = Annotated[
+    bool,
+    typer.Option(
+        "--emg",
+        help="Muscle signals: take their envelopes; of a C3D, muscles only.",
+        rich_help_panel=CHANNELS,
+    ),
+]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print warnings and errors only.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON, one line per recording.")]
 
-
-OPTIONS: dict[str, Any] = {
+BODY: dict[str, Any] = {
     "skeleton": Skeleton,
     "fps": Fps,
     "unit": Unit,
@@ -65,26 +85,34 @@ OPTIONS: dict[str, Any] = {
     "person": Person,
     "confidence": Confidence,
 }
-"""What `kineme.read` takes besides the path, as options of a command."""
+"""What `kineme.read` takes besides the path, for a motion."""
+OPTIONS: dict[str, Any] = {**BODY, "columns": Columns, "emg": Emg}
+"""And for either kind of recording."""
 
 
-def with_reading_options(command: Callable[..., None]) -> Callable[..., None]:
+def with_reading_options(
+    command: Callable[..., None], options: Mapping[str, Any] = OPTIONS
+) -> Callable[..., None]:
     """The command with these options; checked, they reach it as ``reading``."""
     signature = inspect.signature(command, eval_str=True)
     own = [p for p in signature.parameters.values() if p.name != "reading"]
-    kind = inspect.Parameter.KEYWORD_ONLY
-    options = [
-        inspect.Parameter(name, kind, default=None, annotation=option)
-        for name, option in OPTIONS.items()
+    added = [
+        inspect.Parameter(
+            name,
+            inspect.Parameter.KEYWORD_ONLY,
+            default=False if option is Emg else None,
+            annotation=option,
+        )
+        for name, option in options.items()
     ]
 
     @wraps(command)
     def wrapped(**values: Any) -> None:
-        given = {name: values.pop(name) for name in OPTIONS}
+        given = {name: values.pop(name) for name in options}
         command(**values, reading=_checked(given))
 
-    wrapped.__signature__ = signature.replace(parameters=[*own, *options])  # type: ignore[attr-defined]
-    wrapped.__annotations__ = {p.name: p.annotation for p in (*own, *options)}
+    wrapped.__signature__ = signature.replace(parameters=[*own, *added])  # type: ignore[attr-defined]
+    wrapped.__annotations__ = {p.name: p.annotation for p in (*own, *added)}
     return wrapped
 
 
@@ -92,13 +120,20 @@ def _checked(given: dict[str, Any]) -> dict[str, Any]:
     """Keywords for `kineme.read`, before any file is opened."""
     from kineme.formats import ReadOptions
 
-    with suppress(TypeError, ValueError):
-        given = {**given, "unit": float(given["unit"])}
+    said = {
+        name: value for name, value in given.items() if value is not None and value is not False
+    }
+    with suppress(KeyError, ValueError):
+        said["unit"] = float(said["unit"])
+    if "columns" in said:
+        said["columns"] = tuple(filter(None, map(str.strip, said["columns"].split(","))))
+        if not said["columns"]:
+            raise typer.BadParameter("names no column", param_hint="--columns")
     try:
-        ReadOptions(**given)
+        ReadOptions(**said)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    return given
+    return said
 
 
 def effector_names(text: str | None) -> Mapping[str, str] | list[str] | None:

@@ -8,11 +8,11 @@ from typing import Annotated, Any
 import typer
 
 from kineme.cli.inputs import Batch, Files, Recursive
+from kineme.cli.preset_options import PresetName
 from kineme.cli.reading import Effectors, Quiet
 from kineme.cli.request import Request
-from kineme.cli.signals import Columns, Emg
 from kineme.cli.targets import check_writable
-from kineme.methods.presets import DEFAULT, PRESETS
+from kineme.methods.presets import DEFAULT
 
 
 def report(
@@ -32,20 +32,18 @@ def report(
             "them; or a name with {name} in it.",
         ),
     ] = None,
-    preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
+    preset: PresetName = DEFAULT,
     recursive: Recursive = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
-    columns: Columns = None,
-    emg: Emg = False,
-    overrides: dict[str, Any] | None = None,
+    constants: dict[str, Any] | None = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Write a page on which a recording plays beside its segments, for any browser.
 
     One file with everything in it: it needs neither a server nor a network.
     """
-    request = Request.of(preset, overrides, reading, effectors, columns, emg=emg)
+    request = Request.of(preset, constants, reading, effectors)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     pages = batch.files("--output", output, ".html")
     tables = batch.tables("--segments", segments)

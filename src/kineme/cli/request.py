@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 from kineme.cli.reading import effector_names
-from kineme.cli.signals import SignalOptions
 from kineme.errors import ParameterError
-from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
 
 if TYPE_CHECKING:
@@ -26,40 +24,50 @@ Stage = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Request:
-    """The options of a command, checked; see `of`."""
+    """The options of a command, checked.
 
-    preset: Preset
-    overrides: dict[str, Any]
+    Parameters
+    ----------
+    preset : str
+        Name of the preset.
+    constants : dict of str to object
+        Those of the preset that were given.
+    reading : dict of str to object
+        Keywords of `kineme.read` that were given.
+    effectors : joints, optional
+        For head, hands and feet.
+    """
+
+    preset: str
+    constants: dict[str, Any]
     reading: dict[str, Any]
-    signals: SignalOptions
     effectors: Names | None
 
     @classmethod
     def of(
         cls,
         preset: str = DEFAULT,
-        overrides: dict[str, Any] | None = None,
+        constants: dict[str, Any] | None = None,
         reading: dict[str, Any] | None = None,
         effectors: str | None = None,
-        columns: str | None = None,
-        *,
-        emg: bool = False,
     ) -> Request:
         """The options as they were typed; typer.BadParameter where one makes no sense."""
-        overrides, reading = overrides or {}, reading or {}
         try:
-            chosen = resolve_preset(preset, **overrides)
+            resolve_preset(preset, **(constants or {}))
         except ParameterError as error:
             raise typer.BadParameter(str(error)) from error
-        signals = SignalOptions.of(columns, reading.get("fps"), emg=emg)
-        return cls(chosen, overrides, reading, signals, effector_names(effectors))
+        return cls(preset, constants or {}, reading or {}, effector_names(effectors))
+
+    @property
+    def emg(self) -> bool:
+        """Whether channels are those of muscles."""
+        return bool(self.reading.get("emg"))
 
     def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, of the kind that it is or was said to be."""
         from kineme.formats import read
 
-        signals = self.signals
-        return read(path, columns=signals.columns, emg=signals.emg, **self.reading)
+        return read(path, **self.reading)
 
     def read_motion(self, path: Path) -> Motion:
         """The motion in a file; ReadError for signals, which have no body to compare."""
@@ -73,11 +81,11 @@ class Request:
 
         return segment_and_found(
             recording,
-            preset=self.preset.name,
+            preset=self.preset,
             effectors=self.effectors,
-            emg=self.signals.emg,
+            emg=self.emg,
             progress=stage,
-            **self.overrides,
+            **self.constants,
         )
 
     def segments(
@@ -92,6 +100,10 @@ class Request:
 
     def drawn(self, recording: Motion | Signals) -> Motion | Signals:
         """The recording as a page compares its frames: muscles by their envelopes."""
-        from kineme.recordings import Motion
+        from kineme.recordings import Signals
 
-        return recording if isinstance(recording, Motion) else self.signals.drawn(recording)
+        if not (self.emg and isinstance(recording, Signals)):
+            return recording
+        from kineme.features.emg import emg_envelope
+
+        return replace(recording, values=emg_envelope(recording.values, recording.fps))

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme.cli.help import TABLES
 from kineme.cli.inputs import Batch, Files, Recursive
+from kineme.cli.preset_options import PresetName
 from kineme.cli.reading import Effectors, Json, Quiet
 from kineme.cli.request import Request
-from kineme.cli.signals import Columns, Emg
 from kineme.cli.targets import check_writable
-from kineme.methods.presets import DEFAULT, PRESETS
+from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
@@ -23,14 +24,13 @@ if TYPE_CHECKING:
 
 def segment(
     files: Files,
-    preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
+    preset: PresetName = DEFAULT,
     output: Annotated[
         Path | None,
         typer.Option(
             "--output",
             "-o",
-            help="Segment table (.csv, .json, .parquet) or labels (.eaf, .TextGrid, .tsv, .txt); "
-            "a folder; or a name with {name} in it.",
+            help=f"Segment table or labels: {TABLES}; a folder; or a name with {{name}} in it.",
         ),
     ] = None,
     plot: Annotated[
@@ -46,13 +46,11 @@ def segment(
     json: Json = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
-    columns: Columns = None,
-    emg: Emg = False,
-    overrides: dict[str, Any] | None = None,
+    constants: dict[str, Any] | None = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Cut recordings into activities, transitions and repeated primitives."""
-    request = Request.of(preset, overrides, reading, effectors, columns, emg=emg)
+    request = Request.of(preset, constants, reading, effectors)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.targets("--output", output, ".csv")
     pictures = batch.targets("--plot", plot, ".png")
@@ -63,8 +61,8 @@ def segment(
             with batch.progress(path) as stage:
                 stage("reading")
                 recording = request.read(path)
-                result, analysis = request.segment(recording, stage)
-            write_results(result, analysis, table, picture)
+                result, found = request.segment(recording, stage)
+            write_results(result, found, table, picture)
             if page is not None:
                 from kineme.report.page import write_report
 
@@ -83,7 +81,7 @@ def segment(
 
 def write_results(
     result: Segmentation,
-    analysis: Found,
+    found: Found,
     table: Path | None,
     picture: Path | None,
 ) -> None:
@@ -93,6 +91,6 @@ def write_results(
 
         write_segments(result, table)
     if picture is not None:
-        from kineme.plot.segmentation import plot_segmentation
+        from kineme.plot import plot_segmentation
 
-        plot_segmentation(result, analysis.graph, picture)
+        plot_segmentation(result, found, picture)

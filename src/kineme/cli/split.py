@@ -8,11 +8,11 @@ from typing import Annotated, Any
 import typer
 
 from kineme.cli.inputs import Batch, Files, Recursive
+from kineme.cli.preset_options import PresetName
 from kineme.cli.reading import Effectors, Quiet
 from kineme.cli.request import Request
-from kineme.cli.signals import Columns, Emg
 from kineme.cli.targets import make_folder_of
-from kineme.methods.presets import DEFAULT, PRESETS
+from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 
 
@@ -41,20 +41,18 @@ def split(
             "or a name with {name} in it."
         ),
     ] = None,
-    preset: Annotated[str, typer.Option(help=f"{', '.join(PRESETS)}.")] = DEFAULT,
+    preset: PresetName = DEFAULT,
     recursive: Recursive = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
-    columns: Columns = None,
-    emg: Emg = False,
-    overrides: dict[str, Any] | None = None,
+    constants: dict[str, Any] | None = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Write each segment of a recording as a file of its own, and a manifest of them.
 
     BVH, or CSV of joint positions where there are no rotations. Of signals, rows of their file.
     """
-    request = Request.of(preset, overrides, reading, effectors, columns, emg=emg)
+    request = Request.of(preset, constants, reading, effectors)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
     tables = batch.tables("--segments", segments)

@@ -16,7 +16,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
 _NOTHING_FOUND = (
-    "no activity found: nothing stays alike or repeats for long enough; of a recording of a few "
+    "no activity found: nothing stays similar or repeats for long enough; of a recording of a few "
     "seconds --min-action 0.5 --min-segment 0.3 or --preset krueger2017 may tell more"
 )
 
@@ -72,7 +72,7 @@ def _activity_rows(segmentation: Segmentation) -> Table:
             *_span(number, row), count, _cluster(row.cluster), row.label, style=_style(row)
         )
     if any("+" in str(cell) for cell in table.columns[5].cells):
-        table.caption = "(+n): pieces of the activity that are in other clusters, or in none"
+        table.caption = "(+n): primitives of the activity that are in other clusters, or in none"
         table.caption_justify = "left"
     return _without_empty_labels(table, segmentation.activities.label.tolist())
 

@@ -18,13 +18,12 @@ from pathlib import Path
 import typer
 
 from kineme.errors import WriteError
-from kineme.labels import written_suffixes
 
 NAME, PARENT = "{name}", "{parent}"
 PICTURES = (".png", ".pdf", ".svg")
 PAGES = (".html", ".htm")
-KEPT = (".segments.json", *written_suffixes())
-"""How the table of a recording may end in a folder of tables, likeliest first."""
+CORRECTED = ".segments.json"
+"""How the studio ends the name of a table that somebody has corrected."""
 
 _FIELD = re.compile(r"\{(name|parent)\}")
 
@@ -97,6 +96,8 @@ def check_writable(
 
     Makes the folders that they go to.
     """
+    from kineme.labels import written_suffixes
+
     for path, suffixes in ((table, written_suffixes()), (picture, PICTURES), (page, PAGES)):
         if path is None:
             continue
@@ -177,6 +178,8 @@ def _filled(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> P
 
 def _kept(path: Path, recordings: set[Path]) -> Path:
     """The first file of a name, with one of the suffixes of tables, that is no recording."""
-    candidates = [path.with_name(path.name + suffix) for suffix in KEPT]
+    from kineme.labels import written_suffixes
+
+    candidates = [path.with_name(path.name + suffix) for suffix in (CORRECTED, *written_suffixes())]
     there = (file for file in candidates if file.is_file() and file not in recordings)
     return next(there, candidates[0])

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme.cli.help import TABLES
 from kineme.cli.inputs import Batch, Files, Recursive
 from kineme.cli.messages import Failures
 from kineme.cli.reading import Effectors, Json, Quiet
@@ -42,7 +43,7 @@ def transfer(
         typer.Option(
             "--output",
             "-o",
-            help="Segment table: .csv, .json or .parquet; a folder; or a name with {name} in it.",
+            help=f"Segment table or labels: {TABLES}; a folder; or a name with {{name}} in it.",
         ),
     ] = None,
     level: Annotated[Level, typer.Option(help="Rows to print.")] = "primitive",

@@ -1,1 +1,7 @@
-"""Pictures of segmentations."""
+"""Pictures of segmentations, each on Axes of matplotlib that are given or made."""
+
+from kineme.plot.matrix import plot_matrix, similarity_image
+from kineme.plot.segmentation import plot_segmentation
+from kineme.plot.timeline import compare, plot_timeline
+
+__all__ = ["compare", "plot_matrix", "plot_segmentation", "plot_timeline", "similarity_image"]

@@ -1,211 +1,67 @@
-"""The picture of a segmentation: self-similarity matrix, borders, clusters.
-
-Time runs to the right and downwards. A dark dot at (t, j) means that frame j
-looks like frame t: the darker, the nearer. Squares frame the activities, fine
-lines inside them the primitives. The bars along both edges are coloured by
-cluster; grey is what belongs to none.
-
-Only stored pairs are drawn, reduced to the pixels of the picture row by row:
-an hour takes no more memory than a minute.
-
-Source: Vögele, Krüger and Klein 2014, figure 2, and figure 1 of its supplement.
-"""
+"""The picture of a segmentation as a file."""
 
 from __future__ import annotations
 
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from kineme._checks import check_path, check_type
-from kineme._colors import NO_CLUSTER, cluster_color
 from kineme._files import atomic_write
 from kineme.errors import WriteError
-from kineme.segmentation.spans import in_time
+from kineme.plot.matrix import graph_of, plot_matrix
 from kineme.segments.segmentation import Segmentation
 
 if TYPE_CHECKING:
     from kineme.graph import NeighborGraph
+    from kineme.methods.base import Found
 
 SUFFIXES = (".png", ".pdf", ".svg")
-PIXELS = 1600
-ENTRIES_AT_ONCE = 1 << 20
-INK = "#1B1F2A"
-BORDER = "#C2571A"
-SHADES = LinearSegmentedColormap.from_list("similarity", ["#FFFFFF", "#B9C0CE", INK])
-NARROW = 0.004  # share of the picture below which borders would hide what they frame
-MAX_LEGEND = 16
-MAX_GAPS = 400  # bars; more are drawn without gaps between them
 
 
 def plot_segmentation(
     segmentation: Segmentation,
-    graph: NeighborGraph,
+    graph: NeighborGraph | Found,
     path: str | PathLike[str],
     *,
     title: str | None = None,
 ) -> None:
-    """Write the picture as PNG, PDF or SVG, by suffix.
+    """Write the picture that `plot_matrix` draws as PNG, PDF or SVG, by suffix.
 
     Parameters
     ----------
     segmentation : Segmentation
-    graph : the neighbour graph it was found in, at any frame rate
-    path : where to write it
-    title : a line above it; by default the name of the recording
+    graph : NeighborGraph or Found
+        As for `plot_matrix`.
+    path : path-like
+        Where to write it.
+    title : str, optional
+        A line above it; by default the name of the recording.
 
     Raises
     ------
-    WriteError : another suffix, or the file cannot be written
+    ParameterError
+        Something else than a segmentation, its graph and a path.
+    WriteError
+        Another suffix, or the file cannot be written.
     """
     check_type(segmentation, Segmentation, "plot_segmentation", "kineme.segment gives one")
-    from kineme.graph import NeighborGraph  # compiled code
-
-    check_type(graph, NeighborGraph, "plot_segmentation", "kineme.neighbor_graph gives one")
+    graph = graph_of(graph, "plot_segmentation")
     check_path(path, "plot_segmentation")
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"pictures are written as {', '.join(SUFFIXES)}")
     figure = Figure(figsize=(9.4, 8.2))
     FigureCanvasAgg(figure)
     axes = figure.add_axes((0.085, 0.075, 0.74, 0.86))
-    draw_segmentation(axes, segmentation, graph)
+    plot_matrix(segmentation, graph, ax=axes)
     axes.set_title(
         _title(segmentation) if title is None else title, loc="left", fontsize=10, pad=10
     )
     with atomic_write(path) as draft:
         figure.savefig(draft, dpi=200)
-
-
-def draw_segmentation(axes: Axes, segmentation: Segmentation, graph: NeighborGraph) -> None:
-    """The picture on axes of one's own, with seconds along both."""
-    seconds = segmentation.n_frames / segmentation.fps
-    bar = 0.022 * seconds
-    gaps = segmentation.provenance.get("gaps", ())
-    axes.imshow(
-        similarity_image(in_time(graph, gaps, segmentation.n_frames) if gaps else graph),
-        cmap=SHADES,
-        vmin=0,
-        vmax=1,
-        extent=(0, seconds, seconds, 0),
-        interpolation="antialiased",
-        resample=True,
-    )
-    _draw_borders(axes, segmentation)
-    _draw_bars(axes, segmentation, bar)
-    axes.set_xlim(-1.5 * bar, seconds)
-    axes.set_ylim(seconds + 1.5 * bar, 0)
-    axes.set_aspect("equal")
-    axes.set_xlabel("seconds")
-    axes.set_ylabel("seconds")
-    axes.spines[:].set_visible(False)
-    axes.tick_params(color="#888888", labelsize=9)
-    axes.legend(
-        handles=_legend(segmentation),
-        title="cluster",
-        loc="upper left",
-        bbox_to_anchor=(1.01, 1.0),
-        frameon=False,
-        fontsize=9,
-        alignment="left",
-    )
-
-
-def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.float32]:
-    """Square picture of the graph: 1 where frames are equal, 0 where none are neighbours.
-
-    Where several pairs fall on one pixel, the most similar one counts.
-    """
-    n = max(len(graph), graph.n_columns)
-    size = min(n, pixels)
-    image = np.zeros(size * size, np.float32)
-    scale = graph.radius or 1.0
-    for first, last in _row_blocks(graph.indptr):
-        entries = slice(graph.indptr[first], graph.indptr[last])
-        rows = np.repeat(np.arange(first, last), np.diff(graph.indptr[first : last + 1]))
-        columns = graph.indices[entries].astype(np.int64)
-        cells = rows * size // n * size + columns * size // n
-        # A neighbour at the very rim of the radius is still seen.
-        np.maximum.at(image, cells, 1 - 0.85 * graph.distances[entries] / np.float32(scale))
-    return image.reshape(size, size)
-
-
-def _row_blocks(indptr: NDArray[np.int64]) -> list[tuple[int, int]]:
-    """Rows in runs of about ENTRIES_AT_ONCE entries."""
-    marks = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
-    starts = np.unique(np.searchsorted(indptr, marks, side="right") - 1).tolist()
-    return list(zip(starts, [*starts[1:], len(indptr) - 1], strict=True))
-
-
-def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
-    activities, primitives = segmentation.activities, segmentation.primitives
-    pieces = np.bincount(primitives.activity, minlength=len(activities))
-    lengths = (activities.stop_frame - activities.start_frame) / segmentation.n_frames
-    wide = lengths > pieces * NARROW
-    cuts = [
-        line
-        for row in primitives
-        if row.start_s > activities.start_s[row.activity] and wide[row.activity]
-        for line in _cross(row.start_s, activities[row.activity])
-    ]
-    axes.add_collection(LineCollection(cuts, colors=BORDER, linewidths=0.5, alpha=0.75))
-    blocks = activities.select(activities.kind == "activity")
-    squares = _boxes(blocks.start_s, blocks.stop_s, blocks.start_s, blocks.stop_s)
-    width = 1.4 if len(activities) * NARROW < 0.2 else 0.7
-    axes.add_collection(
-        PolyCollection(squares, facecolor="none", edgecolor=BORDER, linewidth=width, clip_on=False)
-    )
-
-
-def _cross(at: float, within: Any) -> list[list[tuple[float, float]]]:
-    """A line across a block in each direction."""
-    return [
-        [(at, within.start_s), (at, within.stop_s)],
-        [(within.start_s, at), (within.stop_s, at)],
-    ]
-
-
-def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
-    seconds = segmentation.n_frames / segmentation.fps
-    rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
-    colors = [cluster_color(cluster) for cluster in rows.cluster.tolist()]
-    below = _boxes(rows.start_s, rows.stop_s, seconds + 0.4 * width, seconds + 1.4 * width)
-    left = _boxes(-1.4 * width, -0.4 * width, rows.start_s, rows.stop_s)
-    gap = 0.6 if len(rows) < MAX_GAPS else 0.0
-    for bars in (below, left):
-        axes.add_collection(
-            PolyCollection(bars, facecolors=colors, edgecolors="white", linewidths=gap)
-        )
-
-
-def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.float64]]:
-    """Corners (4, 2) of upright rectangles; a number stands for as many as needed."""
-    left, right, top, bottom = np.broadcast_arrays(left, right, top, bottom)
-    corners = [left, top, right, top, right, bottom, left, bottom]
-    return list(np.stack(corners, axis=-1).reshape(-1, 4, 2))
-
-
-def _legend(segmentation: Segmentation) -> list[Patch]:
-    """The largest clusters by number of primitives, in the order of their numbers."""
-    counts = segmentation.repetitions()
-    shown = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
-    handles = [
-        Patch(color=cluster_color(cluster), label=f"{cluster}  ({counts[cluster]}×)")
-        for cluster in shown
-    ]
-    if (segmentation.primitives.cluster < 0).any():
-        handles.append(Patch(color=NO_CLUSTER, label="none"))
-    if len(counts) > len(shown):
-        handles.append(Patch(color="none", label=f"and {len(counts) - len(shown)} more"))
-    return handles
 
 
 def _title(segmentation: Segmentation) -> str:

@@ -5,7 +5,6 @@ The columns of its table are described in :mod:`kineme.segments.table`.
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -14,35 +13,53 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import check_type, is_number, is_one_of
-from kineme.errors import MissingDependencyError, ParameterError
-from kineme.segments.table import COLUMNS, Level, Segment, SegmentTable, segment_table
+from kineme._checks import check_type, is_one_of
+from kineme.errors import ParameterError
+from kineme.segments.columns import segment_table
+from kineme.segments.invariants import check_parents, check_recording, check_tiles, plain_json
+from kineme.segments.table import COLUMNS, Level, Segment, SegmentTable
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, repr=False)
 class Segmentation:
     """The segments of one recording.
 
-    Usually made by :func:`kineme.segment`, :meth:`from_columns` or
-    :func:`kineme.read_segments`.
+    Usually made by `kineme.segment`, `from_columns` or `kineme.read_segments`.
 
     Parameters
     ----------
-    table : the segments of both levels, as :func:`segment_table` makes it
-    n_frames : length of the recording, frames of the source file
-    fps : frames per second of the source file
-    provenance : what JSON can hold: ``kineme`` (version), ``preset``,
-        ``parameters``, ``input`` (``path``, ``format``, ``sha256``), ``notes``
-        (sentences on what was inferred); a producer may add more
-    timings : seconds spent per stage
+    table : SegmentTable
+        The segments of both levels.
+    n_frames : int
+        Length of the recording, frames of the source file.
+    fps : float
+        Frames per second of the source file.
+    provenance : mapping
+        What JSON can hold: ``kineme`` (version), ``preset``, ``parameters``,
+        ``input`` (``path``, ``format``, ``sha256``), ``notes`` (sentences on what was
+        inferred). A producer may add more.
+    timings : mapping of str to float
+        Seconds spent per stage.
 
     Raises
     ------
-    ParameterError : a level does not tile the recording, a row contradicts
-        another, or the provenance cannot be written as JSON
+    ParameterError
+        A level does not tile the recording, a row contradicts another, or the
+        provenance cannot be written as JSON.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> kineme.Segmentation.from_columns(
+    ...     {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [90]},
+    ...     n_frames=90,
+    ...     fps=30,
+    ... )
+    <Segmentation of 90 frames (3.0 s): 1 activity, 0 transitions, 0 primitives, 0 clusters>
     """
 
     table: SegmentTable
@@ -55,12 +72,12 @@ class Segmentation:
         check_type(
             self.table, SegmentTable, "Segmentation", "Segmentation.from_columns takes columns"
         )
-        _check_recording(self.n_frames, self.fps)
+        check_recording(self.n_frames, self.fps)
         for level in get_args(Level):
-            _check_tiles(self.level(level), level, self.n_frames)
-        _check_parents(self.activities, self.primitives)
-        object.__setattr__(self, "provenance", _plain(self.provenance, "provenance"))
-        object.__setattr__(self, "timings", _plain(self.timings, "timings"))
+            check_tiles(self.level(level), level, self.n_frames)
+        check_parents(self.activities, self.primitives)
+        object.__setattr__(self, "provenance", plain_json(self.provenance, "provenance"))
+        object.__setattr__(self, "timings", plain_json(self.timings, "timings"))
 
     @classmethod
     def from_columns(
@@ -78,8 +95,27 @@ class Segmentation:
         ``cluster`` is -1, ``label`` empty and ``score`` nan where not given;
         ``activity`` then follows from the frames. ``start_s`` and ``stop_s``
         are always computed, whatever is given.
+
+        Parameters
+        ----------
+        columns : mapping of str to array-like
+        n_frames : int
+            Length of the recording.
+        fps : float
+            Frames per second.
+        provenance, timings : mapping, optional
+            As in `Segmentation`.
+
+        Returns
+        -------
+        Segmentation
+
+        Raises
+        ------
+        ParameterError
+            A column is missing or holds what it cannot, or as for `Segmentation`.
         """
-        _check_recording(n_frames, fps)
+        check_recording(n_frames, fps)
         check_type(columns, Mapping, "from_columns", "give arrays by the names of columns")
         table = segment_table(columns, float(fps))
         said = {} if provenance is None else provenance
@@ -87,7 +123,16 @@ class Segmentation:
         return cls(table, int(n_frames), float(fps), said, spent)
 
     def level(self, level: Level) -> SegmentTable:
-        """The segments of one level, in time order."""
+        """The segments of one level, in time order.
+
+        Parameters
+        ----------
+        level : {"activity", "primitive"}
+
+        Returns
+        -------
+        SegmentTable
+        """
         if not is_one_of(level, get_args(Level)):
             raise ParameterError(f"level must be 'activity' or 'primitive', not {level!r}")
         return self.table.select(self.table.level == level)
@@ -112,7 +157,30 @@ class Segmentation:
         return dict(sorted(Counter(clusters[clusters >= 0].tolist()).items()))
 
     def per_frame(self, column: str = "cluster", *, level: Level = "primitive") -> NDArray[Any]:
-        """A column of the table spread over the frames: one value per frame."""
+        """A column of the table spread over the frames.
+
+        Parameters
+        ----------
+        column : str
+        level : {"activity", "primitive"}
+
+        Returns
+        -------
+        (n_frames,) array
+
+        Raises
+        ------
+        ParameterError
+            There is no such column or level.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
+        >>> segments.per_frame("label", level="activity")[60].item()
+        'walk'
+        """
         if not is_one_of(column, COLUMNS):
             raise ParameterError(f"no column {column!r}; there are {', '.join(COLUMNS)}")
         rows = self.level(level)
@@ -133,18 +201,45 @@ class Segmentation:
             f"{n} {name if n == 1 else many.get(name, name + 's')}" for name, n in counts.items()
         )
 
-    def to_pandas(self) -> pd.DataFrame:
-        """The table as a DataFrame, one row per segment.
+    def to_dataframe(self) -> pd.DataFrame:
+        """The table of both levels, as `SegmentTable.to_dataframe` gives it.
+
+        Returns
+        -------
+        pandas.DataFrame
 
         Raises
         ------
-        MissingDependencyError : pandas is not installed
+        MissingDependencyError
+            pandas is not installed.
         """
-        try:
-            import pandas as pd
-        except ImportError as error:
-            raise MissingDependencyError("pandas", "tables") from error
-        return pd.DataFrame(self.table.columns())
+        return self.table.to_dataframe()
+
+    def plot(self, *, ax: Axes | None = None) -> Axes:
+        """Activities, and primitives below them, along the seconds of the recording.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; Axes of a new figure of pyplot by default.
+
+        Returns
+        -------
+        Axes
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> from matplotlib.figure import Figure
+        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
+        >>> axes = segments.plot(ax=Figure().add_subplot())
+        """
+        from kineme.segments.timeline import draw_timeline
+
+        rows = {"activities": self.activities, "primitives": self.primitives}
+        shown = {name: table for name, table in rows.items() if len(table)}
+        return draw_timeline(shown, self.n_frames / self.fps, ax=ax)
 
     def __len__(self) -> int:
         return len(self.table)
@@ -156,54 +251,7 @@ class Segmentation:
         seconds = self.n_frames / self.fps
         return f"<Segmentation of {self.n_frames} frames ({seconds:.1f} s): {self.describe()}>"
 
+    def _repr_html_(self) -> str:
+        from kineme.segments.notebook import page
 
-def _check_recording(n_frames: int, fps: float) -> None:
-    if not (is_number(n_frames) and n_frames >= 1):
-        raise ParameterError(f"a recording has at least 1 frame, not {n_frames!r:.60}")
-    if not (is_number(fps) and fps > 0):
-        raise ParameterError(f"the frame rate must be a positive number, not {fps!r:.60}")
-
-
-def _check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
-    if not len(rows) and level == "primitive":
-        return
-    if not len(rows) or rows.start_frame[0] != 0 or rows.stop_frame[-1] != n_frames:
-        raise ParameterError(f"the {level} level must cover frames 0 to {n_frames}")
-    for before, after in zip(rows.stop_frame[:-1], rows.start_frame[1:], strict=True):
-        if before != after:
-            raise ParameterError(
-                f"one {level} stops at frame {before}, the next starts at {after}: "
-                "segments of a level must touch and not overlap"
-            )
-    if (rows.stop_frame <= rows.start_frame).any():
-        empty = rows[int(np.argmax(rows.stop_frame <= rows.start_frame))]
-        raise ParameterError(f"the {level} at frame {empty.start_frame} has no frames")
-
-
-def _check_parents(activities: SegmentTable, primitives: SegmentTable) -> None:
-    if (activities.activity != np.arange(len(activities))).any():
-        raise ParameterError("column 'activity' of the activity level must count 0, 1, 2, ...")
-    enclosing = np.searchsorted(activities.start_frame, primitives.start_frame, "right") - 1
-    outside = primitives.stop_frame > activities.stop_frame[enclosing]
-    if outside.any():
-        row = primitives[int(np.argmax(outside))]
-        raise ParameterError(
-            f"the primitive of frames {row.start_frame} to {row.stop_frame} crosses the border "
-            f"of an activity at {activities.stop_frame[enclosing[np.argmax(outside)]]}"
-        )
-    wrong = primitives.activity != enclosing
-    if wrong.any():
-        row = primitives[int(np.argmax(wrong))]
-        raise ParameterError(
-            f"the primitive at frame {row.start_frame} names activity {row.activity}, "
-            f"but lies in activity {enclosing[np.argmax(wrong)]}"
-        )
-
-
-def _plain(value: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """A copy made of what JSON has: dicts, lists, texts, finite numbers, booleans, None."""
-    try:
-        copy: dict[str, Any] = json.loads(json.dumps(dict(value), allow_nan=False))
-    except (TypeError, ValueError) as error:
-        raise ParameterError(f"{name} cannot be written as JSON: {error}") from error
-    return copy
+        return page(repr(self).strip("<>"), [self.activities, self.primitives], self.activities)

@@ -23,15 +23,17 @@ at ``n_frames``. Frames are the truth; seconds are always derived from them.
 
 from __future__ import annotations
 
-import unicodedata
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Literal, get_args, overload
+from typing import TYPE_CHECKING, Any, Literal, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme.errors import ParameterError
+from kineme.errors import MissingDependencyError, ParameterError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Level = Literal["activity", "primitive"]
 Kind = Literal["activity", "transition"]
@@ -65,10 +67,27 @@ class Segment:
     label: str
     score: float
 
+    @property
+    def duration_s(self) -> float:
+        """Seconds from start to stop."""
+        return self.stop_s - self.start_s
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class SegmentTable:
-    """Segments as columns: one numpy array each, all of the same length."""
+    """Segments as columns: one numpy array each, all of the same length.
+
+    Usually taken from a `Segmentation`. A slice, a mask or row numbers pick rows,
+    as in numpy; one number gives a `Segment`.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> table = kineme.read_segments(bundled_truth(), fps=60).table
+    >>> table[0].kind, table[table.duration_s > 5.0]
+    ('activity', <SegmentTable of 5 segments, 0.00 to 48.30 s>)
+    """
 
     level: NDArray[np.str_]
     kind: NDArray[np.str_]
@@ -81,12 +100,62 @@ class SegmentTable:
     label: NDArray[np.str_]
     score: NDArray[np.float64]
 
+    @property
+    def duration_s(self) -> NDArray[np.float64]:
+        """Seconds from start to stop of each segment."""
+        return self.stop_s - self.start_s
+
     def columns(self) -> dict[str, NDArray[Any]]:
         """The columns by name, in the documented order."""
         return {name: getattr(self, name) for name in COLUMNS}
 
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row per segment: the columns in the documented order, and ``duration_s``.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        MissingDependencyError
+            pandas is not installed.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
+        >>> frame = segments.activities.to_dataframe()
+        >>> float(frame.groupby("label").duration_s.sum().round(2)["walk"])
+        9.78
+        """
+        try:
+            import pandas as pd
+        except ImportError as error:
+            raise MissingDependencyError("pandas", "tables") from error
+        frame = pd.DataFrame(self.columns())
+        frame.insert(COLUMNS.index("stop_s") + 1, "duration_s", self.duration_s)
+        return frame
+
     def select(self, rows: slice | ArrayLike) -> SegmentTable:
-        """The rows that a mask, a slice or an index array picks, as ``table[rows]``."""
+        """The rows that a mask, a slice or an index array picks, as ``table[rows]``.
+
+        Parameters
+        ----------
+        rows : slice or array-like
+
+        Returns
+        -------
+        SegmentTable
+
+        Raises
+        ------
+        IndexError
+            There is no such row.
+        ParameterError
+            It picks no rows.
+        """
         picked = rows if isinstance(rows, slice) else _picked(rows, len(self))
         try:
             columns = {name: column[picked] for name, column in self.columns().items()}
@@ -109,8 +178,10 @@ class SegmentTable:
 
         Raises
         ------
-        IndexError : there is no such row
-        ParameterError : neither a row nor what picks rows
+        IndexError
+            There is no such row.
+        ParameterError
+            Neither a row nor what picks rows.
         """
         if not isinstance(rows, int | np.integer) or isinstance(rows, bool):
             return self.select(rows)
@@ -129,84 +200,32 @@ class SegmentTable:
 
     __hash__ = None  # type: ignore[assignment]
 
+    def __repr__(self) -> str:
+        n = len(self)
+        of = f"{n} segment{'s' * (n != 1)}"
+        span = f", {self.start_s.min():.2f} to {self.stop_s.max():.2f} s" if n else ""
+        return f"<SegmentTable of {of}{span}>"
 
-def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
-    """A table from columns in any row order; see :meth:`Segmentation.from_columns`."""
-    missing = [c for c in ("level", "kind", "start_frame", "stop_frame") if c not in columns]
-    if missing:
-        raise ParameterError(f"a segment table needs the column {missing[0]!r}")
-    n = np.size(columns["level"])
-    level = _texts(columns["level"], "level", get_args(Level))
-    start = _integers(columns["start_frame"], "start_frame")
-    stop = _integers(columns["stop_frame"], "stop_frame")
-    arrays: dict[str, NDArray[Any]] = {
-        "level": level,
-        "kind": _texts(columns["kind"], "kind", get_args(Kind)),
-        "start_frame": start,
-        "stop_frame": stop,
-        "start_s": start / fps,
-        "stop_s": stop / fps,
-        "cluster": _integers(columns.get("cluster", np.full(n, -1)), "cluster"),
-        "activity": np.zeros(n, np.int64),
-        "label": _texts(columns.get("label", np.full(n, "")), "label"),
-        "score": _scores(columns.get("score", np.full(n, np.nan))),
-    }
-    if "activity" in columns:
-        arrays["activity"] = _integers(columns["activity"], "activity")
-    for name, array in arrays.items():
-        if array.shape != (n,):
-            raise ParameterError(f"column {name!r} has shape {array.shape}, 'level' has ({n},)")
-    if "activity" not in columns:
-        parents = np.sort(start[level == "activity"])
-        arrays["activity"] = np.searchsorted(parents, start, side="right") - 1
-    order = np.lexsort((stop, start, level))
-    return SegmentTable(**{name: array[order] for name, array in arrays.items()})
+    def _repr_html_(self) -> str:
+        from kineme.segments.notebook import page
+
+        levels = [self[self.level == level] for level in get_args(Level)]
+        return page(repr(self).strip("<>"), levels, self)
 
 
 def _picked(rows: ArrayLike, n: int) -> NDArray[Any]:
     """A mask or row numbers of a table of n rows, checked."""
-    picked = _array(rows, "rows")
+    advice = f"rows are picked by a slice, a mask or row numbers, not by {rows!r:.60}"
+    try:
+        picked = np.asarray(rows)
+    except ValueError:
+        raise ParameterError(advice) from None
     if picked.shape == (0,):
         return picked.astype(np.int64)
     if picked.ndim != 1 or picked.dtype.kind not in "biu":
-        raise ParameterError(
-            f"rows are picked by a slice, a mask or row numbers, not by {rows!r:.60}"
-        )
+        raise ParameterError(advice)
     if picked.dtype.kind == "b" and len(picked) != n:
         raise ParameterError(f"a mask of {len(picked)} does not fit a table of {n} rows")
     if picked.dtype.kind != "b" and not (-n <= picked.min() and picked.max() < n):
         raise IndexError(f"row {picked[(picked < -n) | (picked >= n)][0]} of a table of {n}")
     return picked
-
-
-def _integers(values: ArrayLike, name: str) -> NDArray[np.int64]:
-    array = _array(values, name)
-    if array.size and array.dtype.kind not in "iu":
-        raise ParameterError(f"column {name!r} must hold whole numbers, not {array.dtype}")
-    return array.astype(np.int64)
-
-
-def _scores(values: ArrayLike) -> NDArray[np.float64]:
-    scores = _array(values, "score")
-    if scores.dtype.kind not in "iuf" or np.isinf(scores).any():
-        raise ParameterError("column 'score' must be finite, or nan where there is no score")
-    return scores.astype(np.float64)
-
-
-def _texts(values: ArrayLike, name: str, allowed: tuple[str, ...] = ()) -> NDArray[np.str_]:
-    texts = _array(values, name)
-    for text in set(texts.ravel().tolist()):
-        if not isinstance(text, str):
-            raise ParameterError(f"column {name!r} must hold texts, not {text!r}")
-        if allowed and text not in allowed:
-            raise ParameterError(f"{name} must be {' or '.join(allowed)}, not {text!r}")
-        if any(unicodedata.category(letter) in ("Cc", "Cs", "Zl", "Zp") for letter in text):
-            raise ParameterError(f"{name} {text!r} must be one line of plain text")
-    return texts.astype(np.str_)
-
-
-def _array(values: ArrayLike, name: str) -> NDArray[Any]:
-    try:
-        return np.asarray(values)
-    except ValueError as error:
-        raise ParameterError(f"column {name!r} must hold one value per row") from error

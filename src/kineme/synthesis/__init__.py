@@ -1,4 +1,4 @@
-"""New motion from primitives: a motion graph, ways through it, and their blending."""
+"""New motion from primitives: a motion graph, routes through it, and their blending."""
 
 from kineme.synthesis.blending import Placement, synthesize
 from kineme.synthesis.building import check_source, motion_graph

@@ -1,11 +1,11 @@
-"""From a walk through the graph to a motion.
+"""From a route through the graph to a motion.
 
-Stretches of the sources are laid end to end, each turned about the vertical
+Spans of the sources are laid end to end, each turned about the vertical
 and moved on the floor as its jump says. Around a jump both recordings go on
 for half a window, and the motion goes over from the one to the other: joint
 rotations along the sphere, translations in a line, with the smooth weight
 3w² - 2w³ (Kovar, Gleicher and Pighin 2002, section 3.2). Last, feet that
-stand are kept from sliding (see ``feet``).
+stand are kept from sliding (see `kineme.synthesis.feet`).
 """
 
 from __future__ import annotations
@@ -31,7 +31,21 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Placement:
-    """A turn about the vertical through the origin, radians, then a move along x + iz, metres."""
+    """A turn about the vertical through the origin, then a move on the floor.
+
+    Parameters
+    ----------
+    angle : float
+        Radians.
+    shift : complex
+        Metres: x + iz.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Placement
+    >>> Placement(shift=1 + 2j).of(3 + 0j)
+    (4+2j)
+    """
 
     angle: float = 0.0
     shift: complex = 0j
@@ -46,7 +60,7 @@ class Placement:
 
 
 @dataclass(frozen=True)
-class Piece:
+class PlacedSpan:
     """Frames [start, stop) of a source, and where they are laid."""
 
     source: int
@@ -68,15 +82,34 @@ def synthesize(
     Parameters
     ----------
     graph : MotionGraph
-    motions : those it was built on, in order
-    route : node numbers, each joined to the next by an edge; see ``routes``
-    start : where the first node is laid; as it was recorded, if not given
-    plant : keep standing feet from sliding
+    motions : sequence of Motion
+        Those it was built on, in order.
+    route : sequence of int
+        Node numbers, each joined to the next by an edge; see `kineme.synthesis.routes`.
+    start : Placement, optional
+        Where the first node is laid; as it was recorded by default.
+    plant : bool
+        Whether standing feet are kept from sliding.
+
+    Returns
+    -------
+    Motion
 
     Raises
     ------
-    ParameterError : an empty route, nodes without an edge between them, or
-        other motions than the graph's
+    ParameterError
+        An empty route, nodes without an edge between them, or other motions than the
+        graph's.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> graph = kineme.motion_graph([motion], [truth], prune=False)
+    >>> kineme.synthesize(graph, [motion], [0, 1, 2]).n_frames == graph.nodes[2].stop
+    True
     """
     check_type(graph, MotionGraph, "synthesize", "kineme.motion_graph(motions) gives one")
     check_type(motions, Sequence, "synthesize", "give the motions of the graph")
@@ -90,9 +123,9 @@ def synthesize(
         check_type(start, Placement, "start", "leave it out to start as recorded")
     if [m.n_frames for m in motions] != [s.n_frames for s in graph.sources]:
         raise ParameterError("the motions are not those the graph was built on: build it anew")
-    pieces = pieces_of(graph, route, start or Placement())
-    rotations, translations = _joined(pieces, motions, round(graph.window * graph.fps / 2))
-    jumps = len(pieces) - 1
+    spans = spans_of(graph, route, start or Placement())
+    rotations, translations = _joined(spans, motions, round(graph.window * graph.fps / 2))
+    jumps = len(spans) - 1
     motion = Motion.from_rotations(
         motions[0].skeleton,
         rotations,
@@ -103,45 +136,47 @@ def synthesize(
     return plant_feet(motion) if plant else motion
 
 
-def pieces_of(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[Piece]:
-    """The stretches to play; nodes that follow each other in a recording are one."""
+def spans_of(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[PlacedSpan]:
+    """The spans to play; nodes that follow each other in a recording are one."""
     if not route:
         raise ParameterError("a route needs at least one node")
     first = graph.nodes[route[0]]
-    pieces = [Piece(first.source, first.start, first.stop, at)]
+    spans = [PlacedSpan(first.source, first.start, first.stop, at)]
     for tail, head in pairwise(route):
         if (tail, head) not in graph.edge_between:
             raise ParameterError(f"no edge leads from node {tail} to node {head}")
         edge, node = graph.edges[graph.edge_between[tail, head]], graph.nodes[head]
         if not edge.jump:
-            pieces[-1] = replace(pieces[-1], stop=node.stop)
+            spans[-1] = replace(spans[-1], stop=node.stop)
             continue
-        pieces[-1] = replace(pieces[-1], stop=edge.leave)
-        at = pieces[-1].at.after(edge.angle, edge.shift)
-        pieces.append(Piece(node.source, edge.enter, node.stop, at))
-    return pieces
+        spans[-1] = replace(spans[-1], stop=edge.leave)
+        at = spans[-1].at.after(edge.angle, edge.shift)
+        spans.append(PlacedSpan(node.source, edge.enter, node.stop, at))
+    return spans
 
 
-def jump_frames(pieces: Sequence[Piece]) -> list[int]:
+def jump_frames(spans: Sequence[PlacedSpan]) -> list[int]:
     """The frame of the new motion at the middle of each jump."""
-    return list(accumulate(piece.stop - piece.start for piece in pieces))[:-1]
+    return list(accumulate(span.stop - span.start for span in spans))[:-1]
 
 
-def _joined(pieces: Sequence[Piece], motions: Sequence[Motion], half: int) -> tuple[Floats, Floats]:
-    """Rotations and translations of all pieces, blended over ``half`` frames about each jump."""
+def _joined(
+    spans: Sequence[PlacedSpan], motions: Sequence[Motion], half: int
+) -> tuple[Floats, Floats]:
+    """Rotations and translations of all spans, blended over ``half`` frames about each jump."""
     shifts = [
         local_translations(motion.skeleton, motion.positions, motion.rotations)
         for motion in motions
     ]
 
-    def placed(piece: Piece, start: int, stop: int) -> tuple[Floats, Floats]:
-        motion = motions[piece.source]
+    def placed(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
+        motion = motions[span.source]
         rotations = np.array(motion.rotations)[start:stop]
-        return _laid(motion, rotations, shifts[piece.source][start:stop], piece.at)
+        return _laid(motion, rotations, shifts[span.source][start:stop], span.at)
 
-    parts = [placed(piece, piece.start, piece.stop) for piece in pieces]
-    rotations, translations = (np.concatenate(part) for part in zip(*parts, strict=True))
-    for t, (a, b) in zip(jump_frames(pieces), pairwise(pieces), strict=True):
+    placed_spans = [placed(span, span.start, span.stop) for span in spans]
+    rotations, translations = (np.concatenate(each) for each in zip(*placed_spans, strict=True))
+    for t, (a, b) in zip(jump_frames(spans), pairwise(spans), strict=True):
         room = min(a.stop - a.start, b.stop - b.start) // 2
         n = min(half, room, motions[a.source].n_frames - a.stop, b.start)
         before, before_shift = placed(a, a.stop - n, a.stop + n)

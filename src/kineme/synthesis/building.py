@@ -1,7 +1,7 @@
 """From recordings and their primitives to a motion graph.
 
-Jumps are looked for between the end part of one node and the start part of
-another: frames no farther from its border than a quarter of the node, and no
+Jumps are looked for between the end of one node and the start of another:
+frames no farther from its border than a quarter of the node, and no
 farther than the window. Candidates are neighbours in feature space, found by
 one sparse search; of each pair of nodes the few nearest are measured as point
 clouds, and the best becomes an edge if it is below the threshold.
@@ -38,7 +38,7 @@ Ints = NDArray[np.int64]
 
 THRESHOLD = 0.08
 """Metres, root mean square over the joints. On three takes of subject 86 and the bundled
-recording, 0.05 already joins all but two nodes or fewer of each into one strong part."""
+recording, 0.05 already joins all but two nodes or fewer of each into one component."""
 WINDOW = 1 / 3
 """Seconds; Kovar and Gleicher's."""
 RADIUS = 0.25
@@ -60,17 +60,37 @@ def motion_graph(
 
     Parameters
     ----------
-    motions : with rotations, of one skeleton and one frame rate
-    segmentations : one for each; found by `kineme.segment` where not given.
-        Clusters of several recordings that are alike get one number.
-    threshold : largest point-cloud distance of a jump, metres
-    window : seconds compared, and blended, around a jump
-    prune : keep only the largest strongly connected part, which has no dead ends
+    motions : sequence of Motion
+        With rotations, of one skeleton and one frame rate.
+    segmentations : sequence of Segmentation, optional
+        One for each; found by `kineme.segment` by default. Clusters of several
+        recordings that match get one number.
+    threshold : float
+        Largest point-cloud distance of a jump, metres.
+    window : float
+        Seconds compared, and blended, around a jump.
+    prune : bool
+        Whether only the largest strongly connected component is kept, which has no
+        dead ends.
+
+    Returns
+    -------
+    MotionGraph
 
     Raises
     ------
-    ParameterError : motions that do not fit together, segments that do not fit
-        them, a threshold or window not above 0, or nothing is left after pruning
+    ParameterError
+        Motions that do not fit together, segments that do not fit them, a threshold or
+        window not above 0, or nothing is left after pruning.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> list(kineme.motion_graph([motion], [truth], prune=False).names)[:3]
+    ['walk', 'squat', 'arm circles']
     """
     _check(motions, threshold, window)
     if segmentations is not None:
@@ -113,7 +133,17 @@ def _check(motions: Sequence[Motion], threshold: float, window: float) -> None:
 
 
 def check_source(motion: Motion, first: Motion) -> None:
-    """ParameterError for a motion that cannot be in one graph with the first."""
+    """Nothing, or an error for a motion that cannot be in one graph with the first.
+
+    Parameters
+    ----------
+    motion, first : Motion
+
+    Raises
+    ------
+    ParameterError
+        No rotations, or another skeleton or frame rate.
+    """
     where = motion.provenance.path or "a motion"
     if motion.rotations is None:
         raise ParameterError(f"{where} has no rotations: give BVH or AMC files")
@@ -145,7 +175,7 @@ def _nodes_of(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
 
 
 @dataclass(frozen=True)
-class _Parts:
+class _Ends:
     """Frames at which nodes may be left or entered, and whose they are."""
 
     frames: Ints
@@ -163,7 +193,7 @@ def _jumps(
     features = np.concatenate([motion_features(motion, KINEME) for motion in motions])
     half = round(window * rate / 2)
     ratio = motions[0].fps / rate
-    ends, starts = (_parts(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0))
+    ends, starts = (_ends_of(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0))
     if not (len(ends.frames) and len(starts.frames)):
         return []
     near = neighbor_graph(features[ends.frames], features[starts.frames], radius=RADIUS)
@@ -189,10 +219,10 @@ def _jumps(
     return edges
 
 
-def _parts(
+def _ends_of(
     nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
-) -> _Parts:
-    """The end parts (side 1) or start parts (side 0) of all nodes.
+) -> _Ends:
+    """The ends (side 1) or starts (side 0) of all nodes.
 
     Only frames with a whole window inside their recording, and never so many
     that a node entered late could be left before that.
@@ -205,7 +235,7 @@ def _parts(
         own = np.arange(max(low, int(np.ceil(border - reach))), min(high, int(border + reach) + 1))
         frames.append(own + firsts[node.source])
         owners.append(np.full(len(own), number))
-    return _Parts(np.concatenate(frames), np.concatenate(owners))
+    return _Ends(np.concatenate(frames), np.concatenate(owners))
 
 
 def _nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:

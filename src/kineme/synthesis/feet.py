@@ -41,7 +41,26 @@ STRAIGHT = 0.999
 
 
 def plant_feet(motion: Motion) -> Motion:
-    """The motion with each standing foot held in place; as it is where no feet are found."""
+    """The motion with each standing foot held in place; as it is where no feet are found.
+
+    Parameters
+    ----------
+    motion : Motion
+        With rotations.
+
+    Returns
+    -------
+    Motion
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.recordings.operations import cut
+    >>> from kineme.synthesis import plant_feet
+    >>> motion = cut(kineme.read(kineme.bundled_recording()), 0, 120)
+    >>> plant_feet(motion).n_frames
+    120
+    """
     try:
         found = end_effectors(motion)
     except EndEffectorError:
@@ -62,8 +81,21 @@ def foot_contacts(path: Floats, fps: float) -> Spans:
 
     Parameters
     ----------
-    path : (frames, 3), the ankle, metres, y up
-    fps : frames per second
+    path : (frames, 3) array
+        The ankle, metres, y up.
+    fps : float
+        Frames per second.
+
+    Returns
+    -------
+    list of pairs of int
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kineme.synthesis import foot_contacts
+    >>> foot_contacts(np.zeros((30, 3)), 30.0)
+    [(0, 30)]
     """
     if len(path) < 2:
         return []

@@ -2,7 +2,7 @@
 
 A node is a primitive, or a transition phase between two activities: a span of
 a source recording. An edge says that after one node another can be played:
-the recording's own successor, or a *jump* to a place that looks alike. A jump
+the recording's own successor, or a *jump* to a similar place. A jump
 leaves its node at a frame near the node's end and enters the next one near
 its start; the next is then turned about the vertical and moved on the floor.
 
@@ -30,8 +30,13 @@ Ints = NDArray[np.int64]
 class Source:
     """A recording the graph was built on.
 
-    ``options`` are the keywords it was read with; ``path`` and ``sha256`` are
-    None for a motion that came from no file.
+    Parameters
+    ----------
+    path, sha256 : str or None
+        The file, and its digest; None for a motion that came from no file.
+    n_frames : int
+    options : mapping
+        The keywords that it was read with.
     """
 
     path: str | None
@@ -42,10 +47,17 @@ class Source:
 
 @dataclass(frozen=True)
 class Node:
-    """Frames [start, stop) of a source, by its number.
+    """Frames [start, stop) of a source.
 
-    ``cluster`` is -1 and ``label`` empty for what has none; equal clusters are
-    equal movements, whatever their source.
+    Parameters
+    ----------
+    source : int
+        Its number in the graph.
+    start, stop : int
+    cluster : int
+        Equal clusters are equal movements, whatever their source; -1 for none.
+    label : str
+        Empty for none.
     """
 
     source: int
@@ -62,12 +74,25 @@ class Node:
 
 @dataclass(frozen=True)
 class Edge:
-    """From node ``tail`` to node ``head``: the frame after the last played, the first played.
+    """From one node to another that can be played after it.
 
-    ``distance`` is that of the point clouds, metres: 0 for the recording's own
-    successor, which ``jump`` tells from others. To go on from where the tail
-    is, the head's source is turned about the vertical by ``angle`` radians,
-    then moved by ``shift``, metres along x and z.
+    Parameters
+    ----------
+    tail, head : int
+        Numbers of the nodes.
+    leave : int
+        The frame after the last played of the tail's source.
+    enter : int
+        The first frame played of the head's source.
+    distance : float
+        Of the point clouds, metres; 0 for the recording's own successor.
+    angle : float
+        To go on from where the tail is, the head's source is turned about the vertical
+        by so many radians,
+    shift : pair of float
+        then moved by so many metres in x and z.
+    jump : bool
+        Whether the head is not the recording's own successor.
     """
 
     tail: int
@@ -86,12 +111,26 @@ class MotionGraph:
 
     Parameters
     ----------
-    sources : recordings, of one skeleton
-    nodes : spans of them
-    edges : ordered by tail, then head; at most one for each pair
-    fps : frames per second of all sources
-    threshold : largest point-cloud distance of a jump, metres
-    window : seconds compared and blended around a jump
+    sources : tuple of Source
+        Recordings, of one skeleton.
+    nodes : tuple of Node
+        Spans of them.
+    edges : tuple of Edge
+        Ordered by tail, then head; at most one for each pair.
+    fps : float
+        Frames per second of all sources.
+    threshold : float
+        Largest point-cloud distance of a jump, metres.
+    window : float
+        Seconds compared and blended around a jump.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source
+    >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
+    >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
+    >>> MotionGraph((Source(None, None, 60),), nodes, edges, 30.0, 0.08, 1 / 3).names
+    {'walk': 1, 'jump': 1}
     """
 
     sources: tuple[Source, ...]
@@ -127,19 +166,19 @@ class MotionGraph:
         return [i for i, node in enumerate(self.nodes) if node.name == name]
 
     def core(self) -> Ints:
-        """The largest strongly connected part: its nodes all reach each other.
+        """The largest strongly connected component: its nodes all reach each other.
 
-        Ties go to the part of more edges, then to the earlier one. A node alone
-        is a part only if it can repeat itself; empty if there is no part.
+        Ties go to the component of more edges, then to the earlier one. A node alone
+        is one only if it can repeat itself; empty if there is none.
         """
         from scipy.sparse.csgraph import connected_components
 
-        part = connected_components(self._adjacency(), connection="strong")[1]
-        inner = [edge for edge in self.edges if part[edge.tail] == part[edge.head]]
-        edges = Counter(int(part[edge.tail]) for edge in inner)
-        sizes = Counter(part.tolist())
+        component = connected_components(self._adjacency(), connection="strong")[1]
+        inner = [edge for edge in self.edges if component[edge.tail] == component[edge.head]]
+        edges = Counter(int(component[edge.tail]) for edge in inner)
+        sizes = Counter(component.tolist())
         largest = max(edges, key=lambda p: (sizes[p], edges[p], -p), default=-1)
-        return np.flatnonzero(part == largest)
+        return np.flatnonzero(component == largest)
 
     def pruned(self) -> MotionGraph:
         """The graph of the core alone; ParameterError if there is none."""
@@ -158,14 +197,14 @@ class MotionGraph:
         return replace(self, nodes=tuple(self.nodes[i] for i in kept), edges=tuple(edges))
 
     def reachable_pairs(self) -> int:
-        """Ordered pairs (a, b), a = b included, with a way of at least one edge from a to b."""
+        """Ordered pairs (a, b), a = b included, with a path of at least one edge from a to b."""
         from scipy.sparse.csgraph import connected_components, shortest_path
 
         apart = shortest_path(self._adjacency(), unweighted=True)
         np.fill_diagonal(apart, np.inf)
-        part = connected_components(self._adjacency(), connection="strong")[1]
-        again = {part[e.tail] for e in self.edges if part[e.tail] == part[e.head]}
-        return int(np.isfinite(apart).sum()) + sum(p in again for p in part)
+        component = connected_components(self._adjacency(), connection="strong")[1]
+        again = {component[e.tail] for e in self.edges if component[e.tail] == component[e.head]}
+        return int(np.isfinite(apart).sum()) + sum(p in again for p in component)
 
     def _adjacency(self) -> Any:
         from scipy.sparse import csr_array

@@ -1,9 +1,9 @@
-"""Motion graphs as JSON, schema ``kineme.recordings.motion-graph/1``.
+"""Motion graphs as JSON, schema ``kineme.motion-graph/1``.
 
 One object::
 
     {
-      "schema": "kineme.recordings.motion-graph/1",
+      "schema": "kineme.motion-graph/1",
       "fps": 120.0, "threshold": 0.08, "window": 0.333,    as in MotionGraph
       "sources": [{"path": "86_10.amc", "sha256": "...", "n_frames": 7583, "options": {}}],
       "nodes": [{"source": 0, "start": 0, "stop": 312, "cluster": 0, "label": ""}],
@@ -34,7 +34,7 @@ from kineme.formats import read_motion
 from kineme.recordings import Motion
 from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 
-SCHEMA = "kineme.recordings.motion-graph/1"
+SCHEMA = "kineme.motion-graph/1"
 OPTIONS = ("skeleton", "fps", "unit", "up")
 
 Json = dict[str, Any]
@@ -43,10 +43,17 @@ Json = dict[str, Any]
 def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
     """Leave the graph at ``path``.
 
+    Parameters
+    ----------
+    graph : MotionGraph
+    path : path-like
+
     Raises
     ------
-    ParameterError : a source came from no file, so that nobody could read it again
-    WriteError : the file cannot be written
+    ParameterError
+        A source came from no file, so that nobody could read it again.
+    WriteError
+        The file cannot be written.
     """
     folder = Path(path).absolute().parent
     head = {
@@ -65,7 +72,21 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
 
 
 def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
-    """The graph at ``path``; ReadError if it is missing, damaged or of another version."""
+    """The graph at ``path``.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    MotionGraph
+
+    Raises
+    ------
+    ReadError
+        Missing, damaged or of another version.
+    """
     try:
         data = json.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
@@ -73,7 +94,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     except (ValueError, RecursionError) as error:
         raise ReadError(path, "is not valid JSON, or is cut short: build it anew") from error
     schema = data.get("schema") if isinstance(data, dict) else None
-    if not str(schema).startswith("kineme.recordings.motion-graph/"):
+    if not str(schema).startswith("kineme.motion-graph/"):
         raise ReadError(path, "is not a motion graph: make one with kineme graph FILES")
     if schema != SCHEMA:
         raise ReadError(path, f"has schema {schema!r}, but this version reads {SCHEMA!r}")
@@ -87,9 +108,18 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
 def load_sources(graph: MotionGraph) -> list[Motion]:
     """The recordings the graph was built on, in order.
 
+    Parameters
+    ----------
+    graph : MotionGraph
+
+    Returns
+    -------
+    list of Motion
+
     Raises
     ------
-    ReadError : one is missing or was changed since
+    ReadError
+        One is missing or was changed since.
     """
     motions = []
     for source in graph.sources:

@@ -1,11 +1,10 @@
-"""A way through a motion graph that follows a line on the floor.
+"""A route through a motion graph that follows a line on the floor.
 
-Of all ways, one is looked for on which the root stays near the line while it
-goes along it: the cost of a way is the integral over time of its squared
-distance from the line, plus a little for the time itself, so that nobody
-dawdles. The search goes along the line: among the ways that have come equally
-far, to a quarter of a metre, the cheapest go on first, only one for each node
-and direction, and only so many (a beam). It is deterministic.
+The cost of a route is the integral over time of the squared distance of the
+root from the line, plus a little for the time itself, so that nobody dawdles.
+The cheapest is looked for by a beam search: of the candidates that have come
+equally far down the line, to a quarter of a metre, the cheapest go on first,
+only one for each node and direction, and only so many. It is deterministic.
 
 Source: Kovar, Gleicher and Pighin 2002, section 5, who compare with the point of
 the line at equal arc length; the nearest point farther on forgives swaying.
@@ -41,16 +40,16 @@ STEP = 0.1
 TIME = 0.1
 """Cost of a second, m² s: as much as being 32 cm off for that long."""
 FAR = 0.25
-"""Metres along the line that count as equally far."""
+"""Metres of the line that count as equally far."""
 TURN = np.pi / 12
 """Radians that count as the same direction."""
 WIDTH = 400
-"""Ways kept among those equally far."""
+"""Candidates kept among those equally far."""
 
 
 @dataclass(frozen=True)
 class _Progress:
-    """How far along the line a way has come, what it cost, where it was worst."""
+    """How far down the line a candidate has come, what it cost, where it was worst."""
 
     point: int = 0
     cost: float = 0.0
@@ -59,25 +58,45 @@ class _Progress:
 
 
 @dataclass(frozen=True)
-class _Way:
-    """A way up to a node that was entered at a frame, but not yet played."""
+class _Candidate:
+    """A route up to a node that was entered at a frame, but not yet played."""
 
     node: int
     enter: int
     at: Placement
     progress: _Progress
-    before: _Way | None = None
+    before: _Candidate | None = None
 
     def route(self) -> list[int]:
-        route, way = [self.node], self
-        while way.before is not None:
-            way = way.before
-            route.append(way.node)
+        route, last = [self.node], self
+        while last.before is not None:
+            last = last.before
+            route.append(last.node)
         return route[::-1]
 
 
 def parse_line(text: str) -> list[tuple[float, float]]:
-    """``0,0;2,0;2,3`` as points (x, z) in metres; ParameterError for anything else."""
+    """Points (x, z) on the floor in metres, as people type them.
+
+    Parameters
+    ----------
+    text : str
+
+    Returns
+    -------
+    list of (float, float)
+
+    Raises
+    ------
+    ParameterError
+        It is something else.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import parse_line
+    >>> parse_line("0,0;2,0;2,3")
+    [(0.0, 0.0), (2.0, 0.0), (2.0, 3.0)]
+    """
     try:
         points = [tuple(float(number) for number in point.split(",")) for point in text.split(";")]
     except ValueError:
@@ -98,20 +117,42 @@ def line_route(
     actions: Collection[str] = (),
     tolerance: float = TOLERANCE,
 ) -> tuple[list[int], Placement]:
-    """The route whose root goes along a line, and where its first node is laid.
+    """The route whose root follows a line, and where its first node is laid.
 
     Parameters
     ----------
     graph : MotionGraph
-    motions : those it was built on, in order
-    line : two or more points (x, z) on the floor, metres, joined by straight lines
-    actions : names of the super-nodes that may be played; all where none is given
-    tolerance : metres that the root may get away from the line
+    motions : sequence of Motion
+        Those it was built on, in order.
+    line : sequence of (float, float)
+        Two or more points (x, z) on the floor, metres, joined by straight lines.
+    actions : collection of str
+        Names of the super-nodes that may be played; all where none is given.
+    tolerance : float
+        Metres that the root may get away from the line.
+
+    Returns
+    -------
+    route : list of int
+    start : Placement
 
     Raises
     ------
-    ParameterError : a line without length, an action that no node has, or no way
-        stays within the tolerance; the message says how near one comes
+    ParameterError
+        A line without length, an action that no node has, or no route stays within the
+        tolerance; the message says how near one comes.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> from kineme.synthesis import line_route
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> graph = kineme.motion_graph([motion], [truth])
+    >>> route, start = line_route(graph, [motion], [(0, 0), (4, 0)])
+    >>> graph.nodes[route[0]].name
+    'run'
     """
     if not tolerance > 0:
         raise ParameterError(f"the tolerance must be metres above 0, not {tolerance}")
@@ -120,48 +161,48 @@ def line_route(
     found = _search(graph, floors, points, _allowed(graph, actions))
     if found is None:
         raise ParameterError(
-            "no way through the graph goes along this line: give recordings in which somebody "
+            "no route through the graph follows this line: give recordings in which somebody "
             "walks, or name other actions"
         )
-    way, progress = found
+    last, progress = found
     if progress.worst > tolerance:
         off = points[progress.worst_at]
         raise ParameterError(
-            f"the best way is {np.ceil(progress.worst * 100) / 100:g} m off the line near "
+            f"the best route is {np.ceil(progress.worst * 100) / 100:g} m off the line near "
             f"{off.real:.1f},{off.imag:.1f}: give a line with wider turns, recordings with more "
             f"of them, or a tolerance of {np.ceil(progress.worst * 10) / 10:g} m"
         )
-    route = way.route()
+    route = last.route()
     return route, _laid(graph, floors, route[0], points)
 
 
 def _search(
     graph: MotionGraph, floors: Sequence[Complex], points: Complex, nodes: set[int]
-) -> tuple[_Way, _Progress] | None:
-    """The cheapest way to the end of the line; None where all end before it."""
-    heap: list[tuple[int, float, int, _Way]] = []
-    done: list[tuple[_Way, _Progress]] = []
+) -> tuple[_Candidate, _Progress] | None:
+    """The cheapest candidate at the end of the line; None where all end before it."""
+    heap: list[tuple[int, float, int, _Candidate]] = []
+    done: list[tuple[_Candidate, _Progress]] = []
     seen: set[tuple[int, int, int]] = set()
     taken: Counter[int] = Counter()
-    number = count()  # of equal ways the one found first goes first
+    number = count()  # of equal candidates the one found first goes first
 
-    def push(way: _Way) -> None:
-        bucket = way.progress.point // round(FAR / SPACING)
-        heappush(heap, (bucket, way.progress.cost, next(number), way))
+    def push(candidate: _Candidate) -> None:
+        bucket = candidate.progress.point // round(FAR / SPACING)
+        heappush(heap, (bucket, candidate.progress.cost, next(number), candidate))
 
     for node in sorted(nodes):
         at = _laid(graph, floors, node, points)
-        push(_Way(node, graph.nodes[node].start, at, _Progress()))
+        push(_Candidate(node, graph.nodes[node].start, at, _Progress()))
     while heap:
-        bucket, _, _, way = heappop(heap)
-        direction = round(way.at.angle / TURN) % round(2 * np.pi / TURN)
-        if taken[bucket] == WIDTH or (bucket, way.node, direction) in seen:
+        bucket, _, _, candidate = heappop(heap)
+        direction = round(candidate.at.angle / TURN) % round(2 * np.pi / TURN)
+        if taken[bucket] == WIDTH or (bucket, candidate.node, direction) in seen:
             continue
-        seen.add((bucket, way.node, direction))
+        seen.add((bucket, candidate.node, direction))
         taken[bucket] += 1
-        reached, onward = _expanded(graph, floors, points, nodes, way)
+        reached, onward = _expanded(graph, floors, points, nodes, candidate)
         if reached.point == len(points) - 1:
-            done.append((way, reached))
+            done.append((candidate, reached))
         else:
             for longer in onward:
                 push(longer)
@@ -169,22 +210,26 @@ def _search(
 
 
 def _expanded(
-    graph: MotionGraph, floors: Sequence[Complex], points: Complex, nodes: set[int], way: _Way
-) -> tuple[_Progress, list[_Way]]:
-    """How far the way comes in its last node, and the ways that are longer by one."""
+    graph: MotionGraph,
+    floors: Sequence[Complex],
+    points: Complex,
+    nodes: set[int],
+    candidate: _Candidate,
+) -> tuple[_Progress, list[_Candidate]]:
+    """How far a candidate comes in its last node, and those that are longer by one."""
     step = max(round(STEP * graph.fps), 1)
-    node = graph.nodes[way.node]
-    edges = [graph.edges[number] for number in graph.leaving[way.node]]
+    node = graph.nodes[candidate.node]
+    edges = [graph.edges[number] for number in graph.leaving[candidate.node]]
     edges = [edge for edge in edges if edge.head in nodes]
     stop = max([node.stop, *(edge.leave for edge in edges)])
-    floor = floors[node.source][way.enter : stop : step]
-    reached = _played(way, floor, points, step / graph.fps)
+    floor = floors[node.source][candidate.enter : stop : step]
+    reached = _played(candidate, floor, points, step / graph.fps)
     onward = []
     for edge in edges:
-        at = way.at.after(edge.angle, edge.shift) if edge.jump else way.at
-        went = reached[_steps(way.enter, edge.leave, step)]
-        onward.append(_Way(edge.head, edge.enter, at, went, way))
-    return reached[_steps(way.enter, node.stop, step)], onward
+        at = candidate.at.after(edge.angle, edge.shift) if edge.jump else candidate.at
+        went = reached[_steps(candidate.enter, edge.leave, step)]
+        onward.append(_Candidate(edge.head, edge.enter, at, went, candidate))
+    return reached[_steps(candidate.enter, node.stop, step)], onward
 
 
 def _steps(start: int, stop: int, step: int) -> int:
@@ -192,12 +237,14 @@ def _steps(start: int, stop: int, step: int) -> int:
     return -(-(stop - start) // step)
 
 
-def _played(way: _Way, floor: Complex, points: Complex, seconds: float) -> list[_Progress]:
+def _played(
+    candidate: _Candidate, floor: Complex, points: Complex, seconds: float
+) -> list[_Progress]:
     """The progress before each of some poses, ``seconds`` apart, and after the last."""
-    now = way.progress
+    now = candidate.progress
     reached = [now]
     ahead = round(AHEAD / SPACING)
-    for place in np.exp(-1j * way.at.angle) * floor + way.at.shift:
+    for place in np.exp(-1j * candidate.at.angle) * floor + candidate.at.shift:
         if now.point < len(points) - 1:
             apart = np.abs(points[now.point : now.point + ahead] - place)
             near = int(apart.argmin())
@@ -212,7 +259,7 @@ def _played(way: _Way, floor: Complex, points: Complex, seconds: float) -> list[
 
 
 def _spaced(line: Sequence[tuple[float, float]]) -> Complex:
-    """Points along the line, equally far from each other."""
+    """Points of the line, equally far from each other."""
     corners = np.array([complex(x, z) for x, z in line])
     lengths = np.abs(np.diff(corners))
     total = lengths.sum()
@@ -235,7 +282,7 @@ def _allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
 
 
 def _laid(graph: MotionGraph, floors: Sequence[Complex], node: int, points: Complex) -> Placement:
-    """Where a node begins at the line's first point and heads along it."""
+    """Where a node begins at the line's first point and heads down it."""
     span = graph.nodes[node]
     floor = floors[span.source]
     went = floor[min(span.stop, len(floor) - 1)] - floor[span.start]

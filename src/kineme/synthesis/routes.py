@@ -1,7 +1,7 @@
-"""Ways through a motion graph: actions in order, or at random.
+"""Routes through a motion graph: actions in order, or at random.
 
 A route is a list of node numbers, each joined to the next by an edge; see
-``blending.synthesize``.
+`kineme.synthesize`.
 """
 
 from __future__ import annotations
@@ -20,11 +20,31 @@ from kineme.synthesis.graph import MotionGraph
 Floats = NDArray[np.float64]
 
 EDGE_COST = 1e-3
-"""Metres that every edge costs besides its distance: of equal ways the shorter is taken."""
+"""Metres that every edge costs besides its distance: of equal routes the shorter is taken."""
 
 
 def parse_actions(text: str) -> list[tuple[str, int]]:
-    """``walk,run*3`` as ``[("walk", 1), ("run", 3)]``; ParameterError for anything else."""
+    """Names of super-nodes with counts, as people type them.
+
+    Parameters
+    ----------
+    text : str
+
+    Returns
+    -------
+    list of (str, int)
+
+    Raises
+    ------
+    ParameterError
+        It is something else.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import parse_actions
+    >>> parse_actions("walk,run*3")
+    [('walk', 1), ('run', 3)]
+    """
     actions = []
     for part in text.split(","):
         found = re.fullmatch(r"\s*([^*]*[^*\s])\s*(?:\*\s*([1-9]\d{0,4}))?\s*", part)
@@ -44,18 +64,33 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
     Parameters
     ----------
     graph : MotionGraph
-    actions : super-nodes, by name, each with how often it is repeated
+    actions : sequence of (str, int)
+        Super-nodes, by name, each with how often it is repeated.
+
+    Returns
+    -------
+    list of int
 
     Raises
     ------
-    ParameterError : no node has the name, or no way leads on; the message says
-        where one could go instead
+    ParameterError
+        No node has the name, or no route leads on; the message says where one could go
+        instead.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, action_route
+    >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
+    >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
+    >>> graph = MotionGraph((Source(None, None, 60),), nodes, edges, 30.0, 0.08, 1 / 3)
+    >>> action_route(graph, [("walk", 1), ("jump", 1), ("walk", 1)])
+    [0, 1, 0]
     """
     wanted = [name for name, count in actions for _ in range(count)]
     if not wanted:
         raise ParameterError("no actions: give names with counts, as in walk,run*3")
     layers = [graph.nodes_of(name) for name in wanted]
-    cost, before = _ways(graph)
+    cost, before = _cheapest_paths(graph)
     total = np.zeros(len(layers[0]))
     chosen = []
     for i in range(1, len(layers)):
@@ -63,12 +98,12 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
         chosen.append(through.argmin(axis=0))
         total = through.min(axis=0)
         if not np.isfinite(total).any():
-            raise ParameterError(_no_way(graph, wanted[: i + 1], cost))
+            raise ParameterError(_no_route(graph, wanted[: i + 1], cost))
     at = int(total.argmin())
     route = [layers[-1][at]]
     for i in range(len(chosen) - 1, -1, -1):
         at = int(chosen[i][at])
-        route = [*_way(before, layers[i][at], route[0]), *route]
+        route = [*_path(before, layers[i][at], route[0]), *route]
     return route
 
 
@@ -77,10 +112,30 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
 
     All edges of a node are equally likely; the same seed gives the same walk.
 
+    Parameters
+    ----------
+    graph : MotionGraph
+    duration : float
+        Seconds.
+    seed : int
+
+    Returns
+    -------
+    list of int
+
     Raises
     ------
-    ParameterError : a duration not above 0, or a graph without a strongly
-        connected part
+    ParameterError
+        A duration not above 0, or a graph without a strongly connected component.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, random_route
+    >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
+    >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
+    >>> graph = MotionGraph((Source(None, None, 60),), nodes, edges, 30.0, 0.08, 1 / 3)
+    >>> len(random_route(graph, 3.0, seed=0))
+    3
     """
     if not 0 < duration < 1e6:
         raise ParameterError(f"the duration must be seconds above 0, not {duration}")
@@ -101,12 +156,27 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
 
 
 def following(graph: MotionGraph, name: str) -> list[str]:
-    """The super-nodes of which some primitive can come after one of ``name``."""
-    return _names(graph, np.isfinite(_ways(graph)[0][graph.nodes_of(name)]).any(axis=0))
+    """The super-nodes of which some primitive can come after one of ``name``.
+
+    Parameters
+    ----------
+    graph : MotionGraph
+    name : str
+
+    Returns
+    -------
+    list of str
+
+    Raises
+    ------
+    ParameterError
+        No node has the name.
+    """
+    return _names(graph, np.isfinite(_cheapest_paths(graph)[0][graph.nodes_of(name)]).any(axis=0))
 
 
-def _ways(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
-    """Least costs from node to node by way of nameless nodes, and predecessors on the way.
+def _cheapest_paths(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
+    """Least costs from node to node through nameless nodes, and predecessors on these paths.
 
     Every node is in the search twice: as one that is left, and, n later, as one
     that is reached; from there only the nameless go on.
@@ -126,21 +196,21 @@ def _ways(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
     return cost[:, n:], before
 
 
-def _way(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
+def _path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
     """The nodes from start to stop, without stop."""
     n = len(before)
-    way = [int(before[start, n + stop])]
-    while way[0] != start:
-        way.insert(0, int(before[start, way[0]]))
-    return [node % n for node in way]
+    path = [int(before[start, n + stop])]
+    while path[0] != start:
+        path.insert(0, int(before[start, path[0]]))
+    return [node % n for node in path]
 
 
-def _no_way(graph: MotionGraph, wanted: Sequence[str], cost: Floats) -> str:
+def _no_route(graph: MotionGraph, wanted: Sequence[str], cost: Floats) -> str:
     shown = ", ".join(f"{name}*{len(list(same))}" for name, same in groupby(wanted))
     tail, head = wanted[-2:]
     back = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
     return (
-        f"no way leads through {shown}: from {tail!r} one can go on to "
+        f"no route leads through {shown}: from {tail!r} one can go on to "
         f"{_listed(following(graph, tail))}, and {head!r} is reached from "
         f"{_listed(_names(graph, back))}; "
         "put another action between, or build the graph with a higher threshold"

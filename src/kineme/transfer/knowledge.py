@@ -1,9 +1,9 @@
-"""KnowledgeBase: labelled primitives of any recordings, ready to be searched.
+"""Labelled primitives of any recordings, ready to be searched.
 
 A primitive is its label, where it comes from, and its features: five end
 effectors in the body's own frame, in body sizes, each frame stacked with those
 0.1 and 0.2 s before and after it, ten times a second, as the ``kineme`` method
-compares moments. Skeletons, sizes and frame rates may therefore differ.
+compares samples. Skeletons, sizes and frame rates may therefore differ.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1.
 """
@@ -39,22 +39,38 @@ DIMS = 15 * len(KINEME.offsets)
 
 @dataclass(frozen=True, eq=False)
 class KnowledgeBase:
-    """Labelled primitives; primitive p is the next ``lengths[p]`` frames of ``features``.
+    """Labelled primitives; primitive p is the next ``lengths[p]`` samples of ``features``.
 
-    Usually made by :meth:`from_recording`, :meth:`merged` or :meth:`load`.
+    Usually made by `from_recording`, `merged` or `load`.
 
     Parameters
     ----------
-    features : (frames, 75) float32, as :func:`transfer_features` gives them
-    lengths : frames of each primitive
-    labels : name of each
-    sources : file name of the recording each comes from
-    digests : SHA-256 of that file, empty where there is none
-    start_s, stop_s : where in the recording, seconds
+    features : (samples, 75) array of float32
+        As `transfer_features` gives them.
+    lengths : (primitives,) array of int
+        Samples of each primitive.
+    labels : (primitives,) array of str
+        Name of each.
+    sources : (primitives,) array of str
+        File name of the recording that each comes from.
+    digests : (primitives,) array of str
+        SHA-256 of that file, empty where there is none.
+    start_s, stop_s : (primitives,) array of float
+        Where in the recording, seconds.
 
     Raises
     ------
-    ParameterError : parts of different length, an empty label, or values that are not finite
+    ParameterError
+        Columns of different length, an empty label, or values that are not finite.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> kineme.KnowledgeBase.from_recording(motion, truth).counts()["squat"]
+    4
     """
 
     features: NDArray[np.float32]
@@ -91,15 +107,23 @@ class KnowledgeBase:
         Parameters
         ----------
         motion : Motion
-        segments : of this recording. A primitive without a label takes that
-            of its activity; where there are no primitives, labelled
-            activities are taken for such. Transitions are left out.
-        effectors : joints to take for head, hands and feet where names do not tell
+        segments : Segmentation
+            Of this recording. A primitive without a label takes that of its activity;
+            where there are no primitives, labelled activities are taken for such.
+            Transitions are left out.
+        effectors : joints, optional
+            To take for head, hands and feet where names do not tell.
+
+        Returns
+        -------
+        KnowledgeBase
 
         Raises
         ------
-        EndEffectorError : head, hands or feet were not found
-        ParameterError : the segments are of a recording of another length, or none is labelled
+        EndEffectorError
+            Head, hands or feet were not found.
+        ParameterError
+            The segments are of a recording of another length, or none is labelled.
         """
         check_motion(motion, "from_recording")
         check_type(segments, Segmentation, "from_recording", "kineme.segment(motion) gives one")
@@ -123,26 +147,51 @@ class KnowledgeBase:
 
     @classmethod
     def merged(cls, *bases: KnowledgeBase) -> Self:
-        """All primitives of all; of a recording that several hold, those of the last."""
+        """All primitives of all; of a recording that several hold, those of the last.
+
+        Parameters
+        ----------
+        *bases : KnowledgeBase
+
+        Returns
+        -------
+        KnowledgeBase
+
+        Raises
+        ------
+        ParameterError
+            None is given.
+        """
         if not bases:
             raise ParameterError("nothing to merge: give at least one knowledge base")
         kept = []
         for number, base in enumerate(bases):
             later = {d for other in bases[number + 1 :] for d in set(other.digests.tolist()) if d}
             kept.append(base.select(~np.isin(base.digests, list(later))))
-        parts = [{"features": base.features, **base.columns()} for base in kept]
-        return cls(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
+        columns = [{"features": base.features, **base.columns()} for base in kept]
+        return cls(
+            **{name: np.concatenate([each[name] for each in columns]) for name in columns[0]}
+        )
 
     def __add__(self, other: KnowledgeBase) -> Self:
         return self.merged(self, other)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
-        """The knowledge base in a file that :meth:`save` wrote.
+        """The knowledge base in a file that `save` wrote.
+
+        Parameters
+        ----------
+        path : path-like
+
+        Returns
+        -------
+        KnowledgeBase
 
         Raises
         ------
-        ReadError : missing, damaged, no knowledge base, or of another version
+        ReadError
+            Missing, damaged, no knowledge base, or of another version.
         """
         try:
             return cls(**knowledge_file.read(path, SETTINGS))
@@ -152,9 +201,14 @@ class KnowledgeBase:
     def save(self, path: str | PathLike[str]) -> None:
         """Write all of it to one ``.npz`` file, or leave what is there as it was.
 
+        Parameters
+        ----------
+        path : path-like
+
         Raises
         ------
-        WriteError : another suffix, or the file cannot be written
+        WriteError
+            Another suffix, or the file cannot be written.
         """
         knowledge_file.write({"features": self.features, **self.columns()}, SETTINGS, path)
 
@@ -173,12 +227,12 @@ class KnowledgeBase:
         return dict(sorted(Counter(self.labels.tolist()).items()))
 
     def primitives(self) -> Primitives:
-        """The primitives to search; those that touch under one label are one stretch."""
+        """The primitives to search; those that touch under one label are one run."""
         follows = self.start_s[1:] == self.stop_s[:-1]
         for column in (self.labels, self.sources, self.digests):
             follows &= column[1:] == column[:-1]
-        stretches = np.concatenate([[0], np.cumsum(~follows)])[: len(self)]
-        return Primitives(self.features, self.lengths, stretches)
+        runs = np.concatenate([[0], np.cumsum(~follows)])[: len(self)]
+        return Primitives(self.features, self.lengths, runs)
 
     def __len__(self) -> int:
         return len(self.labels)
@@ -189,11 +243,31 @@ class KnowledgeBase:
 
 
 def transfer_features(motion: Motion, *, effectors: Names | None = None) -> NDArray[np.float64]:
-    """Features (frames at 10 Hz, 75) in which primitives are compared, in body sizes.
+    """Features in which primitives are compared, in body sizes.
+
+    Parameters
+    ----------
+    motion : Motion
+    effectors : joints, optional
+        To take for head, hands and feet where names do not tell.
+
+    Returns
+    -------
+    (samples, 75) array
+        Ten samples a second.
 
     Raises
     ------
-    EndEffectorError : head, hands or feet were not found
+    EndEffectorError
+        Head, hands or feet were not found.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.transfer import transfer_features
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> transfer_features(motion).shape
+    (483, 75)
     """
     found = end_effectors(motion, names=effectors)
     return motion_features(motion, KINEME, effectors=found)[:: KINEME.step]

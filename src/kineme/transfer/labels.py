@@ -1,7 +1,7 @@
-"""transfer_labels(): the labels of a knowledge base for the primitives of a recording.
+"""The labels of a knowledge base for the primitives of a recording.
 
 Every unlabelled primitive takes the label of its cheapest valid match (see
-:mod:`kineme.transfer.matching`), and stays without one where none is cheap
+`kineme.transfer.matching`), and stays without one where none is cheap
 enough. The score is the margin: the share by which the next label is dearer,
 from 0 (a toss-up) to 1.
 
@@ -28,9 +28,9 @@ from kineme.transfer.knowledge import FPS, KnowledgeBase, working_frames
 from kineme.transfer.matching import Floats, Primitives, label_costs
 
 THRESHOLD = (KINEME.min_scale + KINEME.max_scale) / 2
-"""Body sizes: the middle of the scales at which ``kineme`` calls two moments alike, 0.12."""
+"""Body sizes: the middle of the scales at which ``kineme`` calls two samples similar, 0.12."""
 REACH = 2.0
-"""Thresholds at which two frames no longer match, so that a path may pass a worse moment."""
+"""Thresholds at which two frames no longer match, so that a path may pass a worse one."""
 
 
 def transfer_labels(
@@ -52,16 +52,36 @@ def transfer_labels(
     segmentation : Segmentation
         Its primitives are labelled, or its activities where it has none;
         transitions are not.
-    features : (frames at 10 Hz, 75), of the same recording, by :func:`transfer_features`
+    features : (samples, 75) array
+        Of the same recording, ten samples a second, as `transfer_features` gives them.
     knowledge : KnowledgeBase
-    threshold : body sizes
-        Largest cost of a match. Lower: fewer labels, more of them right.
-    spread : a cluster takes the label that most of its members got, its score
-        for the others being the share of them that did
+    threshold : float
+        Largest cost of a match, body sizes. Lower: fewer labels, more of them right.
+    spread : bool
+        Whether a cluster takes the label that most of its members got, its score for
+        the others being the share of them that did.
+
+    Returns
+    -------
+    Segmentation
 
     Raises
     ------
-    ParameterError : features of another recording, or a threshold that is not above 0
+    ParameterError
+        Features of another recording, or a threshold that is not above 0.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> from kineme.transfer import transfer_features
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> knowledge = kineme.KnowledgeBase.from_recording(motion, truth)
+    >>> features = transfer_features(motion)
+    >>> named = kineme.transfer_labels(kineme.segment(motion), features, knowledge)
+    >>> named.activities[0].label
+    'walk'
     """
     check_type(segmentation, Segmentation, "transfer_labels", "kineme.segment(motion) gives one")
     check_type(knowledge, KnowledgeBase, "transfer_labels", "KnowledgeBase.load(path) gives one")
@@ -100,13 +120,28 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
 
     Parameters
     ----------
-    segmentation : of a recording
-    labels : of the same recording, from a person; its activities count, and a
-        segment stays without a label where most frames have none
+    segmentation : Segmentation
+    labels : Segmentation
+        Of the same recording, from a person. Its activities count; a segment stays
+        without a label where most frames have none.
+
+    Returns
+    -------
+    Segmentation
 
     Raises
     ------
-    ParameterError : the two are of recordings of different length
+    ParameterError
+        The two are of recordings of different length.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> from kineme.transfer import name_primitives
+    >>> truth = kineme.read_segments(bundled_truth(), fps=60)
+    >>> name_primitives(truth, truth).primitives[0].label
+    'walk'
     """
     if labels.n_frames != segmentation.n_frames:
         raise ParameterError(
@@ -133,7 +168,7 @@ def _checked(features: ArrayLike, segmentation: Segmentation) -> Floats:
 
 
 def _primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
-    """The rows with their frames; those of a cluster that touch are a stretch."""
+    """The rows with their frames; those of a cluster that touch are a run."""
     starts, stops = working_frames(rows, fps, len(features))
     follows = (rows.start_frame[1:] == rows.stop_frame[:-1]) & (
         rows.cluster[1:] == rows.cluster[:-1]

@@ -1,17 +1,17 @@
 """What it costs to warp unlabelled primitives onto labelled ones, and those back.
 
 The similarity graph holds the frames of both that are within a radius. A
-primitive u matches a stretch L of labelled ones if a warping path through the
+primitive u matches a run L of labelled ones if a warping path through the
 graph leads from u's beginning to its end inside L (subsequence warping), and
-another through a primitive of L inside the stretch of u. The match costs the
-mean distance of the nodes of the dearer of the two paths. One way alone, a
-part of a movement would pass for the whole.
+another through a primitive of L inside the run of u. The match costs the
+mean distance of the nodes of the dearer of the two paths. With one path alone,
+a part of a movement would pass for the whole.
 
-A *stretch* is a run of primitives that touch and are of one kind: cyclic
-movements may be cut at another phase, so a path may cross from one primitive
-to the next of its stretch, but never into another stretch.
+A *run* is of primitives that touch and are of one kind: cyclic movements may
+be cut at another phase, so a path may cross from one primitive to the next of
+its run, but never into another run.
 
-Source: Vögele, Krüger and Klein 2014, section 6.1; the way back is our own.
+Source: Vögele, Krüger and Klein 2014, section 6.1; the second path is our own.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ Ints = NDArray[np.int64]
 
 COVERAGE = 0.75
 """Share of a primitive's frames that a path must pass."""
-BLOCK_FRAMES = 8192
+BATCH_FRAMES = 8192
 """Labelled frames searched at a time: memory does not grow with the knowledge, time linearly."""
 
-# Which primitive, in which stretch of the other side, at what cost per node.
+# Which primitive, in which run of the other side, at what cost per node.
 Matches = tuple[Ints, Ints, Floats]
 
 
@@ -44,23 +44,25 @@ class Primitives:
 
     Parameters
     ----------
-    features : (frames, dims)
-    lengths : frames of each primitive
-    stretches : number of the stretch each is in, from 0, rising
+    features : (frames, dims) array
+    lengths : (primitives,) array of int
+        Frames of each.
+    runs : (primitives,) array of int
+        Number of the run that each is in, from 0, rising.
     """
 
     features: NDArray[np.floating]
     lengths: Ints
-    stretches: Ints
+    runs: Ints
 
     @cached_property
     def starts(self) -> Ints:
         return np.concatenate([[0], np.cumsum(self.lengths)])
 
     @cached_property
-    def frame_stretches(self) -> Ints:
-        """The stretch of each frame."""
-        return np.repeat(self.stretches, self.lengths)
+    def frame_runs(self) -> Ints:
+        """The run of each frame."""
+        return np.repeat(self.runs, self.lengths)
 
     def __len__(self) -> int:
         return len(self.lengths)
@@ -75,37 +77,46 @@ def label_costs(
     ----------
     unknown, known : Primitives
         Features of both in the same unit.
-    codes : label of each known primitive, one per stretch, 0 to ``n_labels``
-    radius : frames farther apart than this do not match
+    codes : (known primitives,) array of int
+        The label of each, from 0, one for all of a run.
+    n_labels : int
+    radius : float
+        Frames farther apart than this do not match.
+
+    Returns
+    -------
+    (unknown primitives, n_labels) array
     """
     costs = np.full((len(unknown), n_labels), np.inf)
-    for block, block_codes in _blocks(known, codes):
-        of_stretch = np.empty(block.stretches[-1] + 1, np.int64)
-        of_stretch[block.stretches] = block_codes
-        u, stretch, cost = two_way_matches(unknown, block, radius)
-        np.minimum.at(costs, (u, of_stretch[stretch]), cost)
+    for batch, batch_codes in _batches(known, codes):
+        of_run = np.empty(batch.runs[-1] + 1, np.int64)
+        of_run[batch.runs] = batch_codes
+        u, run, cost = mutual_matches(unknown, batch, radius)
+        np.minimum.at(costs, (u, of_run[run]), cost)
     return costs
 
 
-def two_way_matches(unknown: Primitives, known: Primitives, radius: float) -> Matches:
-    """Every match of an unknown primitive with a stretch of known ones, and its cost."""
+def mutual_matches(unknown: Primitives, known: Primitives, radius: float) -> Matches:
+    """Every match of an unknown primitive with a run of known ones: number, run, cost."""
     graph = neighbor_graph(unknown.features, known.features, radius=radius)
-    u, known_stretch, there = _one_way(graph, unknown, known, np.arange(len(unknown)))
-    reached = np.flatnonzero(np.isin(known.stretches, known_stretch))
-    k, unknown_stretch, back = _one_way(_transposed(graph), known, unknown, reached)
-    n = int(known.stretches[-1]) + 1
-    pairs, cheapest = _cheapest(unknown_stretch * n + known.stretches[k], back)
-    wanted = unknown.stretches[u] * n + known_stretch
+    u, known_run, forward = _matches_within(graph, unknown, known, np.arange(len(unknown)))
+    reached = np.flatnonzero(np.isin(known.runs, known_run))
+    k, unknown_run, backward = _matches_within(_transposed(graph), known, unknown, reached)
+    n = int(known.runs[-1]) + 1
+    pairs, cheapest = _cheapest(unknown_run * n + known.runs[k], backward)
+    wanted = unknown.runs[u] * n + known_run
     at = np.searchsorted(pairs, wanted)
     both = at < len(pairs)
     both[both] = pairs[at[both]] == wanted[both]
-    return u[both], known_stretch[both], np.maximum(there[both], cheapest[at[both]])
+    return u[both], known_run[both], np.maximum(forward[both], cheapest[at[both]])
 
 
-def _one_way(graph: NeighborGraph, rows: Primitives, columns: Primitives, which: Ints) -> Matches:
-    """Cheapest warping path of each of some row primitives inside each stretch of columns."""
-    # An empty column after each stretch: no step leads from one stretch into the next.
-    shift = columns.frame_stretches
+def _matches_within(
+    graph: NeighborGraph, rows: Primitives, columns: Primitives, which: Ints
+) -> Matches:
+    """Cheapest warping path of each of some row primitives inside each run of columns."""
+    # An empty column after each run: no step leads from one run into the next.
+    shift = columns.frame_runs
     apart = NeighborGraph(
         graph.indptr,
         (graph.indices + shift[graph.indices]).astype(np.int32),
@@ -113,8 +124,8 @@ def _one_way(graph: NeighborGraph, rows: Primitives, columns: Primitives, which:
         len(shift) + int(shift[-1]),
         graph.radius,
     )
-    stretch_at = np.zeros(apart.n_columns, np.int64)
-    stretch_at[np.arange(len(shift)) + shift] = shift
+    run_at = np.zeros(apart.n_columns, np.int64)
+    run_at[np.arange(len(shift)) + shift] = shift
     starts = rows.starts
 
     def paths_of(p: np.int64) -> tuple[Ints, Floats]:
@@ -124,13 +135,13 @@ def _one_way(graph: NeighborGraph, rows: Primitives, columns: Primitives, which:
         paths = warping_paths(apart, box, (0, apart.n_columns))
         (first, column), (last, _) = paths.starts, paths.ends
         passed = last - first + 1 >= COVERAGE * rows.lengths[p]
-        return _cheapest(stretch_at[column[passed]], (paths.costs / paths.n_nodes)[passed])
+        return _cheapest(run_at[column[passed]], (paths.costs / paths.n_nodes)[passed])
 
     found = map_threads(paths_of, which)
     if not found:
         return np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0)
-    stretches, costs = (np.concatenate(part) for part in zip(*found, strict=True))
-    return np.repeat(which, [len(part) for part, _ in found]), stretches, costs
+    runs, costs = (np.concatenate(part) for part in zip(*found, strict=True))
+    return np.repeat(which, [len(part) for part, _ in found]), runs, costs
 
 
 def _cheapest(keys: Ints, costs: Floats) -> tuple[Ints, Floats]:
@@ -154,13 +165,13 @@ def _transposed(graph: NeighborGraph) -> NeighborGraph:
     )
 
 
-def _blocks(known: Primitives, codes: Ints) -> Iterator[tuple[Primitives, Ints]]:
-    """The known primitives in blocks of whole stretches, with their labels."""
-    ends = np.flatnonzero(np.append(np.diff(known.stretches) > 0, True)) + 1
+def _batches(known: Primitives, codes: Ints) -> Iterator[tuple[Primitives, Ints]]:
+    """The known primitives in batches of whole runs, with their labels."""
+    ends = np.flatnonzero(np.append(np.diff(known.runs) > 0, True)) + 1
     start = 0
     for end in ends.tolist():
-        if known.starts[end] - known.starts[start] >= BLOCK_FRAMES or end == ends[-1]:
+        if known.starts[end] - known.starts[start] >= BATCH_FRAMES or end == ends[-1]:
             features = known.features[known.starts[start] : known.starts[end]]
-            stretches = known.stretches[start:end] - known.stretches[start]
-            yield Primitives(features, known.lengths[start:end], stretches), codes[start:end]
+            runs = known.runs[start:end] - known.runs[start]
+            yield Primitives(features, known.lengths[start:end], runs), codes[start:end]
             start = end

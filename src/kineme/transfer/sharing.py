@@ -1,4 +1,4 @@
-"""share_clusters(): one number for one movement, over several recordings.
+"""One number for one movement, over several recordings.
 
 Recording by recording, clusters are looked for in those before as label
 transfer looks for labels, with the clusters' numbers for names.
@@ -35,14 +35,33 @@ def share_clusters(
 
     Parameters
     ----------
-    motions : Motion
-    segmentations : one for each; labels are neither used nor changed
-    threshold : body sizes, largest cost of a match; see :func:`transfer_labels`
+    motions : sequence of Motion
+    segmentations : sequence of Segmentation
+        One for each; labels are neither used nor changed.
+    threshold : float
+        Largest cost of a match, body sizes; see `transfer_labels`.
+
+    Returns
+    -------
+    list of Segmentation
 
     Raises
     ------
-    EndEffectorError : head, hands or feet were not found
-    ParameterError : other segmentations than the motions'
+    EndEffectorError
+        Head, hands or feet were not found.
+    ParameterError
+        Other segmentations than the motions'.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> from kineme.transfer import share_clusters
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> one, other = share_clusters([motion, motion], [truth, truth])
+    >>> other.repetitions() == one.repetitions()
+    True
     """
     if [m.n_frames for m in motions] != [s.n_frames for s in segmentations]:
         raise ParameterError(

@@ -26,7 +26,7 @@ from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import primitive_cuts
-from kineme.plot.segmentation import SHADES, similarity_image
+from kineme.plot.matrix import SHADES, similarity_image
 from kineme.reproduction.figures.style import BETWEEN, heading, new_figure, save
 from kineme.reproduction.trials import Trial
 from kineme.segmentation.bodies import motion_features

@@ -1,15 +1,14 @@
-"""Pieces of edits: rows of one level, in time order, and what becomes of them.
-
-:mod:`kineme.segments.editing` puts them together.
-"""
+"""Rows of one level, in time order, and what an edit makes of them."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 
 from kineme.errors import ParameterError
-from kineme.segments.table import Level, Segment
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import COLUMNS, Level, Segment
 
 Rows = list[Segment]
 
@@ -104,3 +103,18 @@ def after_border(rows: Rows, level: Level, frame: int) -> int:
 def length(row: Segment) -> int:
     """Frames."""
     return row.stop_frame - row.start_frame
+
+
+def with_rows(
+    segmentation: Segmentation, activities: Iterable[Segment], primitives: Iterable[Segment]
+) -> Segmentation:
+    """The same recording with these rows; seconds and parents follow from their frames."""
+    rows = [*activities, *primitives]
+    columns = {name: [getattr(row, name) for row in rows] for name in COLUMNS if name != "activity"}
+    return Segmentation.from_columns(
+        columns,
+        n_frames=segmentation.n_frames,
+        fps=segmentation.fps,
+        provenance=segmentation.provenance,
+        timings=segmentation.timings,
+    )

@@ -1,0 +1,226 @@
+"""The self-similarity matrix of a recording, with the borders and clusters found in it.
+
+Time runs to the right and downwards. A dark dot at (t, j) means that frame j
+looks like frame t: the darker, the nearer. Squares frame the activities, fine
+lines inside them the primitives. The bars along both edges are coloured by
+cluster; grey is what belongs to none.
+
+Only stored pairs are drawn, reduced to the pixels of the picture row by row:
+an hour takes no more memory than a minute.
+
+Source: Vögele, Krüger and Klein 2014, figure 2, and figure 1 of its supplement.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from kineme._checks import check_type
+from kineme._colors import NO_CLUSTER, cluster_color
+from kineme.segmentation.spans import in_time
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Segment
+
+if TYPE_CHECKING:
+    from kineme.graph import NeighborGraph
+    from kineme.methods.base import Found
+
+PIXELS = 1600
+ENTRIES_AT_ONCE = 1 << 20
+INK = "#1B1F2A"
+BORDER = "#C2571A"
+SHADES = LinearSegmentedColormap.from_list("similarity", ["#FFFFFF", "#B9C0CE", INK])
+NARROW = 0.004  # share of the picture below which borders would hide what they frame
+MAX_LEGEND = 16
+MAX_GAPS = 400  # bars; more are drawn without gaps between them
+
+
+def plot_matrix(
+    segmentation: Segmentation, graph: NeighborGraph | Found, *, ax: Axes | None = None
+) -> Axes:
+    """The matrix with frames around activities and primitives, seconds along both edges.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    graph : NeighborGraph or Found
+        The neighbour graph of the same recording, at any frame rate; or what a method
+        found, which has one.
+    ax : Axes, optional
+        Where to draw; Axes of a new figure of pyplot by default.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ParameterError
+        Something else than a segmentation and its graph.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from matplotlib.figure import Figure
+    >>> import kineme
+    >>> angle = np.linspace(0, 16 * np.pi, 480)
+    >>> circles = kineme.Signals(np.column_stack([np.sin(angle), np.cos(angle)]), 30.0)
+    >>> segments, found = kineme.segment_and_found(circles)
+    >>> kineme.plot_matrix(segments, found, ax=Figure().add_subplot()).get_ylabel()
+    'seconds'
+    """
+    check_type(segmentation, Segmentation, "plot_matrix", "kineme.segment gives one")
+    graph = graph_of(graph, "plot_matrix")
+    axes = _new_axes() if ax is None else ax
+    seconds = segmentation.n_frames / segmentation.fps
+    bar = 0.022 * seconds
+    gaps = segmentation.provenance.get("gaps", ())
+    axes.imshow(
+        similarity_image(in_time(graph, gaps, segmentation.n_frames) if gaps else graph),
+        cmap=SHADES,
+        vmin=0,
+        vmax=1,
+        extent=(0, seconds, seconds, 0),
+        interpolation="antialiased",
+        resample=True,
+    )
+    _draw_borders(axes, segmentation)
+    _draw_bars(axes, segmentation, bar)
+    axes.set_xlim(-1.5 * bar, seconds)
+    axes.set_ylim(seconds + 1.5 * bar, 0)
+    axes.set_aspect("equal")
+    axes.set_xlabel("seconds")
+    axes.set_ylabel("seconds")
+    axes.spines[:].set_visible(False)
+    axes.tick_params(color="#888888", labelsize=9)
+    axes.legend(
+        handles=_legend(segmentation),
+        title="cluster",
+        loc="upper left",
+        bbox_to_anchor=(1.01, 1.0),
+        frameon=False,
+        fontsize=9,
+        alignment="left",
+    )
+    return axes
+
+
+def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.float32]:
+    """Square picture of the graph: 1 where frames are equal, 0 where none are neighbours.
+
+    Parameters
+    ----------
+    graph : NeighborGraph
+    pixels : int
+        Of each edge, at most. Where several pairs of frames fall on one pixel, the most
+        similar one counts.
+
+    Returns
+    -------
+    (size, size) array
+    """
+    n = max(len(graph), graph.n_columns)
+    size = min(n, pixels)
+    image = np.zeros(size * size, np.float32)
+    scale = graph.radius or 1.0
+    for first, last in _runs_of_rows(graph.indptr):
+        entries = slice(graph.indptr[first], graph.indptr[last])
+        rows = np.repeat(np.arange(first, last), np.diff(graph.indptr[first : last + 1]))
+        columns = graph.indices[entries].astype(np.int64)
+        cells = rows * size // n * size + columns * size // n
+        # A neighbour at the very rim of the radius is still seen.
+        np.maximum.at(image, cells, 1 - 0.85 * graph.distances[entries] / np.float32(scale))
+    return image.reshape(size, size)
+
+
+def _runs_of_rows(indptr: NDArray[np.int64]) -> list[tuple[int, int]]:
+    """Rows in runs of about ENTRIES_AT_ONCE entries."""
+    marks = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
+    starts = np.unique(np.searchsorted(indptr, marks, side="right") - 1).tolist()
+    return list(zip(starts, [*starts[1:], len(indptr) - 1], strict=True))
+
+
+def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
+    activities, primitives = segmentation.activities, segmentation.primitives
+    counts = np.bincount(primitives.activity, minlength=len(activities))
+    lengths = (activities.stop_frame - activities.start_frame) / segmentation.n_frames
+    wide = lengths > counts * NARROW
+    cuts = [
+        line
+        for row in primitives
+        if row.start_s > activities.start_s[row.activity] and wide[row.activity]
+        for line in _cross(row.start_s, activities[row.activity])
+    ]
+    axes.add_collection(LineCollection(cuts, colors=BORDER, linewidths=0.5, alpha=0.75))
+    shown = activities[activities.kind == "activity"]
+    squares = _boxes(shown.start_s, shown.stop_s, shown.start_s, shown.stop_s)
+    width = 1.4 if len(activities) * NARROW < 0.2 else 0.7
+    axes.add_collection(
+        PolyCollection(squares, facecolor="none", edgecolor=BORDER, linewidth=width, clip_on=False)
+    )
+
+
+def _cross(at: float, within: Segment) -> list[list[tuple[float, float]]]:
+    """A line across an activity in each direction."""
+    return [
+        [(at, within.start_s), (at, within.stop_s)],
+        [(within.start_s, at), (within.stop_s, at)],
+    ]
+
+
+def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
+    seconds = segmentation.n_frames / segmentation.fps
+    rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
+    colors = [cluster_color(cluster) for cluster in rows.cluster.tolist()]
+    below = _boxes(rows.start_s, rows.stop_s, seconds + 0.4 * width, seconds + 1.4 * width)
+    left = _boxes(-1.4 * width, -0.4 * width, rows.start_s, rows.stop_s)
+    gap = 0.6 if len(rows) < MAX_GAPS else 0.0
+    for bars in (below, left):
+        axes.add_collection(
+            PolyCollection(bars, facecolors=colors, edgecolors="white", linewidths=gap)
+        )
+
+
+def _boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.float64]]:
+    """Corners (4, 2) of upright rectangles; a number stands for as many as needed."""
+    left, right, top, bottom = np.broadcast_arrays(left, right, top, bottom)
+    corners = [left, top, right, top, right, bottom, left, bottom]
+    return list(np.stack(corners, axis=-1).reshape(-1, 4, 2))
+
+
+def _legend(segmentation: Segmentation) -> list[Patch]:
+    """The largest clusters by number of primitives, in the order of their numbers."""
+    counts = segmentation.repetitions()
+    shown = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
+    handles = [
+        Patch(color=cluster_color(cluster), label=f"{cluster}  ({counts[cluster]}×)")
+        for cluster in shown
+    ]
+    if (segmentation.primitives.cluster < 0).any():
+        handles.append(Patch(color=NO_CLUSTER, label="none"))
+    if len(counts) > len(shown):
+        handles.append(Patch(color="none", label=f"and {len(counts) - len(shown)} more"))
+    return handles
+
+
+def graph_of(graph: Any, door: str) -> NeighborGraph:
+    """The neighbour graph given, or that of what a method found; else ParameterError."""
+    from kineme.graph import NeighborGraph  # compiled code
+
+    given = getattr(graph, "graph", graph)
+    check_type(given, NeighborGraph, door, "kineme.neighbor_graph gives one")
+    found: NeighborGraph = given
+    return found
+
+
+def _new_axes() -> Axes:
+    from matplotlib import pyplot as plt  # its figures a notebook shows unasked
+
+    return plt.subplots(figsize=(9.4, 8.2), layout="constrained")[1]

@@ -1,0 +1,176 @@
+"""Timelines of results, alone and below each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import get_args
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from kineme._checks import as_texts, check_type, is_one_of
+from kineme._colors import cluster_color
+from kineme.errors import ParameterError
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, SegmentTable
+from kineme.segments.timeline import draw_timeline, segment_color
+
+
+def plot_timeline(segmentation: Segmentation, *, ax: Axes | None = None) -> Axes:
+    """Activities, and primitives below them, along the seconds of the recording.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    ax : Axes, optional
+        Where to draw; Axes of a new figure of pyplot by default.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ParameterError
+        Something else than a segmentation.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from kineme import datasets, plot, read_segments
+    >>> segments = read_segments(datasets.bundled_truth(), fps=60)
+    >>> plot.plot_timeline(segments, ax=Figure().add_subplot()).get_xlabel()
+    'seconds'
+    """
+    check_type(segmentation, Segmentation, "plot_timeline", "kineme.segment gives one")
+    return segmentation.plot(ax=ax)
+
+
+def compare(
+    results: Sequence[Segmentation],
+    *,
+    names: Sequence[str] | None = None,
+    level: Level = "activity",
+    ax: Axes | None = None,
+) -> Axes:
+    """Timelines of several results below each other, so that their borders can be compared.
+
+    Numbers of clusters mean nothing from one result to another: those of the second
+    and the following take the colours of the clusters of the first with which they
+    share most of their time, one each.
+
+    Parameters
+    ----------
+    results : sequence of Segmentation
+        Usually of one recording: by several presets, or a truth and what was found.
+    names : sequence of str, optional
+        One for each; by default the preset that each was made with, or its file.
+    level : {"activity", "primitive"}
+        Which segments to draw.
+    ax : Axes, optional
+        Where to draw; Axes of a new figure of pyplot by default.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ParameterError
+        No results, something else than segmentations, another number of names, or a
+        result without segments of that level.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from kineme import compare, datasets, read_segments
+    >>> truth = read_segments(datasets.bundled_truth(), fps=60)
+    >>> ax = compare([truth, truth], names=["by hand", "again"], ax=Figure().add_subplot())
+    >>> [text.get_text() for text in ax.get_yticklabels()]
+    ['by hand', 'again']
+    """
+    check_type(results, Sequence, "compare", "give a list of segmentations")
+    if not results:
+        raise ParameterError("compare takes at least one result, not an empty list")
+    for result in results:
+        check_type(result, Segmentation, "compare", "kineme.segment gives one")
+    if not is_one_of(level, get_args(Level)):
+        raise ParameterError(f"level must be 'activity' or 'primitive', not {level!r:.60}")
+    shown = _names(results) if names is None else as_texts(names, "names")
+    if len(shown) != len(results) or len(set(shown)) != len(shown):
+        raise ParameterError(
+            f"names {list(shown)} for {len(results)} results: give a different one for each"
+        )
+    rows = {name: result.level(level) for name, result in zip(shown, results, strict=True)}
+    for name, table in rows.items():
+        if not len(table):
+            raise ParameterError(f"{name} has no segments of level {level!r}")
+    first = rows[shown[0]]
+    return draw_timeline(
+        rows,
+        max(result.n_frames / result.fps for result in results),
+        colors=[_colors(table, matched_clusters(first, table)) for table in rows.values()],
+        ax=ax,
+    )
+
+
+def matched_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
+    """For each cluster of one table that of another with which it shares most time, one to one.
+
+    Parameters
+    ----------
+    first, other : SegmentTable
+        Of one level each.
+
+    Returns
+    -------
+    dict of int to int
+        Clusters of ``other`` by their number; those that share no time with a free
+        cluster are numbered on after those of ``first``.
+    """
+    ours, theirs = (np.unique(table.cluster[table.cluster >= 0]) for table in (first, other))
+    times = np.unique(np.concatenate([first.start_s, first.stop_s, other.start_s, other.stop_s]))
+    middles, lengths = (times[1:] + times[:-1]) / 2, np.diff(times)
+    a, b = _clusters_at(first, middles), _clusters_at(other, middles)
+    both = (a >= 0) & (b >= 0)
+    shared = np.zeros((len(ours), len(theirs)))
+    cells = np.searchsorted(ours, a[both]), np.searchsorted(theirs, b[both])
+    np.add.at(shared, cells, lengths[both])
+    numbers = {
+        int(theirs[column]): int(ours[row])
+        for row, column in zip(*linear_sum_assignment(-shared), strict=True)
+        if shared[row, column] > 0
+    }
+    following = int(ours.max(initial=-1)) + 1
+    rest = [cluster for cluster in theirs.tolist() if cluster not in numbers]
+    return numbers | {cluster: following + i for i, cluster in enumerate(rest)}
+
+
+def _clusters_at(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[np.int64]:
+    """The cluster at each time; -1 where there is none."""
+    row = np.searchsorted(table.start_s, times, side="right") - 1
+    inside = times < table.stop_s[row]
+    return np.where(inside, table.cluster[row], -1)
+
+
+def _colors(table: SegmentTable, numbers: dict[int, int]) -> list[str]:
+    return [
+        cluster_color(numbers[segment.cluster]) if segment.cluster >= 0 else segment_color(segment)
+        for segment in table
+    ]
+
+
+def _names(results: Sequence[Segmentation]) -> list[str]:
+    """What tells the results apart: presets, else files, else their numbers."""
+    numbers = [f"result {number}" for number in range(1, len(results) + 1)]
+    presets = [result.provenance.get("preset") for result in results]
+    paths = [(result.provenance.get("input") or {}).get("path") for result in results]
+    files = [Path(path).name if isinstance(path, str) else None for path in paths]
+    for names in (presets, files):
+        chosen = [name or number for name, number in zip(names, numbers, strict=True)]
+        if len(set(chosen)) == len(chosen):
+            return chosen
+    return numbers

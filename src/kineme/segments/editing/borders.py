@@ -1,0 +1,171 @@
+"""Where segments of a level meet: borders moved, made and taken away."""
+
+from __future__ import annotations
+
+from kineme.errors import ParameterError
+from kineme.segments.editing.rows import (
+    adopted,
+    after_border,
+    cut,
+    cuts,
+    handed_over,
+    joined,
+    length,
+    moved,
+    with_rows,
+)
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level
+
+
+def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -> Segmentation:
+    """The border at ``frame`` stands at ``to``, between those before and after it.
+
+    Of the primitive borders that an activity's border passes, the last one
+    moves with it; primitives between the others go to the activity that grew.
+    A transition stays one primitive.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    frame : int
+        Where the border is.
+    to : int
+        Where it goes.
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        There is no such border, or ``to`` is not between its neighbours.
+    """
+    rows = list(segmentation.level(level))
+    after = after_border(rows, level, frame)
+    low, high = rows[after - 1].start_frame, rows[after].stop_frame
+    if not low < to < high:
+        raise ParameterError(
+            f"the {level} border at frame {frame} can move to {low + 1} to {high - 1}, not {to}"
+        )
+    if to == frame:
+        return segmentation
+    activities, primitives = list(segmentation.activities), list(segmentation.primitives)
+    if level == "primitive":
+        if frame in cuts(activities):
+            activities = moved(activities, frame, to)
+        return with_rows(segmentation, activities, moved(primitives, frame, to))
+    wider = moved(activities, frame, to)
+    if primitives:
+        primitives = handed_over(primitives, activities, wider, (after, frame, to))
+    return with_rows(segmentation, wider, primitives)
+
+
+def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
+    """A new border at ``frame``; both parts are called what the whole was.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    frame : int
+        The first of the second part.
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        There is a border already, or no segment of that level.
+    """
+    rows = list(segmentation.level(level))
+    if not any(row.start_frame < frame < row.stop_frame for row in rows):
+        where = f"frame {frame} is not inside a segment of level {level!r}"
+        raise ParameterError(f"{where}: choose a frame between two borders")
+    activities, primitives = list(segmentation.activities), list(segmentation.primitives)
+    if level == "activity":
+        activities = cut(activities, frame)
+    return with_rows(segmentation, activities, cut(primitives, frame))
+
+
+def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Segmentation:
+    """The segments of ``[start, stop)`` as one of the kind, cluster and label of the first.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    start, stop : int
+        Where the first of the segments starts and the last stops, frames.
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        The span does not begin and end at borders, holds fewer than two segments, or
+        primitives of several activities.
+    """
+    rows = list(segmentation.level(level))
+    chosen = [i for i, row in enumerate(rows) if start <= row.start_frame < stop]
+    whole = (
+        len(chosen) > 1
+        and rows[chosen[0]].start_frame == start
+        and rows[chosen[-1]].stop_frame == stop
+    )
+    if not whole:
+        raise ParameterError(
+            f"frames {start} to {stop} are not two or more whole segments of level {level!r}"
+        )
+    return _merged(segmentation, level, chosen[0], chosen[-1], like=chosen[0])
+
+
+def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
+    """The two segments that meet at ``frame`` as one: the longer takes the other.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    frame : int
+        Where the border is.
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        There is no such border, or it is one of activities, too.
+    """
+    rows = list(segmentation.level(level))
+    after = after_border(rows, level, frame)
+    longer = after if length(rows[after]) > length(rows[after - 1]) else after - 1
+    return _merged(segmentation, level, after - 1, after, like=longer)
+
+
+def _merged(
+    segmentation: Segmentation, level: Level, first: int, last: int, *, like: int
+) -> Segmentation:
+    activities, primitives = list(segmentation.activities), list(segmentation.primitives)
+    if level == "primitive":
+        if primitives[first].activity != primitives[last].activity:
+            border = activities[primitives[first].activity].stop_frame
+            raise ParameterError(
+                f"the border at frame {border} is one of activities: delete it on that level"
+            )
+        return with_rows(segmentation, activities, joined(primitives, first, last, like))
+    merged = joined(activities, first, last, like)
+    inside = [i for i, row in enumerate(primitives) if first <= row.activity <= last]
+    for i in inside:
+        primitives[i] = adopted(primitives[i], activities[primitives[i].activity], merged[first])
+    if inside and merged[first].kind == "transition":
+        primitives = joined(primitives, inside[0], inside[-1], inside[0])
+    return with_rows(segmentation, merged, primitives)

@@ -1,0 +1,68 @@
+"""What holds of every segmentation: levels tile the recording, primitives lie in activities."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from kineme._checks import is_number
+from kineme.errors import ParameterError
+from kineme.segments.table import Level, SegmentTable
+
+
+def check_recording(n_frames: int, fps: float) -> None:
+    """ParameterError where no recording has this length or rate."""
+    if not (is_number(n_frames) and n_frames >= 1):
+        raise ParameterError(f"a recording has at least 1 frame, not {n_frames!r:.60}")
+    if not (is_number(fps) and fps > 0):
+        raise ParameterError(f"the frame rate must be a positive number, not {fps!r:.60}")
+
+
+def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
+    """ParameterError where the segments of a level do not follow each other from start to end."""
+    if not len(rows) and level == "primitive":
+        return
+    if not len(rows) or rows.start_frame[0] != 0 or rows.stop_frame[-1] != n_frames:
+        raise ParameterError(f"the {level} level must cover frames 0 to {n_frames}")
+    for before, after in zip(rows.stop_frame[:-1], rows.start_frame[1:], strict=True):
+        if before != after:
+            raise ParameterError(
+                f"one {level} stops at frame {before}, the next starts at {after}: "
+                "segments of a level must touch and not overlap"
+            )
+    if (rows.stop_frame <= rows.start_frame).any():
+        empty = rows[int(np.argmax(rows.stop_frame <= rows.start_frame))]
+        raise ParameterError(f"the {level} at frame {empty.start_frame} has no frames")
+
+
+def check_parents(activities: SegmentTable, primitives: SegmentTable) -> None:
+    """ParameterError where a primitive does not lie in the activity that it names."""
+    if (activities.activity != np.arange(len(activities))).any():
+        raise ParameterError("column 'activity' of the activity level must count 0, 1, 2, ...")
+    enclosing = np.searchsorted(activities.start_frame, primitives.start_frame, "right") - 1
+    outside = primitives.stop_frame > activities.stop_frame[enclosing]
+    if outside.any():
+        row = primitives[int(np.argmax(outside))]
+        raise ParameterError(
+            f"the primitive of frames {row.start_frame} to {row.stop_frame} crosses the border "
+            f"of an activity at {activities.stop_frame[enclosing[np.argmax(outside)]]}"
+        )
+    wrong = primitives.activity != enclosing
+    if wrong.any():
+        row = primitives[int(np.argmax(wrong))]
+        raise ParameterError(
+            f"the primitive at frame {row.start_frame} names activity {row.activity}, "
+            f"but lies in activity {enclosing[np.argmax(wrong)]}"
+        )
+
+
+def plain_json(value: Mapping[str, Any], name: str) -> dict[str, Any]:
+    """A copy made of what JSON has: dicts, lists, texts, finite numbers, booleans, None."""
+    try:
+        copy: dict[str, Any] = json.loads(json.dumps(dict(value), allow_nan=False))
+    except (TypeError, ValueError) as error:
+        raise ParameterError(f"{name} cannot be written as JSON: {error}") from error
+    return copy

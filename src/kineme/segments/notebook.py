@@ -1,0 +1,63 @@
+"""Segments as HTML for notebooks: a timeline, and the first rows of the table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from html import escape
+from typing import TYPE_CHECKING
+
+from kineme.segments.timeline import segment_color, timeline_svg
+
+if TYPE_CHECKING:
+    from kineme.segments.table import Segment, SegmentTable
+
+ROWS = 8
+"""Shown of a table."""
+COLUMNS = ("kind", "start s", "stop s", "duration s", "cluster", "label", "score")
+
+
+def page(title: str, timelines: Sequence[SegmentTable], rows: SegmentTable) -> str:
+    """HTML of a title, timelines below each other, and the first rows of a table.
+
+    Parameters
+    ----------
+    title : str
+    timelines : sequence of SegmentTable
+        From the top, over the time that they reach together.
+    rows : SegmentTable
+        Whose first rows are shown.
+
+    Returns
+    -------
+    str
+    """
+    shown = [table for table in timelines if len(table)]
+    picture = ""
+    if shown:
+        start = min(float(table.start_s.min()) for table in shown)
+        stop = max(float(table.stop_s.max()) for table in shown)
+        picture = timeline_svg(shown, start, stop)
+    more = len(rows) - ROWS
+    below = f"<p>and {more} more</p>" if more > 0 else ""
+    return f"<div><p>{escape(title)}</p>{picture}{_rows(rows)}{below}</div>"
+
+
+def _rows(table: SegmentTable) -> str:
+    head = "".join(f"<th>{name}</th>" for name in COLUMNS)
+    body = "".join(f"<tr>{_cells(segment)}</tr>" for segment in table[:ROWS])
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _cells(segment: Segment) -> str:
+    square = f'<span style="color:{segment_color(segment)}">■</span>'
+    cells = (
+        segment.kind,
+        f"{segment.start_s:.2f}",
+        f"{segment.stop_s:.2f}",
+        f"{segment.duration_s:.2f}",
+        f"{square} {segment.cluster}" if segment.cluster >= 0 else "",
+        escape(segment.label),
+        "" if math.isnan(segment.score) else f"{segment.score:.2f}",
+    )
+    return "".join(f"<td>{cell}</td>" for cell in cells)

@@ -1,0 +1,157 @@
+"""A segment table along a line of seconds: on Axes of matplotlib, and as SVG for notebooks.
+
+Each level is a row, each segment a bar in the colour of its cluster, the same
+in every picture; grey is what is in no cluster, lighter grey a transition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from html import escape
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._colors import cluster_color
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from kineme.segments.table import Segment, SegmentTable
+
+BAND = 0.8
+"""Height of a row's bars; the rest parts it from the next."""
+NAMED = 0.06
+"""Share of the time from which a bar has room for its label."""
+MOST_EDGES = 400
+"""Bars of a row; more are drawn without white lines between them."""
+TRANSITION = "#F0F0F0"
+WIDTH, HEIGHT = 720, 16
+"""Pixels of a row in a notebook."""
+
+
+def segment_color(segment: Segment) -> str:
+    """``#RRGGBB`` of a segment's bar."""
+    if segment.cluster < 0 and segment.kind == "transition":
+        return TRANSITION
+    return cluster_color(segment.cluster)
+
+
+def draw_timeline(
+    rows: Mapping[str, SegmentTable],
+    seconds: float,
+    *,
+    colors: Sequence[Sequence[str]] | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Rows of segments below each other, each with its name at the left.
+
+    Parameters
+    ----------
+    rows : mapping of str to SegmentTable
+        By the names shown, from the top.
+    seconds : float
+        End of the line.
+    colors : sequence of sequences of str, optional
+        Of each segment of each row; by default those of `segment_color`.
+    ax : Axes, optional
+        Where to draw; Axes of a new figure of pyplot by default.
+
+    Returns
+    -------
+    Axes
+    """
+    axes = _new_axes(len(rows)) if ax is None else ax
+    if colors is None:
+        colors = [[segment_color(segment) for segment in table] for table in rows.values()]
+    for number, (table, own) in enumerate(zip(rows.values(), colors, strict=True)):
+        axes.broken_barh(
+            list(zip(table.start_s, table.duration_s, strict=True)),
+            (number - BAND / 2, BAND),
+            facecolors=own,
+            edgecolors="white",
+            linewidth=0.6 if len(table) < MOST_EDGES else 0.0,
+        )
+        for segment, color in zip(table, own, strict=True):
+            if segment.label and segment.duration_s > NAMED * seconds:
+                _write_label(axes, segment, number, color)
+    axes.set_yticks(range(len(rows)), list(rows))
+    axes.set_ylim(len(rows) - 0.5, -0.5)
+    axes.set_xlim(0, seconds)
+    axes.set_xlabel("seconds")
+    axes.spines[["left", "right", "top"]].set_visible(False)
+    axes.tick_params(axis="y", length=0)
+    return axes
+
+
+def timeline_svg(rows: Sequence[SegmentTable], start_s: float, stop_s: float) -> str:
+    """The same as an ``<svg>``: never more bars in a row than it has pixels.
+
+    Parameters
+    ----------
+    rows : sequence of SegmentTable
+        From the top.
+    start_s, stop_s : float
+        Ends of the line.
+
+    Returns
+    -------
+    str
+    """
+    height = HEIGHT * len(rows)
+    bars = [
+        f'<rect x="{left}" y="{number * HEIGHT + 1}" width="{right - left}" '
+        f'height="{HEIGHT - 2}" fill="{segment_color(segment)}"><title>{_told(segment)}</title>'
+        "</rect>"
+        for number, table in enumerate(rows)
+        for segment, left, right in _pixels(table, start_s, stop_s)
+    ]
+    return (
+        f'<svg viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
+        f'style="max-width:100%" role="img" aria-label="timeline">{"".join(bars)}</svg>'
+    )
+
+
+def _pixels(
+    table: SegmentTable, start_s: float, stop_s: float
+) -> list[tuple[Segment, float, float]]:
+    """The segments that begin a pixel of their own, with the pixels where they start and stop."""
+    scale = WIDTH / max(stop_s - start_s, 1e-9)
+    left = (table.start_s - start_s) * scale
+    _, first = np.unique(left.astype(np.int64), return_index=True)
+    right = (table.stop_s - start_s) * scale
+    gap: NDArray[np.float64] = np.minimum(0.8, (right - left) / 2)
+    return [
+        (segment, round(a, 1), round(max(b, a + 0.5), 1))
+        for segment, a, b in zip(
+            table[first], left[first].tolist(), (right - gap)[first].tolist(), strict=True
+        )
+    ]
+
+
+def _told(segment: Segment) -> str:
+    """What a bar says when the pointer is on it."""
+    name = segment.label or (f"cluster {segment.cluster}" if segment.cluster >= 0 else segment.kind)
+    return escape(f"{name}: {segment.start_s:.2f} to {segment.stop_s:.2f} s")
+
+
+def _write_label(axes: Axes, segment: Segment, row: int, color: str) -> None:
+    red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
+    dark = 0.299 * red + 0.587 * green + 0.114 * blue < 140
+    axes.text(
+        (segment.start_s + segment.stop_s) / 2,
+        row,
+        segment.label.replace("$", r"\$"),  # no formula
+        ha="center",
+        va="center",
+        fontsize=8,
+        color="white" if dark else "black",
+        clip_on=True,
+    )
+
+
+def _new_axes(rows: int) -> Axes:
+    from matplotlib import pyplot as plt  # its figures a notebook shows unasked
+
+    return plt.subplots(figsize=(9, 0.9 + 0.4 * rows), layout="constrained")[1]

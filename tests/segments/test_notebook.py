@@ -1,0 +1,72 @@
+"""What a notebook shows of a result: a small picture and a few rows, whatever its length."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree as ET
+
+import numpy as np
+from hypothesis import given, settings
+
+from kineme._colors import cluster_color
+from kineme.segments import timeline
+from kineme.segments.notebook import ROWS
+from kineme.segments.segmentation import Segmentation
+from segmentations import segmentations
+
+
+def long_result(n: int) -> Segmentation:
+    starts = np.arange(n)
+    columns = {
+        "level": ["activity"] + ["primitive"] * n,
+        "kind": ["activity"] * (n + 1),
+        "start_frame": [0, *starts],
+        "stop_frame": [n, *(starts + 1)],
+        "cluster": [0, *(starts % 5)],
+    }
+    return Segmentation.from_columns(columns, n_frames=n, fps=1.0)
+
+
+def parsed(html: str) -> ET.Element:
+    return ET.fromstring(html)
+
+
+@settings(max_examples=50)
+@given(segmentations())
+def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None:
+    page = parsed(result._repr_html_())
+    assert len(page.findall(".//tbody/tr")) == min(ROWS, len(result.activities))
+    bars = page.findall(".//rect")
+    colors = {bar.get("fill") for bar in bars}
+    assert colors <= {timeline.segment_color(segment) for segment in result}
+    assert len(bars) == len(result)
+    for table in (result.table, result.activities, result.table[:0]):
+        parsed(table._repr_html_())
+
+
+def test_a_label_cannot_be_markup() -> None:
+    columns = {
+        "level": ["activity"],
+        "kind": ["activity"],
+        "start_frame": [0],
+        "stop_frame": [9],
+        "label": ["<script>alert(1)</script>"],
+    }
+    html = Segmentation.from_columns(columns, n_frames=9, fps=30.0)._repr_html_()
+    assert "<script>" not in html
+    assert "&lt;script&gt;" in html
+
+
+def test_a_day_of_segments_stays_small() -> None:
+    result = long_result(86_400)
+    html = result._repr_html_()
+    bars = parsed(html).findall(".//rect")
+    assert len(bars) <= 1 + timeline.WIDTH
+    assert len(html) < 200_000
+    assert f"and {86_401 - ROWS} more" in result.table._repr_html_()
+
+
+def test_bars_lie_where_their_segments_do() -> None:
+    bars = parsed(long_result(4)._repr_html_()).findall(".//rect")[1:]
+    assert [float(bar.get("x")) for bar in bars] == [0, 180, 360, 540]
+    assert all(170 < float(bar.get("width")) < 180 for bar in bars)
+    assert [bar.get("fill") for bar in bars] == [cluster_color(i) for i in range(4)]
