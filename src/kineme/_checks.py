@@ -103,7 +103,8 @@ def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64
 
     Raises
     ------
-    ParameterError : another shape, no frames or no dims, or values that are not finite
+    ParameterError
+        Another shape, no frames or no dims, or values that are not finite.
     """
     array = np.ascontiguousarray(as_floats(values, name))
     if array.ndim != 2 or 0 in array.shape:

@@ -20,7 +20,8 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
 
     Raises
     ------
-    WriteError : the folder is missing or the file cannot be written
+    WriteError
+        The folder is missing or the file cannot be written.
     """
     target = Path(path)
     if target.is_dir():

@@ -56,8 +56,10 @@ def from_euler(angles: Floats, axes: str) -> Floats:
 
     Parameters
     ----------
-    angles : (frames, len(axes)), radians
-    axes : any word of the letters x, y and z
+    angles : ndarray of shape (frames, len(axes))
+        Radians.
+    axes : str
+        Any word of the letters x, y and z.
     """
     half = np.asarray(angles, dtype=np.float64).T / 2
     product = np.zeros((4, half.shape[1]))

@@ -1,7 +1,5 @@
 """Every exception and warning the package raises, on one page.
 
-::
-
     Exception
       KinemeError
         FileError               a file, a line in it, and what is wrong there

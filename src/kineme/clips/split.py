@@ -1,10 +1,10 @@
 """Segments as clips: a folder with a file each, and a manifest of them.
 
 A clip of a motion is a BVH; a CSV of joint positions where it has no rotations
-(see :mod:`kineme.formats.tables.text`). A clip of signals is rows of their own file
-(see :mod:`kineme.formats.channels.writing`). Clips are called
+(see `kineme.formats.tables.text`). A clip of signals is rows of their own file
+(see `kineme.formats.channels.writing`). Clips are called
 ``RECORDING_NUMBER_TEXT``, with the text of
-:mod:`kineme.labels.spans` and ``_`` for what file systems dislike.
+`kineme.labels.spans` and ``_`` for what file systems dislike.
 
 ``manifest.csv`` has a row per clip:
 
@@ -62,17 +62,27 @@ def split(
 
     Parameters
     ----------
-    recording : what was segmented
-    segmentation : its segments, of as many frames
-    folder : to be made; one that is there must be empty
-    level, cluster : the segments to take; without a cluster all, transitions too
-    loops : blend the ends of each clip (see :mod:`kineme.clips.loops`); motions only
+    recording : Motion or Signals
+        What was segmented.
+    segmentation : Segmentation
+        Its segments, of as many frames.
+    folder : str or PathLike
+        To be made; one that is there must be empty.
+    level : {"activity", "primitive"}, optional
+        The segments to take; without a cluster all, transitions too.
+    cluster : int, optional
+        See `level`.
+    loops : bool, optional
+        Blend the ends of each clip (see `kineme.clips.loops`); motions only.
 
     Raises
     ------
-    MotionError : the segments are of another recording
-    ParameterError : no segment is of that level and cluster, or loops of signals
-    WriteError : the folder is not empty, or cannot be written
+    MotionError
+        The segments are of another recording.
+    ParameterError
+        No segment is of that level and cluster, or loops of signals.
+    WriteError
+        The folder is not empty, or cannot be written.
     """
     if segmentation.n_frames != recording.n_frames:
         raise MotionError(

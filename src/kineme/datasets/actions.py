@@ -39,13 +39,19 @@ class Cycle:
 
     Parameters
     ----------
-    seconds : how long it takes at speed 1
-    at : moments, shares of the cycle from 0 to 1
-    angles : degrees at these moments, by name; an angle whose last value is
-        not its first goes on turning from cycle to cycle
-    gait : the right side follows half a cycle later
-    flights : (from, to) shares of the cycle spent in the air, at amplitude 1
-    travels : the figure walks on and may turn
+    seconds : float
+        How long it takes at speed 1.
+    at : sequence of float
+        Moments, shares of the cycle from 0 to 1.
+    angles : mapping of str to sequence of float
+        Degrees at these moments, by name; an angle whose last value is not its first goes on
+        turning from cycle to cycle.
+    gait : bool, optional
+        The right side follows half a cycle later.
+    flights : tuple of (float, float), optional
+        (from, to) shares of the cycle spent in the air, at amplitude 1.
+    travels : bool, optional
+        The figure walks on and may turn.
     """
 
     seconds: float

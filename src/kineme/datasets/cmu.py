@@ -53,7 +53,8 @@ def cache_folder() -> Path:
 
     Raises
     ------
-    MissingDependencyError : pooch is not installed, and the variable is not set
+    MissingDependencyError
+        pooch is not installed, and the variable is not set.
     """
     named = environ.get("KINEME_CACHE")
     if named:
@@ -82,18 +83,27 @@ def fetch_subject(
 
     Parameters
     ----------
-    subject : its number in the database
-    trials : their numbers; by default from 1 up to the first that the site does not have
-    folder : where to keep them; default ``cmuNN`` in `cache_folder`
-    progress : called while a file comes: name, bytes so far, bytes in all or None
-    site, annotations : addresses, for mirrors
-    timeout_s : a connection that is silent for so long is tried again
+    subject : int
+        Its number in the database.
+    trials : sequence of int, optional
+        Their numbers; by default from 1 up to the first that the site does not have.
+    folder : str or PathLike, optional
+        Where to keep them; default ``cmuNN`` in `cache_folder`.
+    progress : callable, optional
+        Called while a file comes: name, bytes so far, bytes in all or None.
+    site, annotations : str, optional
+        Addresses, for mirrors.
+    timeout_s : float, optional
+        A connection that is silent for so long is tried again.
 
     Raises
     ------
-    ParameterError : numbers below 1
-    ReadError : no such subject or trial, or a file that cannot be had whole
-    WriteError : the folder cannot be written to
+    ParameterError
+        Numbers below 1.
+    ReadError
+        No such subject or trial, or a file that cannot be had whole.
+    WriteError
+        The folder cannot be written to.
     """
     for number in (subject, *(trials or ())):
         if number < 1:

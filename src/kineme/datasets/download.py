@@ -44,19 +44,26 @@ def fetch(
 
     Parameters
     ----------
-    url : the address; its last part is the file's name
-    folder : made where it is missing
-    check : called with the complete file; raises FileError for one that is not
-        what it should be
-    progress : called with name, bytes so far and bytes in all (None if not known)
-    timeout_s : a connection that is silent for so long is tried again
+    url : str
+        The address; its last part is the file's name.
+    folder : Path
+        Made where it is missing.
+    check : callable
+        Called with the complete file; raises FileError for one that is not what it should be.
+    progress : callable, optional
+        Called with name, bytes so far and bytes in all (None if not known).
+    timeout_s : float, optional
+        A connection that is silent for so long is tried again.
 
     Raises
     ------
-    ReadError : the server cannot be reached, breaks off again and again without
-        sending more, refuses, or sends what does not pass the check
-    WriteError : the folder cannot be written to
-    MissingDependencyError : pooch is not installed
+    ReadError
+        The server cannot be reached, breaks off again and again without sending more, refuses, or
+        sends what does not pass the check.
+    WriteError
+        The folder cannot be written to.
+    MissingDependencyError
+        pooch is not installed.
     """
     try:
         import pooch

@@ -87,8 +87,10 @@ def joint_rotations(skeleton: Skeleton, angles: Mapping[str, Floats], heading: F
     Parameters
     ----------
     skeleton : Skeleton
-    angles : (frames,) in degrees for every name in ``ANGLES``
-    heading : (frames,) in degrees, where the figure faces: 0 is +z, 90 is +x
+    angles : mapping of str to ndarray
+        (frames,) in degrees for every name in ``ANGLES``.
+    heading : ndarray of shape (frames,)
+        In degrees, where the figure faces: 0 is +z, 90 is +x.
     """
     a = {name: np.radians(values) for name, values in angles.items()}
     facing = np.radians(heading)

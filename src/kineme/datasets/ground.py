@@ -29,9 +29,14 @@ def root_path(skeleton: Skeleton, rotations: Floats, airborne: Floats, fps: floa
 
     Parameters
     ----------
-    skeleton, rotations : the figure and its joint rotations
-    airborne : (frames,) metres between the feet and the floor; 0 while they bear
-    fps : frames per second
+    skeleton : Skeleton
+        The figure and its joint rotations.
+    rotations : ndarray
+        See `skeleton`.
+    airborne : ndarray of shape (frames,)
+        Metres between the feet and the floor; 0 while they bear.
+    fps : float
+        Frames per second.
     """
     contacts = _contacts(skeleton, rotations, fps)
     heights = contacts[:, :, 1]

@@ -39,9 +39,12 @@ class Exercise:
 
     Parameters
     ----------
-    name : what it is; exercises of one name are one action
-    motion : with rotations
-    repetitions : how often it holds the exercise
+    name : str
+        What it is; exercises of one name are one action.
+    motion : Motion
+        With rotations.
+    repetitions : int, optional
+        How often it holds the exercise.
     """
 
     name: str
@@ -66,19 +69,24 @@ def exercise_sequence(
 
     Parameters
     ----------
-    exercises : of one skeleton and one frame rate
-    seed : of everything random; the same seed gives the same recording
-    actions : how many different ones are drawn; all, if there are fewer
-    runs : how many times an action is taken up; each comes once before any comes
-        again, and never after itself
-    repeats : fewest and most exercises of a run, joined one after the other
-    join : seconds over which a join is blended; at most a third of the
-        shorter exercise
+    exercises : iterable of Exercise
+        Of one skeleton and one frame rate.
+    seed : int
+        Of everything random; the same seed gives the same recording.
+    actions : int, optional
+        How many different ones are drawn; all, if there are fewer.
+    runs : int, optional
+        How many times an action is taken up; each comes once before any comes again, and never
+        after itself.
+    repeats : (int, int), optional
+        Fewest and most exercises of a run, joined one after the other.
+    join : float, optional
+        Seconds over which a join is blended; at most a third of the shorter exercise.
 
     Raises
     ------
-    ParameterError : fewer than two actions, exercises that do not fit together,
-        or one without rotations
+    ParameterError
+        Fewer than two actions, exercises that do not fit together, or one without rotations.
     """
     of_name: dict[str, list[Exercise]] = {}
     for exercise in exercises:

@@ -47,17 +47,22 @@ def synthesize(
 
     Parameters
     ----------
-    actions : what to do, in order
-    fps : frames per second
-    size : height of the figure in metres
-    noise : standard deviation in metres of a shake of every joint, new in every
-        frame: each turns by so much that the far end of what it carries moves
-        this far
-    seed : of everything random; the same seed gives the same recording
+    actions : iterable of Action
+        What to do, in order.
+    fps : float, optional
+        Frames per second.
+    size : float, optional
+        Height of the figure in metres.
+    noise : float, optional
+        Standard deviation in metres of a shake of every joint, new in every frame: each turns by so
+        much that the far end of what it carries moves this far.
+    seed : int, optional
+        Of everything random; the same seed gives the same recording.
 
     Raises
     ------
-    ParameterError : no actions, or a value that makes no recording
+    ParameterError
+        No actions, or a value that makes no recording.
     """
     sequence = tuple(actions)
     if not sequence:
@@ -87,13 +92,17 @@ def random_recording(
 
     Parameters
     ----------
-    seed : draws exercises, counts, paces, sizes, sides and the height of the person
-    activities : how many, every other one walking
-    fps, noise : as for `synthesize`
+    seed : int
+        Draws exercises, counts, paces, sizes, sides and the height of the person.
+    activities : int, optional
+        How many, every other one walking.
+    fps, noise : float, optional
+        As for `synthesize`.
 
     Raises
     ------
-    ParameterError : more activities than there are different exercises for
+    ParameterError
+        More activities than there are different exercises for.
     """
     rng = np.random.default_rng(seed)
     exercises = [name for name in ACTIONS if name not in ("walk", "stand")]

@@ -26,11 +26,16 @@ class Action:
 
     Parameters
     ----------
-    name : a key of ``ACTIONS``
-    repetitions : double steps, jumps, kicks, ...; for "stand", seconds
-    speed : 2 is twice as fast
-    amplitude : 0.5 moves half as far
-    side : "right" or "left", for kicks, punches and waves
+    name : str
+        A key of ``ACTIONS``.
+    repetitions : int, optional
+        Double steps, jumps, kicks, ...; for "stand", seconds.
+    speed : float, optional
+        2 is twice as fast.
+    amplitude : float, optional
+        0.5 moves half as far.
+    side : str, optional
+        "right" or "left", for kicks, punches and waves.
     """
 
     name: str
@@ -67,7 +72,8 @@ def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) ->
 
     Raises
     ------
-    ParameterError : a repetition would last fewer than three frames
+    ParameterError
+        A repetition would last fewer than three frames.
     """
     parts: list[Part] = []
     now, fade_in = 0, 0

@@ -3,10 +3,10 @@
 Three ways, by what the truth says:
 
 - labels per frame, where unlabelled frames count in nothing (`Comparison`): the registered scores
-  of action segmentation, for folders of recordings (:mod:`kineme.evaluation.folder`);
+  of action segmentation, for folders of recordings (`kineme.evaluation.folder`);
 - annotations whose borders are uncertain (`Annotation`): the published protocols of CMU subject 86
   and fair ones, all in `evaluate`;
-- how similar the segments of a cluster are: :mod:`kineme.evaluation.variance`.
+- how similar the segments of a cluster are: `kineme.evaluation.variance`.
 """
 
 from kineme.evaluation.annotated_scores import evaluate, evaluate_segmentation, labelling_of

@@ -111,7 +111,7 @@ def evaluate_segmentation(
     positions: ArrayLike | None = None,
     features: ArrayLike | None = None,
 ) -> dict[str, float]:
-    """All scores of a segmentation; see :func:`evaluate`.
+    """All scores of a segmentation; see `evaluate`.
 
     Its clusters are those of its activities where they have any (or labels), else those
     of its primitives. A segment in no cluster goes by its label, and without one is a cluster
@@ -134,7 +134,7 @@ def evaluate_segmentation(
 def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
     """The clusters of one level of a segmentation, as labels.
 
-    Transitions are :data:`TRANSITION`; what is in no cluster goes by its label, and without one
+    Transitions are `TRANSITION`; what is in no cluster goes by its label, and without one
     gets a name of its own.
     """
     labels = [

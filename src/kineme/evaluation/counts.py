@@ -15,7 +15,10 @@ def found_counts(truth: Annotation, primitives: Labelling) -> list[int]:
 
     Parameters
     ----------
-    truth, primitives : of one recording at one frame rate
+    truth : Annotation
+        Of one recording at one frame rate.
+    primitives : Labelling
+        See `truth`.
     """
     middles = [
         (start + stop) / 2
@@ -33,11 +36,15 @@ def count_errors(truth: Annotation, primitives: Labelling) -> tuple[float, float
 
     Parameters
     ----------
-    truth, primitives : of one recording at one frame rate
+    truth : Annotation
+        Of one recording at one frame rate.
+    primitives : Labelling
+        See `truth`.
 
     Raises
     ------
-    ParameterError : the truth knows no count
+    ParameterError
+        The truth knows no count.
     """
     errors = [
         abs(found - true)

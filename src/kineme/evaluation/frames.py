@@ -1,7 +1,7 @@
 """Fair scores of labels: is each frame in the right group, and in one group only?
 
 Truth and result are compared frame by frame. The spans in which the
-annotators disagree are a class of their own, :data:`TRANSITION`.
+annotators disagree are a class of their own, `TRANSITION`.
 """
 
 from __future__ import annotations
@@ -27,7 +27,10 @@ def one_to_one_accuracy(truth: Annotation, found: Labelling) -> tuple[float, flo
 
     Parameters
     ----------
-    truth, found : of one recording at one frame rate
+    truth : Annotation
+        Of one recording at one frame rate.
+    found : Labelling
+        See `truth`.
     """
     wanted = truth.labelling().per_frame()
     given = found.per_frame()

@@ -1,11 +1,11 @@
 """Who says what when: the two plain forms in which results and truths are compared.
 
-A :class:`Labelling` is what a program says: touching intervals with labels.
-An :class:`Annotation` is what people say: actions in order, and for each
+A `Labelling` is what a program says: touching intervals with labels.
+An `Annotation` is what people say: actions in order, and for each
 border between two of them the span in which the annotators disagree.
 
 Frames count from 0 and intervals are half-open, ``[start, stop)``: a border
-at frame b stands before frame b. The label :data:`TRANSITION` marks what
+at frame b stands before frame b. The label `TRANSITION` marks what
 belongs to no action; it is a class of its own, not a cluster.
 """
 
@@ -31,14 +31,17 @@ class Labelling:
 
     Parameters
     ----------
-    borders : rising frames, from 0 to the length of the recording
-    labels : one per interval
-    fps : frames per second
+    borders : ndarray
+        Rising frames, from 0 to the length of the recording.
+    labels : tuple of str
+        One per interval.
+    fps : float
+        Frames per second.
 
     Raises
     ------
-    ParameterError : borders do not start at 0 or do not rise, or the number
-        of labels does not fit
+    ParameterError
+        Borders do not start at 0 or do not rise, or the number of labels does not fit.
     """
 
     borders: Ints
@@ -109,8 +112,8 @@ class Labelling:
 
         Raises
         ------
-        ParameterError : the lengths in seconds differ by more than one frame
-            of the slower rate
+        ParameterError
+            The lengths in seconds differ by more than one frame of the slower rate.
         """
         own, other = self.frames / self.fps, frames / fps
         if abs(own - other) > 1 / min(self.fps, fps) + 1e-9:
@@ -135,16 +138,21 @@ class Annotation:
 
     Parameters
     ----------
-    labels : one per action
-    earliest, mean, latest : frames, one per border between two actions
-    frames : length of the recording
-    fps : frames per second
-    counts : repetitions in each action, None where not known; empty: none is
+    labels : tuple of str
+        One per action.
+    earliest, mean, latest : ndarray
+        Frames, one per border between two actions.
+    frames : int
+        Length of the recording.
+    fps : float
+        Frames per second.
+    counts : tuple of int or None, optional
+        Repetitions in each action, None where not known; empty: none is.
 
     Raises
     ------
-    ParameterError : borders run backwards, overlap or pass the end, or there
-        is no action
+    ParameterError
+        Borders run backwards, overlap or pass the end, or there is no action.
     """
 
     labels: tuple[str, ...]

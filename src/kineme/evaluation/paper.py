@@ -1,11 +1,11 @@
 """The accuracies of the published protocols, as their authors coded them.
 
-They are here to be comparable, not to be trusted: :func:`strict_and_tolerant`
+They are here to be comparable, not to be trusted: `strict_and_tolerant`
 never looks at clusters and rises with every cut. Uniform cuts twice a second
 pass every published method.
 
 Sources: Vögele, Krüger, Klein 2014, section 5.1, and the authors' program of
-2017; for :func:`majority_accuracy` arXiv 2308.14865. The program's spans are
+2017; for `majority_accuracy` arXiv 2308.14865. The program's spans are
 closed and share their border frames: ``[start, stop)`` of this package is
 ``start .. min(stop, frames - 1)`` there.
 """
@@ -29,7 +29,10 @@ def strict_and_tolerant(truth: Annotation, found: Labelling) -> tuple[float, flo
 
     Parameters
     ----------
-    truth, found : of one recording at one frame rate
+    truth : Annotation
+        Of one recording at one frame rate.
+    found : Labelling
+        See `truth`.
     """
     start, stop, certain = _closed_spans(truth)
     first = found.starts

@@ -60,7 +60,8 @@ def score_rows(
 
     Parameters
     ----------
-    columns : scores by column title; scores that no column has are left out
+    columns : mapping of str to mapping of str to float
+        Scores by column title; scores that no column has are left out.
     """
     groups = []
     for group, names in GROUPS.items():
@@ -99,7 +100,8 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
 
     Raises
     ------
-    WriteError : another suffix, or the file cannot be written
+    WriteError
+        Another suffix, or the file cannot be written.
     """
     suffix = path.suffix.lower()
     if suffix not in OUTPUTS:

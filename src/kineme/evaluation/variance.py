@@ -54,12 +54,15 @@ def point_cloud_variance(positions: ArrayLike, found: Labelling) -> list[Cluster
 
     Parameters
     ----------
-    positions : (frames, joints, 3), metres, y up, at the rate of ``found``
-    found : the segments; transitions are left out
+    positions : array_like of shape (frames, joints, 3)
+        Metres, y up, at the rate of ``found``.
+    found : Labelling
+        The segments; transitions are left out.
 
     Raises
     ------
-    ParameterError : positions of another shape or length
+    ParameterError
+        Positions of another shape or length.
     """
     points = np.asarray(positions, np.float64)
     if points.ndim != 3 or points.shape[2] != 3:
@@ -73,12 +76,15 @@ def feature_variance(features: ArrayLike, found: Labelling) -> list[ClusterVaria
 
     Parameters
     ----------
-    features : (frames, dims), stacked, at the rate of ``found``
-    found : the segments; transitions are left out
+    features : array_like of shape (frames, dims)
+        Stacked, at the rate of ``found``.
+    found : Labelling
+        The segments; transitions are left out.
 
     Raises
     ------
-    ParameterError : features of another shape or length
+    ParameterError
+        Features of another shape or length.
     """
     vectors = np.asarray(features, np.float64)
     if vectors.ndim != 2:

@@ -40,17 +40,20 @@ def body_frame(
     Parameters
     ----------
     motion : Motion
-    joints : indices of the joints wanted, all by default
-    effectors : where the legs end, which tells pelvis and hips; found by name
-        or shape by default
+    joints : tuple of int, optional
+        Indices of the joints wanted, all by default.
+    effectors : EndEffectors, optional
+        Where the legs end, which tells pelvis and hips; found by name or shape by default.
 
     Raises
     ------
-    EndEffectorError : the legs were not found
-    MotionError : the legs have no hips, so nothing tells left from right
+    EndEffectorError
+        The legs were not found.
+    MotionError
+        The legs have no hips, so nothing tells left from right.
 
-    Source
-    ------
+    References
+    ----------
     Voegele et al. 2014, section 3.1; heading as in the authors' program.
     """
     pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))

@@ -49,7 +49,7 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
 
     Parameters
     ----------
-    features : (frames, dims)
+    features : array_like of shape (frames, dims)
         Search vectors in the order of time, finite, in any unit.
     neighbors : int
         Frames that each frame moves towards: its nearest, without itself. At
@@ -63,8 +63,8 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
         Features are not frames × dims or not finite, or a parameter is out of
         range.
 
-    Source
-    ------
+    References
+    ----------
     Krueger et al. 2017, section III; constants as in the authors' program.
     """
     points = as_features(features, "features to bundle")

@@ -46,11 +46,13 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
 
     Parameters
     ----------
-    positions : (frames, points, 3), metres, at least two points
+    positions : array_like of shape (frames, points, 3)
+        Metres, at least two points.
 
     Raises
     ------
-    MotionError : a single point
+    MotionError
+        A single point.
 
     Notes
     -----
@@ -85,7 +87,7 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
 
     Parameters
     ----------
-    positions : (frames, points, 3)
+    positions : ndarray of shape (frames, points, 3)
     """
     few = positions[:: max(1, len(positions) // _FRAMES)]
     apart, varying = _mean_and_deviation(few)

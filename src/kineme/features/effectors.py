@@ -70,19 +70,20 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
 
     Parameters
     ----------
-    source : a skeleton, or a motion: then its most upright pose, not the rest
-        pose, tells the shape where names do not help
-    names : joint names by part ("left_ankle", "right_ankle", "head",
-        "left_wrist", "right_wrist"; those left out are searched for), or all
-        five in this order
+    source : Skeleton or Motion
+        A skeleton, or a motion: then its most upright pose, not the rest pose, tells the shape
+        where names do not help.
+    names : mapping of str to str or sequence of str, optional
+        Joint names by part ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist"; those
+        left out are searched for), or all five in this order.
 
     Raises
     ------
-    EndEffectorError : a part was not found, or a given name is not in the
-        skeleton
+    EndEffectorError
+        A part was not found, or a given name is not in the skeleton.
 
-    Source
-    ------
+    References
+    ----------
     Voegele et al. 2014, section 3.1; the choice of tips as in the authors'
     program.
     """

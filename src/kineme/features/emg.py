@@ -31,12 +31,15 @@ def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> ND
     Parameters
     ----------
     values : (frames, channels) or (frames,)
-    fps : samples per second; more than twice the cutoff
-    cutoff : hertz
+    fps : float
+        Samples per second; more than twice the cutoff.
+    cutoff : float, optional
+        Hertz.
 
     Raises
     ------
-    ParameterError : a cutoff that the sampling rate does not reach
+    ParameterError
+        A cutoff that the sampling rate does not reach.
     """
     from scipy.signal import butter, sosfiltfilt
 

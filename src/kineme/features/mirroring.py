@@ -42,8 +42,8 @@ def mirror(motion: Motion) -> Motion:
 
     Raises
     ------
-    MotionError : no joint has a counterpart on the other side by name, or a limb
-        has no equal there
+    MotionError
+        No joint has a counterpart on the other side by name, or a limb has no equal there.
     """
     check_motion(motion, "mirror")
     partners = _partners(motion.skeleton)
@@ -63,12 +63,13 @@ def mirror_features(features: ArrayLike) -> Floats:
 
     Parameters
     ----------
-    features : (frames, 15 * blocks)
+    features : array_like of shape (frames, 15 * blocks)
         As `pose_features` and `stack` give them.
 
     Raises
     ------
-    ParameterError : no such features
+    ParameterError
+        No such features.
     """
     values = as_floats(features, "features")
     block = 3 * len(PARTS)

@@ -24,9 +24,12 @@ def find_by_name(names: Sequence[str], words: Sequence[str], side: str | None) -
 
     Parameters
     ----------
-    names : of the joints, parents before children
-    words : wanted parts, lower case, the preferred one first
-    side : "left", "right", or None for a joint on the body's midline
+    names : sequence of str
+        Of the joints, parents before children.
+    words : sequence of str
+        Wanted parts, lower case, the preferred one first.
+    side : str or None
+        "left", "right", or None for a joint on the body's midline.
     """
     for word in words:
         found = [

@@ -27,9 +27,12 @@ def cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -
 
     Parameters
     ----------
-    points : (frames, joints, 3), metres, y up
-    rows, columns : spans of frames
-    half : frames of the window on either side; the ends are repeated
+    points : ndarray of shape (frames, joints, 3)
+        Metres, y up.
+    rows, columns : slice
+        Spans of frames.
+    half : int
+        Frames of the window on either side; the ends are repeated.
     """
     floor_a, height_a, _ = _clouds(points, np.arange(rows.start, rows.stop), half)
     floor_b, height_b, _ = _clouds(points, np.arange(columns.start, columns.stop), half)
@@ -48,15 +51,21 @@ def fit_clouds(
 
     Parameters
     ----------
-    points : (frames, joints, 3), metres, y up
-    first, second : (pairs,), frames
-    half : frames of the window on either side; the ends are repeated
+    points : ndarray of shape (frames, joints, 3)
+        Metres, y up.
+    first, second : ndarray of shape (pairs,)
+        Frames.
+    half : int
+        Frames of the window on either side; the ends are repeated.
 
     Returns
     -------
-    distances : (pairs,), metres
-    angles : (pairs,), radians about the vertical through the origin, done first
-    shifts : (pairs, 2), metres along x and z, done after the turn
+    distances : ndarray of shape (pairs,)
+        Metres.
+    angles : ndarray of shape (pairs,)
+        Radians about the vertical through the origin, done first.
+    shifts : ndarray of shape (pairs, 2)
+        Metres along x and z, done after the turn.
     """
     blocks = range(0, max(len(first), 1), PAIRS_AT_ONCE)
     parts = [

@@ -29,15 +29,16 @@ def pose_features(motion: Motion, *, effectors: EndEffectors | Names | None = No
     Parameters
     ----------
     motion : Motion
-    effectors : the end effectors or their names (see ``end_effectors``);
-        searched for by default
+    effectors : EndEffectors or mapping of str to str or sequence of str, optional
+        The end effectors or their names (see ``end_effectors``); searched for by default.
 
     Raises
     ------
-    EndEffectorError : head, hands or feet were not found
+    EndEffectorError
+        Head, hands or feet were not found.
 
-    Source
-    ------
+    References
+    ----------
     Voegele et al. 2014, section 3.1 (feature set of 15 values).
     """
     check_motion(motion, "pose_features")
@@ -55,8 +56,9 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
 
     Parameters
     ----------
-    features : (frames, dims)
-    offsets : frames relative to the one in question; 0 is not added by itself
+    features : array_like of shape (frames, dims)
+    offsets : sequence of int
+        Frames relative to the one in question; 0 is not added by itself.
 
     Returns
     -------
@@ -64,8 +66,8 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
 
     Raises
     ------
-    ParameterError : features are not two-dimensional or empty, or there are no
-        offsets or equal ones
+    ParameterError
+        Features are not two-dimensional or empty, or there are no offsets or equal ones.
     """
     features = as_floats(features, "features")
     offsets = as_indices(offsets, "offsets")
@@ -87,7 +89,8 @@ def offsets_in_frames(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]
 
     Raises
     ------
-    ParameterError : an offset is not a number, or two become the same frame
+    ParameterError
+        An offset is not a number, or two become the same frame.
     """
     if not (fps > 0 and np.isfinite(fps)):
         raise ParameterError(f"fps must be a positive number, not {fps!r}")

@@ -18,7 +18,8 @@ def body_size(motion: Motion, effectors: EndEffectors) -> float:
 
     Raises
     ------
-    MotionError : the bones have no length
+    MotionError
+        The bones have no length.
     """
     legs = [_chain(motion, joint) for joint in (effectors.left_ankle, effectors.right_ankle)]
     size = float(np.mean(legs)) + _chain(motion, effectors.head)

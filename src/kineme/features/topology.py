@@ -41,8 +41,10 @@ def find_by_shape(parents: Sequence[int], pose: Floats) -> dict[str, int]:
 
     Parameters
     ----------
-    parents : index of each joint's parent, -1 for a root
-    pose : (joints, 3), metres, y up: a pose in which the legs are the lower limbs
+    parents : sequence of int
+        Index of each joint's parent, -1 for a root.
+    pose : ndarray of shape (joints, 3)
+        Metres, y up: a pose in which the legs are the lower limbs.
     """
     paths, lengths = _longest_paths(parents, pose)
     pairs = _limb_pairs(parents, paths, pose)[:2]

@@ -61,13 +61,17 @@ def columns_to_motion(
 
     Parameters
     ----------
-    name : of the format
-    columns : (rows,) each, numbers, by their names
-    limit : confidence from which a keypoint counts as seen
+    name : str
+        Of the format.
+    columns : mapping of str to array_like
+        (rows,) each, numbers, by their names.
+    limit : float, optional
+        Confidence from which a keypoint counts as seen.
 
     Raises
     ------
-    ReadError : no joints are found, columns differ in length, or nothing tells the rate
+    ReadError
+        No joints are found, columns differ in length, or nothing tells the rate.
     """
     names, positions, sure = _joints(content, columns)
     limit = limit if options.confidence is None else options.confidence
@@ -112,12 +116,15 @@ def timed(content: FileContent, columns: Mapping[str, ArrayLike], fps: float | N
 
     Parameters
     ----------
-    columns : (rows,) each, by their names; one of them tells the time or the rate
-    fps : in place of what the columns tell
+    columns : mapping of str to array_like
+        (rows,) each, by their names; one of them tells the time or the rate.
+    fps : float or None
+        In place of what the columns tell.
 
     Raises
     ------
-    ReadError : nothing tells the rate, or what does contradicts itself
+    ReadError
+        Nothing tells the rate, or what does contradicts itself.
     """
     if fps:
         return Timing(fps)

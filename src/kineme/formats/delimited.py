@@ -33,15 +33,21 @@ def rows_of(
 
     Parameters
     ----------
-    first : the number of the first line in the file
-    separator : between cells
-    width : cells in a line; empty ones may follow
-    columns : those wanted, all by default; the others may hold anything
-    dates : columns that hold dates, given as seconds since 1970
+    first : int
+        The number of the first line in the file.
+    separator : str
+        Between cells.
+    width : int
+        Cells in a line; empty ones may follow.
+    columns : sequence of int, optional
+        Those wanted, all by default; the others may hold anything.
+    dates : sequence of int, optional
+        Columns that hold dates, given as seconds since 1970.
 
     Raises
     ------
-    ReadError : a cell is not a number, or a line is too short or too long
+    ReadError
+        A cell is not a number, or a line is too short or too long.
     """
     wanted = range(width) if columns is None else columns
     dated = [i for i in dates if i in wanted]

@@ -117,8 +117,10 @@ def find_body(names: Sequence[str], usable: Collection[int]) -> dict[str, tuple[
 
     Parameters
     ----------
-    names : of all points, without the subject's name
-    usable : indices of those that may be taken
+    names : sequence of str
+        Of all points, without the subject's name.
+    usable : collection of int
+        Indices of those that may be taken.
     """
     at: dict[str, int] = {}
     for point in sorted(usable):

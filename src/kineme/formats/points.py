@@ -43,12 +43,18 @@ class Points:
 
     Parameters
     ----------
-    names : one per point
-    positions : (frames, points, 3), NaN where not seen
-    fps : frames per second
-    unit : a name in `UNITS`, metres in one unit, "pixel", or None if not known
-    up : the axis that points up, or None if not known
-    usual_up : the axis taken where neither the file nor the body tells
+    names : sequence of str
+        One per point.
+    positions : ndarray of shape (frames, points, 3)
+        NaN where not seen.
+    fps : float
+        Frames per second.
+    unit : str or float, optional
+        A name in `UNITS`, metres in one unit, "pixel", or None if not known.
+    up : str, optional
+        The axis that points up, or None if not known.
+    usual_up : str, optional
+        The axis taken where neither the file nor the body tells.
     """
 
     names: Sequence[str]
@@ -64,7 +70,8 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
 
     Raises
     ------
-    ReadError : no point was seen throughout, or the body in no frame
+    ReadError
+        No point was seen throughout, or the body in no frame.
     """
     path = provenance.path or "recording"
     names, subjects = of_one_subject([name.strip() or "point" for name in points.names])

@@ -58,11 +58,13 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
 
     Parameters
     ----------
-    times : (rows,), seconds, NaN where a row has none
+    times : ndarray of shape (rows,)
+        Seconds, NaN where a row has none.
 
     Raises
     ------
-    ReadError : times stand still, are in no order, or are too few to tell a rate
+    ReadError
+        Times stand still, are in no order, or are too few to tell a rate.
     """
     known = np.isfinite(times)
     if known.sum() < 2 or known.mean() < 0.5:
@@ -100,14 +102,17 @@ def seconds(values: ArrayLike, unit: str | None = None) -> Floats:
 
     Parameters
     ----------
-    values : (rows,)
-    unit : of numbers, one of `UNITS_OF_TIME`; None for seconds, or what numbers of this
-        size since 1970 must be
+    values : array_like of shape (rows,)
+    unit : str, optional
+        Of numbers, one of `UNITS_OF_TIME`; None for seconds, or what numbers of this size since
+        1970 must be.
 
     Raises
     ------
-    ValueError : text that is no date, or anything else that is no time
-    TypeError : the same
+    ValueError
+        Text that is no date, or anything else that is no time.
+    TypeError
+        The same.
     """
     given = np.asarray(values)
     if given.dtype.kind in "mM":

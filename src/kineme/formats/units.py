@@ -79,8 +79,14 @@ def place(
 
     Parameters
     ----------
-    skeleton, rotations, translations : as for `forward_kinematics`, in file units
-    unit, up : of the file; None to infer them
+    skeleton : Skeleton
+        As for `forward_kinematics`, in file units.
+    rotations, translations : ndarray
+        See `skeleton`.
+    unit : str, float or None
+        Of the file; None to infer them.
+    up : str or None
+        See `unit`.
     """
     if unit is None:
         unit, note = infer_unit(skeleton, translations)

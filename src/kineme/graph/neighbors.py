@@ -40,10 +40,14 @@ class NeighborGraph:
     Parameters
     ----------
     indptr : (rows + 1,) int64
-    indices : (entries,) int32, ascending within a row
-    distances : (entries,) float32, in the unit of the features
-    n_columns : frames that could be neighbours
-    radius : the radius searched
+    indices : ndarray of int32 of shape (entries,)
+        Ascending within a row.
+    distances : ndarray of float32 of shape (entries,)
+        In the unit of the features.
+    n_columns : int
+        Frames that could be neighbours.
+    radius : float
+        The radius searched.
     """
 
     indptr: NDArray[np.int64]
@@ -138,9 +142,9 @@ def neighbor_graph(
 
     Parameters
     ----------
-    features : (frames, dims)
+    features : array_like of shape (frames, dims)
         One vector per frame, finite.
-    others : (other frames, dims), optional
+    others : array_like of shape (other frames, dims), optional
         Where to look for neighbours; by default among ``features``, where
         every frame is its own nearest neighbour.
     radius : float

@@ -10,7 +10,7 @@ sktime     a frame with intervals ``[start, stop)`` as ``ilocs``, and ``labels``
 mir_eval   ``(n, 2)`` seconds from 0 to the end, and a list of labels
 ========== =====================================================================
 
-Texts are those of :mod:`kineme.labels.spans`. What comes back is on the
+Texts are those of `kineme.labels.spans`. What comes back is on the
 activity level.
 """
 
@@ -49,7 +49,7 @@ def to_aeon(segmentation: Segmentation, *, level: Level = "activity") -> NDArray
     """The frames at which a segment starts, without 0: aeon's change points.
 
     aeon's other convention, a label for each frame, is
-    :meth:`kineme.Segmentation.per_frame`.
+    `kineme.Segmentation.per_frame`.
     """
     return segmentation.cuts(level)
 
@@ -65,7 +65,8 @@ def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.Da
 
     Raises
     ------
-    MissingDependencyError : pandas is not installed
+    MissingDependencyError
+        pandas is not installed.
     """
     try:
         import pandas as pd

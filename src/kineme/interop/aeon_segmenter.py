@@ -28,9 +28,14 @@ class KinemeSegmenter(BaseSegmenter):  # type: ignore[misc]
 
     Parameters
     ----------
-    preset, fps : as in `kineme.Segmenter`
-    level : whose borders are change points, ``activity`` or ``primitive``
-    constants : of the preset, to change
+    preset : str, optional
+        As in `kineme.Segmenter`.
+    fps : float, optional
+        See `preset`.
+    level : {"activity", "primitive"}, optional
+        Whose borders are change points, ``activity`` or ``primitive``.
+    constants : mapping of str to anything, optional
+        Of the preset, to change.
     """
 
     _tags = {"capability:multivariate": True, "fit_is_empty": True, "returns_dense": True}  # noqa: RUF012

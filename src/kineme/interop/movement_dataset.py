@@ -46,13 +46,17 @@ def to_movement(
     Parameters
     ----------
     motion : Motion
-    segmentation : of this motion, to go with it
-    individual : what the person is called
+    segmentation : Segmentation, optional
+        Of this motion, to go with it.
+    individual : str, optional
+        What the person is called.
 
     Raises
     ------
-    ParameterError : the segmentation is of another length
-    MissingDependencyError : xarray is not installed
+    ParameterError
+        The segmentation is of another length.
+    MissingDependencyError
+        xarray is not installed.
     """
     try:
         import xarray as xr
@@ -102,15 +106,25 @@ def from_movement(
 
     Parameters
     ----------
-    dataset : with ``position`` and perhaps ``confidence``
-    individual : whose motion; needed where there are several
-    fps, unit, up : in place of what the dataset says, as for `kineme.read`
-    confidence : points less sure than this were not seen
+    dataset : xr.Dataset
+        With ``position`` and perhaps ``confidence``.
+    individual : str, optional
+        Whose motion; needed where there are several.
+    fps : float, optional
+        In place of what the dataset says, as for `kineme.read`.
+    unit : str or float, optional
+        See `fps`.
+    up : str, optional
+        See `fps`.
+    confidence : float, optional
+        Points less sure than this were not seen.
 
     Raises
     ------
-    ParameterError : another layout, no such individual, or several and none named
-    ReadError : points that make no motion, or nothing that tells the frame rate
+    ParameterError
+        Another layout, no such individual, or several and none named.
+    ReadError
+        Points that make no motion, or nothing that tells the frame rate.
     """
     person = _individual(dataset, individual)
     position = person["position"].transpose("time", "keypoints", "space")

@@ -40,14 +40,19 @@ def write_rerun(
     Parameters
     ----------
     motion : Motion
-    segmentation : of this motion; None for the skeleton alone
-    path : the file
+    segmentation : Segmentation or None
+        Of this motion; None for the skeleton alone.
+    path : str or PathLike
+        The file.
 
     Raises
     ------
-    ParameterError : the segmentation is of another length
-    WriteError : the file cannot be written
-    MissingDependencyError : rerun-sdk is not installed
+    ParameterError
+        The segmentation is of another length.
+    WriteError
+        The file cannot be written.
+    MissingDependencyError
+        Rerun-sdk is not installed.
     """
     try:
         import rerun as rr

@@ -28,9 +28,14 @@ class KinemeSegmenter(BaseDetector):  # type: ignore[misc]
 
     Parameters
     ----------
-    preset, fps : as in `kineme.Segmenter`
-    level : ``activity`` or ``primitive``
-    constants : of the preset, to change
+    preset : str, optional
+        As in `kineme.Segmenter`.
+    fps : float, optional
+        See `preset`.
+    level : {"activity", "primitive"}, optional
+        ``activity`` or ``primitive``.
+    constants : mapping of str to anything, optional
+        Of the preset, to change.
 
     Examples
     --------

@@ -13,7 +13,7 @@ Reading what was written gives an equal segmentation. A table whose provenance f
 can still be read: the frame rate then follows from frames and seconds, and a note says so.
 Tables of intervals (``start_s``, ``stop_s``, ``label``; comma or tab) are read as ``csv``.
 
-Those of other programs hold labels, see :mod:`kineme.labels.spans`:
+Those of other programs hold labels, see `kineme.labels.spans`:
 
 ============ ============= ===================================================
 ``audacity`` ``.txt``      one level

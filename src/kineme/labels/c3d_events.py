@@ -48,7 +48,7 @@ def read_events(path: str | PathLike[str], *, names: Collection[str] | None = No
 
     Examples
     --------
-    The gait cycles of the right leg::
+    The gait cycles of the right leg:
 
         cycles = read_events("gait.c3d", names=["Right Foot Strike"])
     """

@@ -1,6 +1,6 @@
 """Segments as JSON, schema ``kineme.segments/1``.
 
-One object::
+One object:
 
     {
       "schema": "kineme.segments/1",
@@ -14,7 +14,7 @@ One object::
       ]
     }
 
-The columns are those of :mod:`kineme.segments.table`; a missing score is
+The columns are those of `kineme.segments.table`; a missing score is
 ``null``. A reader must ignore names it does not know; a change that old
 readers would misunderstand gets the next number.
 """
@@ -100,7 +100,7 @@ def parse(text: str, path: Path) -> dict[str, Any]:
 
 
 def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segmentation:
-    """The segmentation of a table and what :func:`head_of` gave."""
+    """The segmentation of a table and what `head_of` gave."""
     n_frames, fps = head.get("n_frames"), head.get("fps")
     if type(n_frames) is not int:
         raise ReadError(path, f'"n_frames" must be a whole number, not {n_frames!r}')

@@ -1,7 +1,5 @@
 """One label per line and frame, as MS-TCN and its followers keep their data.
 
-::
-
     corpus/mapping.txt              "0 walk", "1 jump", ...: a number per class
     corpus/groundTruth/take.txt     "walk" once per frame
 

@@ -1,7 +1,7 @@
 """Segments as Parquet: the table's columns as they are, no index.
 
 Frame rate, provenance and timings are JSON in the file's metadata under the
-key ``kineme.segments``, with the schema of :mod:`kineme.labels.json_table`.
+key ``kineme.segments``, with the schema of `kineme.labels.json_table`.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ scores, clusters only where there is no label.
 
 Read are both text forms, UTF-8 or UTF-16, by Praat's own rule: numbers that
 stand alone, ``"texts"`` with doubled quotes and ``<flags>`` count, all else is
-decoration. Tiers are chosen as in :mod:`kineme.labels.elan`; point tiers are
+decoration. Tiers are chosen as in `kineme.labels.elan`; point tiers are
 ignored.
 
 praatio reads these files, too; the tests hold both against each other. A

@@ -1,6 +1,6 @@
 """The joints of a body and how they hang together.
 
-A joint sits where its rotation acts, and its offset is carried by the parent::
+A joint sits where its rotation acts, and its offset is carried by the parent:
 
     G[j] = G[parent] * R[j]
     p[j] = p[parent] + G[parent] @ offset[j]

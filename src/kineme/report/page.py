@@ -2,7 +2,7 @@
 
 The page itself is built from the sources in ``web/pages`` and comes with the
 package. It has three marked places for data, which become script elements that
-no browser runs: the :class:`~kineme.web.messages.Recording` message, the binary
+no browser runs: the `kineme.web.messages.Recording` message, the binary
 motion, and the tiles of the similarity matrix.
 """
 
@@ -85,7 +85,7 @@ def filled(template: str, message: Recording, binary: bytes, tiles: dict[str, by
         The page as it was built.
     message : Recording
     binary : bytes
-        The poses, see :mod:`kineme.web.display`.
+        The poses, see `kineme.web.display`.
     tiles : dict
         PNGs by "level/row/column".
 

@@ -19,10 +19,14 @@ def aca_accuracy(truth: Annotation, found: Labelling, *, blocks: Ints | None = N
 
     Parameters
     ----------
-    truth, found : of one recording at one frame rate
-    blocks : first frames of the blocks to which the recording was reduced. The
-        authors count blocks, a border of the truth being that of the block it
-        lies in: a block has the labels of its last frame. None counts frames.
+    truth : Annotation
+        Of one recording at one frame rate.
+    found : Labelling
+        See `truth`.
+    blocks : ndarray, optional
+        First frames of the blocks to which the recording was reduced. The authors count blocks, a
+        border of the truth being that of the block it lies in: a block has the labels of its last
+        frame. None counts frames.
     """
     counted = np.arange(found.frames) if blocks is None else np.append(blocks[1:], found.frames) - 1
     table = contingency_matrix(

@@ -49,8 +49,10 @@ def run(
 
     Parameters
     ----------
-    methods : by name, in the order of the tables
-    progress : called with trial and method before each run
+    methods : mapping of str to callable
+        By name, in the order of the tables.
+    progress : callable, optional
+        Called with trial and method before each run.
     """
     results = []
     for trial in trials:
@@ -116,12 +118,13 @@ def score_published_cuts(folder: Path) -> list[PublishedCuts]:
 
     Parameters
     ----------
-    folder : holds ``published.json`` with the cuts (``aca_cuts_30hz``, …), and
-        the annotations
+    folder : Path
+        Holds ``published.json`` with the cuts (``aca_cuts_30hz``, …), and the annotations.
 
     Raises
     ------
-    ReadError : there is no such file, or it is damaged
+    ReadError
+        There is no such file, or it is damaged.
     """
     path = folder / "published.json"
     truths = read_truths(folder)

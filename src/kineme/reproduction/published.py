@@ -1,7 +1,7 @@
 """Published accuracies on CMU subject 86, trial by trial, each with its source.
 
 They are facts to compare with, shipped as ``published.json`` beside this
-file. How they were computed is told in :mod:`kineme.evaluation.paper`, as far
+file. How they were computed is told in `kineme.evaluation.paper`, as far
 as it is known: ACA's and HACA's do not follow from their published cuts.
 """
 

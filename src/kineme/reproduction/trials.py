@@ -61,7 +61,8 @@ def find_folder(data: str | PathLike[str] | None = None) -> Path:
 
     Raises
     ------
-    ReadError : it holds no annotations, or no folder is known
+    ReadError
+        It holds no annotations, or no folder is known.
     """
     named = data or os.environ.get("KINEME_DATA") or _cache()
     if named is None:
@@ -92,9 +93,10 @@ def load_trials(
 
     Raises
     ------
-    ParameterError : a name that is no trial
-    ReadError : a trial is not at hand or does not read, or its annotation is
-        of another length
+    ParameterError
+        A name that is no trial.
+    ReadError
+        A trial is not at hand or does not read, or its annotation is of another length.
     """
     unknown = [name for name in names or () if name not in TRIALS]
     if unknown:

@@ -45,7 +45,7 @@ def view_of_signals(
     ----------
     signals : Signals
     preset : Preset
-        For signals, see :func:`kineme.methods.resolve_preset`.
+        For signals, see `kineme.methods.resolve_preset`.
     emg : bool
         Take the envelopes of muscle signals first.
     standardize : bool

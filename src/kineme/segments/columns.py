@@ -18,7 +18,8 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
 
     Parameters
     ----------
-    columns : mapping of str to array-like
+    columns : mapping of str to array_like
+        Mapping of str to array-like.
     fps : float
         Frames per second.
 

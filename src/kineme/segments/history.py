@@ -24,7 +24,7 @@ class History(Generic[State]):
     Parameters
     ----------
     present : State
-        Usually a :class:`~kineme.segments.segmentation.Segmentation`.
+        Usually a `kineme.segments.segmentation.Segmentation`.
     past : tuple of State
         Those before it, oldest first.
     future : tuple of State

@@ -1,6 +1,6 @@
 """Segmentation: the segments of a recording, where they came from, what they cost.
 
-The columns of its table are described in :mod:`kineme.segments.table`.
+The columns of its table are described in `kineme.segments.table`.
 """
 
 from __future__ import annotations
@@ -98,7 +98,8 @@ class Segmentation:
 
         Parameters
         ----------
-        columns : mapping of str to array-like
+        columns : mapping of str to array_like
+            Mapping of str to array-like.
         n_frames : int
             Length of the recording.
         fps : float

@@ -143,7 +143,8 @@ class SegmentTable:
 
         Parameters
         ----------
-        rows : slice or array-like
+        rows : slice or array_like
+            Slice or array-like.
 
         Returns
         -------

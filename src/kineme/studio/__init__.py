@@ -1,7 +1,5 @@
 """The studio: a local server and a page to look at recordings and correct their segments.
 
-::
-
     server   a socket of this machine, Ctrl+C, the browser
       app      routes ─▶ open recordings, behind security: host, origin, token, headers
         open_recordings   by id; open_recording: table, revision, undo, saving of each
@@ -12,6 +10,6 @@
         choices           what the page offers: presets, constants, formats
 
 Everything that a page sends is checked as it is decoded into the types of
-:mod:`kineme.web.requests`. No path is ever made from what a page sends: files
+`kineme.web.requests`. No path is ever made from what a page sends: files
 are found by ids, and an upload's name is made anew.
 """

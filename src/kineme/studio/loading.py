@@ -134,7 +134,7 @@ class LoadedRecording:
         segmentation : Segmentation
         base : KnowledgeBase
         threshold, spread
-            As :func:`kineme.transfer.transfer_labels` takes them.
+            As `kineme.transfer.transfer_labels` takes them.
 
         Returns
         -------

@@ -27,9 +27,9 @@ class ReadingOptions:
     Parameters
     ----------
     file : ReadOptions
-        As :func:`kineme.formats.read_quietly` takes them.
+        As `kineme.formats.read_quietly` takes them.
     effectors : mapping, optional
-        The names of head, hands and feet, as :func:`kineme.features.end_effectors` takes them.
+        The names of head, hands and feet, as `kineme.features.end_effectors` takes them.
     """
 
     file: ReadOptions = field(default_factory=ReadOptions)

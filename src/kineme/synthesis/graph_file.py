@@ -1,6 +1,6 @@
 """Motion graphs as JSON, schema ``kineme.motion-graph/1``.
 
-One object::
+One object:
 
     {
       "schema": "kineme.motion-graph/1",

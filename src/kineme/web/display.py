@@ -44,7 +44,7 @@ def display_motion(
         What is to be shown.
     effectors : mapping, optional
         Joints that stand for head, hands and feet where names do not tell, as
-        :func:`kineme.features.end_effectors` takes them.
+        `kineme.features.end_effectors` takes them.
     most_bytes : int
         Length above which fewer digits are sent, then fewer poses.
 

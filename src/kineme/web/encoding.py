@@ -44,7 +44,7 @@ def from_json(body: bytes, kind: type[Message]) -> Message:
     body : bytes
         JSON.
     kind : type
-        A request of :mod:`kineme.web.requests`.
+        A request of `kineme.web.requests`.
 
     Returns
     -------

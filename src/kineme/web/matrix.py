@@ -2,7 +2,7 @@
 
 A cell of level 0 is the similarity of two samples: ``exp(-d²)`` of the distance
 of their features, from 0 (nothing in common, or not seen) to 1. The features of
-:mod:`kineme.web.similarity` are taken 0.2 s before to 0.2 s after.
+`kineme.web.similarity` are taken 0.2 s before to 0.2 s after.
 
 A cell of level L merges 2^L samples on either side. It compares how their poses
 are distributed, mean and deviation of each feature (the Fréchet distance of

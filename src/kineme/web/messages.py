@@ -1,9 +1,9 @@
 """What the pages are told: one msgspec ``Struct`` a message, each of them plain JSON.
 
-The report carries one :class:`Recording` inside its file; the studio's server
-sends the same over HTTP. What pages send is in :mod:`kineme.web.requests`; the
+The report carries one `Recording` inside its file; the studio's server
+sends the same over HTTP. What pages send is in `kineme.web.requests`; the
 TypeScript types (``web/pages/src/messages.ts``) are made from both modules. A
-row of the segment table is :class:`kineme.segments.table.Segment` itself.
+row of the segment table is `kineme.segments.table.Segment` itself.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Segments(Struct, frozen=True, kw_only=True):
 
 
 class MotionHead(Struct, frozen=True, kw_only=True):
-    """How to read the binary motion; see :mod:`kineme.web.display`.
+    """How to read the binary motion; see `kineme.web.display`.
 
     ``n_samples`` poses at ``sample_fps``; position of a joint in metres, y up:
     ``origin + step * integer``. ``heading`` is where the body looks at each
@@ -48,7 +48,7 @@ class MotionHead(Struct, frozen=True, kw_only=True):
 
 
 class MatrixHead(Struct, frozen=True, kw_only=True):
-    """The pyramid of self-similarity tiles; see :mod:`kineme.web.matrix`.
+    """The pyramid of self-similarity tiles; see `kineme.web.matrix`.
 
     Level 0 has one cell per sample of ``fps`` and ``sizes[0]`` cells a side;
     each next level halves that; the last is one tile. Tiles are square, ``tile``

@@ -33,7 +33,7 @@ class PageData:
     motion : MotionHead or None
         How to read ``binary``; None for signals.
     binary : bytes
-        The poses, see :mod:`kineme.web.display`; empty for signals.
+        The poses, see `kineme.web.display`; empty for signals.
     matrix : Matrix
         The self-similarity of the recording.
     """
@@ -102,7 +102,7 @@ def recording_message(
     name : str
         What people call it.
     band : int, optional
-        Of the tiles that go along, see :meth:`kineme.web.matrix.Matrix.report_tiles`.
+        Of the tiles that go along, see `kineme.web.matrix.Matrix.report_tiles`.
 
     Returns
     -------

@@ -1,6 +1,6 @@
 """What the pages send: edits of a table, and what to compare it with.
 
-Fields are checked as they are decoded (:func:`kineme.web.encoding.from_json`):
+Fields are checked as they are decoded (`kineme.web.encoding.from_json`):
 types strictly, texts and numbers within the limits below, no unknown fields.
 """
 

@@ -30,8 +30,10 @@ def parse_hdf5(content: FileContent) -> dict[str, Any]:
 
     Raises
     ------
-    MissingDependencyError : h5py is not installed
-    ReadError : it is no HDF5 file, or is damaged
+    MissingDependencyError
+        h5py is not installed.
+    ReadError
+        It is no HDF5 file, or is damaged.
     """
     try:
         import h5py

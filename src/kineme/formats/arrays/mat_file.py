@@ -58,7 +58,8 @@ def parse_mat(content: FileContent) -> dict[str, Value]:
 
     Raises
     ------
-    ReadError : it is no MAT file of version 5, or is damaged
+    ReadError
+        It is no MAT file of version 5, or is damaged.
     """
     data = memoryview(content.data)
     order = {b"IM": "<", b"MI": ">"}.get(bytes(data[126:128]))

@@ -36,7 +36,8 @@ def arrays_to_motion(
 
     Raises
     ------
-    ReadError : none of the kinds above, shapes that disagree, or no frame rate
+    ReadError
+        None of the kinds above, shapes that disagree, or no frame rate.
     """
     if "poses" in arrays:
         return poses_to_motion(content, arrays, options)

@@ -22,13 +22,17 @@ def without_gaps(
 
     Parameters
     ----------
-    values : (frames, channels), NaN or infinite where there is nothing
-    timing : frames per second, and the frames at which the times jump
-    names : of the channels
+    values : ndarray of shape (frames, channels)
+        NaN or infinite where there is nothing.
+    timing : Timing
+        Frames per second, and the frames at which the times jump.
+    names : sequence of str
+        Of the channels.
 
     Raises
     ------
-    ReadError : the holes leave nothing
+    ReadError
+        The holes leave nothing.
     """
     missing = ~np.isfinite(values)
     if not missing.any():

@@ -97,12 +97,18 @@ def landmarks_to_motion(
 
     Parameters
     ----------
-    people : with x, y and z of the 33 landmarks each
-    world : whether they are world landmarks, None to judge by the hips
-    fps : frames per second, if the file tells
-    size : width and height of the image, if the file tells
-    frames : numbers of all frames, of those without anybody, too
-    notes : sentences on what was done so far
+    people : sequence of Person
+        With x, y and z of the 33 landmarks each.
+    world : bool, optional
+        Whether they are world landmarks, None to judge by the hips.
+    fps : float, optional
+        Frames per second, if the file tells.
+    size : sequence of float or None, optional
+        Width and height of the image, if the file tells.
+    frames : sequence of int, optional
+        Numbers of all frames, of those without anybody, too.
+    notes : sequence of str, optional
+        Sentences on what was done so far.
     """
     if world is None and people:
         middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])

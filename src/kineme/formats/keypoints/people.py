@@ -33,9 +33,12 @@ class Detections:
 
     Parameters
     ----------
-    frames : (rows,), ascending
-    points : (rows, keypoints, 3), NaN where not found
-    who : one per row: how the file calls this person, or None
+    frames : ndarray of shape (rows,)
+        Ascending.
+    points : ndarray of shape (rows, keypoints, 3)
+        NaN where not found.
+    who : sequence of str or None
+        One per row: how the file calls this person, or None.
     """
 
     frames: Rows
@@ -50,7 +53,8 @@ def rows_of_person(
 
     Raises
     ------
-    ReadError : there are several and none was chosen, or nobody of this name
+    ReadError
+        There are several and none was chosen, or nobody of this name.
     """
     people = _people(found)
     if not people:

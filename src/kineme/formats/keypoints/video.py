@@ -34,10 +34,13 @@ class Person:
 
     Parameters
     ----------
-    frame : counted from any number
+    frame : int
+        Counted from any number.
     points : (keypoints, 2 or 3)
-    sure : (keypoints,) confidences
-    who : how the file calls this person, if it does
+    sure : sequence of float
+        (keypoints,) confidences.
+    who : str, optional
+        How the file calls this person, if it does.
     """
 
     frame: int
@@ -52,13 +55,22 @@ class Video:
 
     Parameters
     ----------
-    format : its name
-    names : of the keypoints
-    people : in any order
-    limit : confidence from which a keypoint counts as seen
-    fps : frames per second, or None if the file does not tell
-    frames : numbers of frames that are there, whether somebody was found in them or not
-    unit, up : as in `Points`
+    format : str
+        Its name.
+    names : sequence of str
+        Of the keypoints.
+    people : sequence of Person
+        In any order.
+    limit : float
+        Confidence from which a keypoint counts as seen.
+    fps : float, optional
+        Frames per second, or None if the file does not tell.
+    frames : sequence of int, optional
+        Numbers of frames that are there, whether somebody was found in them or not.
+    unit : str or float, optional
+        As in `Points`.
+    up : str, optional
+        See `unit`.
     """
 
     format: str
@@ -77,7 +89,8 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
 
     Raises
     ------
-    ReadError : several people and none chosen, nobody, or no frame rate
+    ReadError
+        Several people and none chosen, nobody, or no frame rate.
     """
     fps = options.fps or video.fps
     if not fps:

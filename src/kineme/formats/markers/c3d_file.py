@@ -67,15 +67,24 @@ class C3D:
 
     Parameters
     ----------
-    labels : one per point
-    points : (frames, points, 3), in ``unit``, NaN where not seen
-    rate : frames per second, 0 if the file has none
-    first_frame : the number of the first frame, counted from 1
-    analog : (samples, channels), scaled
-    analog_labels, analog_units : one per channel
-    analog_rate : samples per second
-    events : second from the first frame, and label
-    parameters : everything in the parameter section
+    labels : list of str
+        One per point.
+    points : ndarray of shape (frames, points, 3)
+        In ``unit``, NaN where not seen.
+    rate : float
+        Frames per second, 0 if the file has none.
+    first_frame : int
+        The number of the first frame, counted from 1.
+    analog : ndarray of shape (samples, channels)
+        Scaled.
+    analog_labels, analog_units : list of str
+        One per channel.
+    analog_rate : float
+        Samples per second.
+    events : tuple of (float, str)
+        Second from the first frame, and label.
+    parameters : Parameters
+        Everything in the parameter section.
     """
 
     labels: list[str]
@@ -95,7 +104,8 @@ def parse_c3d(content: FileContent) -> C3D:
 
     Raises
     ------
-    ReadError : it is no C3D file, or holds less than one frame
+    ReadError
+        It is no C3D file, or holds less than one frame.
     """
     parameters = read_parameters(content)
     file = _File(content, parameters, _header(content, parameters))

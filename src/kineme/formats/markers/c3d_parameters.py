@@ -76,7 +76,8 @@ def read_parameters(content: FileContent) -> Parameters:
 
     Raises
     ------
-    ReadError : there is no parameter section, or its processor is unknown
+    ReadError
+        There is no parameter section, or its processor is unknown.
     """
     data = content.data
     start = (max(data[0], 1) - 1) * BLOCK if data else 0

@@ -43,7 +43,8 @@ def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
 
     Raises
     ------
-    ReadError : nothing tells that a channel is one
+    ReadError
+        Nothing tells that a channel is one.
     """
     names = unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}

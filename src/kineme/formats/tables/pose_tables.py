@@ -49,10 +49,14 @@ class PoseTable:
 
     Parameters
     ----------
-    names : of its columns
-    lines : below them
-    first : the number of the first of these in the file
-    separator : between cells
+    names : sequence of str
+        Of its columns.
+    lines : sequence of str
+        Below them.
+    first : int
+        The number of the first of these in the file.
+    separator : str
+        Between cells.
     """
 
     content: FileContent

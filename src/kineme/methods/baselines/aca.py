@@ -67,16 +67,23 @@ def aca(
 
     Parameters
     ----------
-    features : (frames, dims) at 120 Hz, such as `joints.log_maps`
-    n_classes : the number of classes, which the method has to be told
-    shortest, longest : length of a piece, in blocks of at most five frames
-    starts : initialisations, of which the one with the least objective is kept
-    centres : k-means centres of the reduction to blocks
-    seed : of all k-means starts; equal seeds give equal results
+    features : ndarray of shape (frames, dims)
+        At 120 Hz, such as `joints.log_maps`.
+    n_classes : int
+        The number of classes, which the method has to be told.
+    shortest, longest : int, optional
+        Length of a piece, in blocks of at most five frames.
+    starts : int, optional
+        Initialisations, of which the one with the least objective is kept.
+    centres : int, optional
+        K-means centres of the reduction to blocks.
+    seed : int, optional
+        Of all k-means starts; equal seeds give equal results.
 
     Raises
     ------
-    ParameterError : the recording is too short for the classes or lengths
+    ParameterError
+        The recording is too short for the classes or lengths.
     """
     random = np.random.RandomState(seed)
     blocks = block_starts(features, centres=centres, random=random)
@@ -170,7 +177,8 @@ def search(state: State, alignments: list[Floats], n_classes: int) -> State:
 
     Parameters
     ----------
-    alignments : per piece, DTAK with every window, see `window_alignments`
+    alignments : list of ndarray
+        Per piece, DTAK with every window, see `window_alignments`.
     """
     distance = np.full((n_classes, *alignments[0].shape), np.inf)
     among = piece_kernel(state.borders, alignments)

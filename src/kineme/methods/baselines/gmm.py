@@ -32,13 +32,17 @@ def gmm(features: Floats, *, n_classes: int, seed: int = 0) -> Pieces:
 
     Parameters
     ----------
-    features : (frames, dims), such as the quaternions of `joints.joint_quaternions`
-    n_classes : the number of Gaussians, which the method has to be told
-    seed : of k-means
+    features : ndarray of shape (frames, dims)
+        Such as the quaternions of `joints.joint_quaternions`.
+    n_classes : int
+        The number of Gaussians, which the method has to be told.
+    seed : int, optional
+        Of k-means.
 
     Raises
     ------
-    ParameterError : fewer frames than Gaussians
+    ParameterError
+        Fewer frames than Gaussians.
     """
     frames = checked(features, 1.0)
     if not 1 <= n_classes <= len(frames):

@@ -63,17 +63,23 @@ def haca_levels(
 
     Parameters
     ----------
-    features : (frames, dims) at 120 Hz, such as `joints.log_maps`
-    n_classes : the number of classes, which the method has to be told
-    fine_lengths : shortest and longest first-level piece, in blocks of at most
-        five frames
-    coarse_lengths : shortest and longest second-level piece, in first-level pieces
-    centres : k-means centres of the reduction to blocks
-    seed : of all k-means starts; equal seeds give equal results
+    features : ndarray of shape (frames, dims)
+        At 120 Hz, such as `joints.log_maps`.
+    n_classes : int
+        The number of classes, which the method has to be told.
+    fine_lengths : (int, int), optional
+        Shortest and longest first-level piece, in blocks of at most five frames.
+    coarse_lengths : (int, int), optional
+        Shortest and longest second-level piece, in first-level pieces.
+    centres : int, optional
+        K-means centres of the reduction to blocks.
+    seed : int, optional
+        Of all k-means starts; equal seeds give equal results.
 
     Raises
     ------
-    ParameterError : the recording is too short for the classes or lengths
+    ParameterError
+        The recording is too short for the classes or lengths.
     """
     random = np.random.RandomState(seed)
     blocks = block_starts(features, centres=centres, random=random)

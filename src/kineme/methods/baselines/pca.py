@@ -48,12 +48,14 @@ def pca(features: Floats, *, fps: float) -> Pieces:
 
     Parameters
     ----------
-    features : (frames, dims)
-    fps : frames per second
+    features : ndarray of shape (frames, dims)
+    fps : float
+        Frames per second.
 
     Raises
     ------
-    ParameterError : features that are not finite numbers of shape (frames, dims)
+    ParameterError
+        Features that are not finite numbers of shape (frames, dims).
     """
     first, lag = round(FIRST_S * fps), max(1, round(LAG_S * fps))
     return _cut_and_start_anew(checked(features, fps), partial(_error_jump, first=first, lag=lag))
@@ -70,12 +72,14 @@ def ppca(features: Floats, *, fps: float) -> Pieces:
 
     Parameters
     ----------
-    features : (frames, dims)
-    fps : frames per second
+    features : ndarray of shape (frames, dims)
+    fps : float
+        Frames per second.
 
     Raises
     ------
-    ParameterError : features that are not finite numbers of shape (frames, dims)
+    ParameterError
+        Features that are not finite numbers of shape (frames, dims).
     """
     ahead, growth = max(2, round(AHEAD_S * fps)), max(1, round(GROWTH_S * fps))
     return _cut_and_start_anew(

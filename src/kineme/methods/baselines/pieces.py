@@ -19,11 +19,15 @@ class Pieces:
 
     Parameters
     ----------
-    cuts : first frames of all pieces but the first, ascending
-    clusters : one number per piece, so one more than cuts; equal numbers are
-        equal movements. A method that finds no clusters numbers the pieces.
-    n_frames : length of the recording
-    objective : what the method minimised, nan where it minimises nothing
+    cuts : ndarray
+        First frames of all pieces but the first, ascending.
+    clusters : ndarray
+        One number per piece, so one more than cuts; equal numbers are equal movements. A method
+        that finds no clusters numbers the pieces.
+    n_frames : int
+        Length of the recording.
+    objective : float, optional
+        What the method minimised, nan where it minimises nothing.
     """
 
     cuts: Ints

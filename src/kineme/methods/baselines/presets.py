@@ -87,7 +87,7 @@ class ToldPreset(BaselinePreset):
 
 @dataclass(frozen=True, kw_only=True)
 class AcaPreset(ToldPreset):
-    """Aligned cluster analysis; see :mod:`kineme.methods.baselines.aca`."""
+    """Aligned cluster analysis; see `kineme.methods.baselines.aca`."""
 
     view: ClassVar[View] = "rotation vectors"
 
@@ -115,7 +115,7 @@ class AcaPreset(ToldPreset):
 
 @dataclass(frozen=True, kw_only=True)
 class HacaPreset(ToldPreset):
-    """Hierarchical aligned cluster analysis; see :mod:`kineme.methods.baselines.haca`."""
+    """Hierarchical aligned cluster analysis; see `kineme.methods.baselines.haca`."""
 
     view: ClassVar[View] = "rotation vectors"
 
@@ -145,7 +145,7 @@ class HacaPreset(ToldPreset):
 
 @dataclass(frozen=True, kw_only=True)
 class GmmPreset(ToldPreset):
-    """Gaussian mixture; see :mod:`kineme.methods.baselines.gmm`."""
+    """Gaussian mixture; see `kineme.methods.baselines.gmm`."""
 
     def pieces(self, features: Floats) -> Pieces:
         """Runs of samples whose likeliest Gaussian is the same."""
@@ -156,7 +156,7 @@ class GmmPreset(ToldPreset):
 
 @dataclass(frozen=True, kw_only=True)
 class PcaPreset(BaselinePreset):
-    """Cuts where principal components cease to fit; see :mod:`kineme.methods.baselines.pca`."""
+    """Cuts where principal components cease to fit; see `kineme.methods.baselines.pca`."""
 
     def pieces(self, features: Floats) -> Pieces:
         """Segments that share their principal components."""
@@ -167,7 +167,7 @@ class PcaPreset(BaselinePreset):
 
 @dataclass(frozen=True, kw_only=True)
 class PpcaPreset(BaselinePreset):
-    """Cuts where a Gaussian ceases to fit; see :mod:`kineme.methods.baselines.pca`."""
+    """Cuts where a Gaussian ceases to fit; see `kineme.methods.baselines.pca`."""
 
     def pieces(self, features: Floats) -> Pieces:
         """Segments that share their Gaussian."""
@@ -178,7 +178,7 @@ class PpcaPreset(BaselinePreset):
 
 @dataclass(frozen=True, kw_only=True)
 class UniformPreset(BaselinePreset):
-    """Cuts at equal distances; see :mod:`kineme.methods.baselines.uniform`."""
+    """Cuts at equal distances; see `kineme.methods.baselines.uniform`."""
 
     interval: float = constant("time between two cuts", unit="s", limits=SOME_TIME, default=0.5)
 

@@ -23,8 +23,9 @@ def leading_scatters(features: Floats, counts: Ints) -> Iterator[tuple[Ints, Flo
 
     Parameters
     ----------
-    features : (frames, dims)
-    counts : numbers of frames, rising
+    features : ndarray of shape (frames, dims)
+    counts : ndarray
+        Numbers of frames, rising.
     """
     centred = features - features.mean(axis=0)  # squares of small numbers keep their digits
     total = np.zeros(features.shape[1])
@@ -48,7 +49,8 @@ def dimensions_kept(variances: Floats, share: float) -> int:
 
     Parameters
     ----------
-    variances : per component, the largest first
+    variances : ndarray
+        Per component, the largest first.
     """
     total = np.cumsum(np.maximum(variances, 0))
     return int(np.searchsorted(total, share * total[-1], side="right")) + 1

@@ -30,9 +30,11 @@ def block_starts(
 
     Parameters
     ----------
-    features : (frames, dims)
-    centres : number of k-means centres
-    longest : frames a block has at most
+    features : ndarray of shape (frames, dims)
+    centres : int
+        Number of k-means centres.
+    longest : int, optional
+        Frames a block has at most.
     """
     nearest = tightest_clusters(features, centres, random)
     changes = np.flatnonzero(np.diff(nearest, prepend=-1))

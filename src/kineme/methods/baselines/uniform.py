@@ -13,7 +13,8 @@ def uniform(n_frames: int, *, fps: float, seconds: float) -> Pieces:
 
     Raises
     ------
-    ParameterError : the cuts would be less than a frame apart
+    ParameterError
+        The cuts would be less than a frame apart.
     """
     step = seconds * fps
     if not step >= 1:

@@ -216,7 +216,7 @@ class RecurrencePreset(Preset):
         mirror: Mirror | None = None,  # noqa: ARG002 (left and right are told apart)
         progress: Progress | None = None,
     ) -> RecurrenceFound:
-        """Recurrence, actions and repetitions; see :mod:`kineme.methods.recurrence.analysis`."""
+        """Recurrence, actions and repetitions; see `kineme.methods.recurrence.analysis`."""
         from kineme.methods.recurrence.analysis import analyze_actions  # compiled code
 
         return analyze_actions(features, self, progress=progress)

@@ -54,10 +54,14 @@ def square_cuts(
 
     Parameters
     ----------
-    graph : NeighborGraph of n frames, main diagonal removed
-    min_gap : frames in a row without a new neighbour that end a region
-    min_count : neighbours a region must hold more than
-    min_distance : frames; of two peaks no farther apart the higher stays
+    graph : NeighborGraph
+        Of n frames, main diagonal removed.
+    min_gap : int
+        Frames in a row without a new neighbour that end a region.
+    min_count : int
+        Neighbours a region must hold more than.
+    min_distance : int
+        Frames; of two peaks no farther apart the higher stays.
     """
     n = len(graph)
     indptr, earlier = _kernels.group_pairs(graph.indptr, graph.indices, True)
@@ -81,9 +85,12 @@ def scan_line_cuts(graph: NeighborGraph, *, min_gap: int, min_count: int) -> Act
 
     Parameters
     ----------
-    graph : NeighborGraph of n frames, main diagonal removed
-    min_gap : frames in a row without a neighbour that end a region
-    min_count : neighbours a region must hold more than
+    graph : NeighborGraph
+        Of n frames, main diagonal removed.
+    min_gap : int
+        Frames in a row without a neighbour that end a region.
+    min_count : int
+        Neighbours a region must hold more than.
     """
     forward = _kernels.scan_lines_forward(graph.indptr, graph.indices, min_gap, min_count)
     mask = np.zeros(len(graph), np.bool_)

@@ -56,14 +56,18 @@ def cluster_segments(
 
     Parameters
     ----------
-    graph : NeighborGraph, main diagonal included
-    borders : (segments + 1,)
+    graph : NeighborGraph
+        Main diagonal included.
+    borders : ndarray of shape (segments + 1,)
         Ascending frames; segment g is ``borders[g]..borders[g + 1]``, both inclusive.
     steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
-        As in :func:`kineme.graph.warping_paths`.
-    coverage : share of both segments that a path must cover
-    interpolate : take the rows of a path at the borders of h (2017), or all of them (2014)
-    connection : links in one direction suffice (weak), or must lead back (strong)
+        As in `kineme.graph.warping_paths`.
+    coverage : float
+        Share of both segments that a path must cover.
+    interpolate : bool
+        Take the rows of a path at the borders of h (2017), or all of them (2014).
+    connection : {"weak", "strong"}
+        Links in one direction suffice (weak), or must lead back (strong).
     """
     n = len(borders) - 1
 

@@ -46,10 +46,12 @@ def symmetry_type(
 
     Parameters
     ----------
-    activity : (first, last), both inclusive
-    main, mirrored : as `primitive_cuts` finds them among the frames and the
-        mirrored frames of the activity
-    gap : frames; a mirrored path this far from every main one lies between them
+    activity : (int, int)
+        (first, last), both inclusive.
+    main, mirrored : PrimitiveCuts
+        As `primitive_cuts` finds them among the frames and the mirrored frames of the activity.
+    gap : float
+        Frames; a mirrored path this far from every main one lies between them.
     """
     first, last = activity
     if len(np.unique(mirrored.paths.rows)) <= HALF * (last - first + 1):

@@ -51,14 +51,18 @@ def primitive_cuts(
 
     Parameters
     ----------
-    graph : NeighborGraph, main diagonal included
-    activity : (first, last), both inclusive; neighbouring activities share the border frame
+    graph : NeighborGraph
+        Main diagonal included.
+    activity : (int, int)
+        (first, last), both inclusive; neighbouring activities share the border frame.
     steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
-        As in :func:`kineme.graph.warping_paths`.
-    symmetry : share of a path's rows and columns that another path (or itself)
-        must match the other way round (symmetry coherence)
-    min_length : frames; a cut closer than this to a border of the activity
-        falls, of two closer cuts the one with the shorter path
+        As in `kineme.graph.warping_paths`.
+    symmetry : float
+        Share of a path's rows and columns that another path (or itself) must match the other way
+        round (symmetry coherence).
+    min_length : float
+        Frames; a cut closer than this to a border of the activity falls, of two closer cuts the one
+        with the shorter path.
     """
     first, last = activity
     box = (first, last + 1)

@@ -34,14 +34,19 @@ def make_figures(
 
     Parameters
     ----------
-    results : of all methods and trials that the figures are to show
-    data : folder of the benchmark; recordings beside it are surveyed, too
-    folder : where to, made beforehand
-    progress : called with the name of each figure before it is made
+    results : sequence of Result
+        Of all methods and trials that the figures are to show.
+    data : Path
+        Folder of the benchmark; recordings beside it are surveyed, too.
+    folder : Path
+        Where to, made beforehand.
+    progress : callable, optional
+        Called with the name of each figure before it is made.
 
     Raises
     ------
-    WriteError : the folder cannot be written to
+    WriteError
+        The folder cannot be written to.
     """
     from kineme.reproduction.figures import (
         accuracy,

@@ -2,8 +2,8 @@
 
     python src/kineme/web/pages/make_messages.py
 
-writes ``src/messages.ts`` beside this file from :mod:`kineme.web.messages` and
-:mod:`kineme.web.requests`: the same names, with their docstrings. Generators
+writes ``src/messages.ts`` beside this file from `kineme.web.messages` and
+`kineme.web.requests`: the same names, with their docstrings. Generators
 that start from JSON Schema lose the names of ``Level`` and ``Edit`` and need a
 node package more; this one reads ``msgspec.inspect``. A test fails while the
 two sides differ.
