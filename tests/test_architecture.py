@@ -86,14 +86,13 @@ ROOMS = {
     ),
     "reproduction": Room(
         "the papers' own figures and tables on subject 86",
-        "datasets evaluation features formats graph labels methods plot recordings segmentation "
-        "segments",
+        "datasets evaluation formats graph methods plot recordings segmentation segments",
     ),
     "web": Room(
         "sources of the pages, the built pages, and what they are told",
         "features formats labels recordings segments",
     ),
-    "report": Room("one page of HTML that shows a recording", "features recordings segments web"),
+    "report": Room("one page of HTML that shows a recording", "features segments web"),
     "studio": Room(
         "a local server and its page: recordings looked at, tables corrected and kept",
         "clips datasets evaluation features formats labels methods recordings report segmentation "

@@ -17,7 +17,6 @@ from kineme._threads import map_threads
 from kineme.methods.base import Columns
 from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
-from kineme.methods.recurrence.preset import RecurrencePreset
 from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from kineme.methods.recurrence.transitions import activity_ends
@@ -26,6 +25,7 @@ from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
     from kineme.graph import NeighborGraph
+    from kineme.methods.recurrence.preset import RecurrencePreset
 
 Frames = NDArray[np.int64]
 

@@ -16,13 +16,16 @@ the right are halves of one repetition.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.recurrence import _candidate_kernels as candidate_kernels
 from kineme.methods.recurrence import _distance_kernels as kernels
-from kineme.methods.recurrence.preset import RecurrencePreset
+
+if TYPE_CHECKING:
+    from kineme.methods.recurrence.preset import RecurrencePreset
 
 Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]

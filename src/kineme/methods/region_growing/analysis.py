@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from itertools import repeat
 from math import ceil
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,10 +26,12 @@ from kineme.methods.region_growing.activities import (
 )
 from kineme.methods.region_growing.clustering import Clustering, cluster_segments
 from kineme.methods.region_growing.mirroring import merged_cuts, symmetry_type
-from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import PrimitiveCuts, primitive_cuts
 from kineme.methods.segments import by_first_appearance, columns_of
 from kineme.methods.stages import Progress, stopwatch
+
+if TYPE_CHECKING:
+    from kineme.methods.region_growing.preset import RegionGrowingPreset
 
 Frames = NDArray[np.int64]
 
