@@ -111,14 +111,13 @@ def convert(
 
 
 def _convert_recording(request: Request, path: Path, target: Path) -> None:
+    from kineme.formats import write
+    from kineme.formats.channels.writing import write_signals
     from kineme.recordings import Motion
 
     recording = request.read(path)
-    if isinstance(recording, Motion):
-        from kineme.formats import write
-
+    columns = request.reading.get("columns")
+    if isinstance(recording, Motion) or columns is None:
         write(recording, target)
     else:
-        from kineme.formats.channels.writing import write_signals
-
-        write_signals(recording, target, columns=request.reading.get("columns"))
+        write_signals(recording, target, columns=columns)

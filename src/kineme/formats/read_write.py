@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codecs import BOM_UTF8
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -167,7 +168,7 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
 
 
 def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    if not content.data.strip():
+    if not content.data.removeprefix(BOM_UTF8).strip():
         raise content.error("the file is empty")
     known = recognise(content)
     if known.read is None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from kineme.formats.channels.table import ChannelTable, channel_table, named, wanted_columns
-from kineme.formats.columns import dated
+from kineme.formats.columns import dated, is_timing
 from kineme.formats.delimited import EMPTY, rows_of, separator_of
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut
@@ -19,7 +19,7 @@ class TextTable:
     Parameters
     ----------
     names : list of str
-        Of the columns; numbers from 1 where the first line holds numbers.
+        Of the columns; numbers from 1 where the first line holds numbers and names no time.
     rows : list of str
         The lines below.
     first_row : int
@@ -53,7 +53,7 @@ class TextTable:
             lines[first:] = ["\t".join(line.split()) for line in lines[first:]]
             separator = "\t"
         cells = _cells(lines[first], separator)
-        if any(map(_is_number, cells)):
+        if any(map(_is_number, cells)) and not any(map(is_timing, cells)):
             names = [str(i) for i in range(1, len(cells) + 1)]
             return cls(names, lines[first:], first + 1, separator, cells)
         return cls(named(cells), lines[first + 1 :], first + 2, separator, cells)

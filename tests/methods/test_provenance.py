@@ -1,0 +1,72 @@
+"""Every parameter of a preset is in the provenance of what it finds."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields, replace
+from types import NoneType
+from typing import Any, Literal, get_args, get_origin
+
+import pytest
+
+import kineme
+from kineme.methods import PRESETS, Preset
+from kineme.methods.constants import Constant
+
+TOLD: dict[str, dict[str, Any]] = {name: {"n_classes": 3} for name in ("aca", "haca", "gmm")}
+"""What a preset has to be told before it can run."""
+
+
+@pytest.fixture(scope="module")
+def motion() -> kineme.Motion:
+    """The first ten seconds of the bundled recording."""
+    return kineme.read(kineme.bundled_recording())[0:600]
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_each_field_changed_is_in_the_provenance(name: str, motion: kineme.Motion) -> None:
+    preset = PRESETS[name].replace(**TOLD.get(name, {}))
+    known = {each.name: each for each in preset.constants()}
+    assert {each.name for each in fields(preset)} == {"name", "help", "unit", *known}
+    usual = parameters(motion, preset)
+    assert usual == {"unit": preset.unit, **as_json(preset.parameters())}
+    for each in known.values():
+        changed = other_value(each)
+        assert changed != each.value, each.name
+        found = parameters(motion, preset.replace(**{each.name: changed}))
+        assert found == {**usual, each.name: as_json(changed)}, each.name
+
+
+def test_the_unit_and_the_name_are_there_too(motion: kineme.Motion) -> None:
+    other = replace(PRESETS["krueger2017"].for_signals(), name="mine")
+    signals = kineme.Signals(motion.positions[:, 0], motion.fps)
+    provenance = kineme.segment(signals, preset=other).provenance
+    assert provenance["preset"] == "mine"
+    assert provenance["parameters"]["unit"] == "standard deviations"
+
+
+def parameters(motion: kineme.Motion, preset: Preset) -> dict[str, Any]:
+    found: dict[str, Any] = kineme.segment(motion, preset=preset).provenance["parameters"]
+    return found
+
+
+def as_json(value: Any) -> Any:
+    """As a provenance is kept: tuples are lists."""
+    return json.loads(json.dumps(value))
+
+
+def other_value(constant: Constant) -> Any:
+    """Another value that the constant may take."""
+    value, limits = constant.value, constant.limits
+    hint = next(kind for kind in (*get_args(constant.hint), constant.hint) if kind is not NoneType)
+    if get_origin(constant.hint) is Literal:
+        return next(other for other in get_args(constant.hint) if other != value)
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, tuple):
+        return value[:-1] if len(value) > 2 else tuple(each + 1 for each in value)
+    if value is None:
+        return hint(4)
+    near = (value - 1, value + 1) if hint is int else (0.95 * value, 0.5)
+    allowed = (other for other in near if limits is None or limits.allow(other))
+    return next(other for other in allowed if other != value)

@@ -1,0 +1,266 @@
+"""A package of somebody else's adds one of each; each is one module, found wherever it belongs."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import kineme
+
+METHOD = '''
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from kineme.graph import neighbor_graph
+from kineme.methods import Preset, constant
+from kineme.methods.constants import Limits
+
+
+@dataclass(frozen=True)
+class Halves:
+    """Two activities."""
+
+    features: np.ndarray
+    cut: int
+    timings: ClassVar[dict[str, float]] = {}
+
+    def columns(self):
+        return {
+            "level": np.array(["activity", "activity"]),
+            "kind": np.array(["activity", "activity"]),
+            "start_frame": np.array([0, self.cut]),
+            "stop_frame": np.array([self.cut, len(self.features)]),
+            "cluster": np.array([0, 1]),
+            "score": np.full(2, np.nan),
+        }
+
+    @cached_property
+    def graph(self):
+        return neighbor_graph(self.features, radius=0.5, k=8)
+
+    def doubts(self, columns, fps):
+        return []
+
+
+@dataclass(frozen=True, kw_only=True)
+class HalvesPreset(Preset):
+    """Cuts once."""
+
+    method: ClassVar[str] = "halves"
+    cut_share: float = constant(
+        "where the one cut is", limits=Limits(0.1, 0.9), default=0.5, slider=(0.1, 0.9, 0.1)
+    )
+
+    def analyze(self, features, *, mirror=None, progress=None):
+        return Halves(features, round(self.cut_share * len(features)))
+
+
+PRESET = HalvesPreset(name="halves", help="Cuts a recording once.", unit="any")
+'''
+
+PRESET = """
+from dataclasses import replace
+
+from kineme.methods.recurrence.preset import KINEME
+
+PRESET = replace(KINEME, name="slowly", help="For slow exercises.", min_action=3.0)
+"""
+
+FORMAT = """
+import numpy as np
+
+from kineme.formats import Format
+from kineme.recordings import Signals
+
+
+def read(content, options):
+    fps, *rows = content.text.splitlines()
+    values = [[float(cell) for cell in row.split()] for row in rows]
+    return Signals(values, options.fps or float(fps), provenance=content.provenance("PLAIN", []))
+
+
+def write(signals, path):
+    rows = [" ".join(map(repr, row)) for row in signals.values.tolist()]
+    path.write_text("\\n".join([repr(signals.fps), *rows]))
+
+
+FORMAT = Format("PLAIN", (".plain",), lambda head: False, read, write_signals=write)
+"""
+
+LABELS = """
+from kineme.labels import LabelFormat, Labels, Span
+
+
+def read(path):
+    rows = [line.split() for line in path.read_text().splitlines()]
+    return Labels([Span(float(start), float(stop), text) for start, stop, text in rows])
+
+
+def write(rows, segmentation, path):
+    lines = [f"{row.start_s} {row.stop_s} {row.label or row.cluster}" for row in rows]
+    path.write_text("\\n".join(lines))
+
+
+FORMAT = LabelFormat("words", "Three words a line", (".words",), "level", read, write)
+"""
+
+SCORE = """
+from kineme.evaluation import Score
+
+
+def longest(compared):
+    return max(run.stop - run.start for run in compared.found_runs) / compared.fps
+
+
+SCORE = Score("longest", "longest found", "longest segment, seconds", "segments", longest)
+"""
+
+ENTRY_POINTS = """
+[kineme.presets]
+halves = somebody.halves:PRESET
+slowly = somebody.slowly:PRESET
+
+[kineme.formats]
+plain = somebody.plain:FORMAT
+
+[kineme.label_formats]
+words = somebody.words:FORMAT
+
+[kineme.scores]
+longest = somebody.longest:SCORE
+"""
+
+STUDIO = """
+import json, sys
+from pathlib import Path
+from starlette.testclient import TestClient
+from kineme.studio.app import create_app
+from kineme.studio.events import Hub
+from kineme.studio.folder import Folder
+from kineme.studio.open_recordings import OpenRecordings
+
+hub = Hub()
+app = create_app(OpenRecordings(Folder(Path(sys.argv[1])), hub.tell), token="t", port=1, hub=hub)
+client = TestClient(app, base_url="http://127.0.0.1:1", headers={"x-kineme-token": "t"})
+state = client.get("/api/state").json()
+(recording,) = state["recordings"]
+opened = f"/api/recordings/{recording['id']}"
+first = client.get(opened).json()
+edit = {"kind": "segment", "preset": "halves", "parameters": {"cut_share": 0.3}}
+done = client.post(f"{opened}/edits", json={"revision": first["revision"], "edit": edit}).json()
+words = client.get(f"{opened}/export/words?level=activity").text
+print(json.dumps({"state": state, "done": done, "words": words}))
+"""
+
+Run = Callable[..., str]
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The package as an installer leaves it: modules, and a folder that names its objects."""
+    home = tmp_path_factory.mktemp("site")
+    (home / "somebody").mkdir()
+    modules = {"halves": METHOD, "slowly": PRESET, "plain": FORMAT, "words": LABELS,
+               "longest": SCORE}  # fmt: skip
+    for name, text in modules.items():
+        (home / "somebody" / f"{name}.py").write_text(text)
+    info = home / "somebody-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: somebody\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text(ENTRY_POINTS)
+    return home
+
+
+@pytest.fixture
+def python(package: Path, tmp_path: Path) -> Run:
+    """Run Python where that package is installed; what it prints."""
+    ours = Path(kineme.__file__).parents[1]
+
+    def run(*arguments: object) -> str:
+        done = subprocess.run(
+            [sys.executable, "-W", "error", *map(str, arguments)],
+            capture_output=True,
+            text=True,
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONPATH": f"{package}{os.pathsep}{ours}", "COLUMNS": "400",
+                 "NO_COLOR": "1"},
+            check=False,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    return run
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A recording of channels in the format of that package, 40 s, with labels in its format."""
+    place = tmp_path / "recordings"
+    place.mkdir()
+    rows = [f"{i % 30} {(i * 7) % 50}" for i in range(1200)]
+    (place / "a.plain").write_text("\n".join(["30", *rows]))
+    labels = tmp_path / "labels"
+    labels.mkdir()
+    (labels / "a.words").write_text("0 20 slow\n20 40 fast\n")
+    return place
+
+
+def test_its_method_preset_and_constants_stand_in_the_help(python: Run) -> None:
+    text = python("-m", "kineme", "segment", "--help")
+    assert "halves: Cuts a recording once." in text
+    assert "slowly: For slow exercises." in text
+    assert "--cut-share" in text
+    assert "where the one cut is, 0.1 to 0.9" in text
+    assert "PLAIN" in text
+    assert ".words" in text
+    assert "words" in python("-m", "kineme", "convert", "--help")
+
+
+def test_its_files_are_read_segmented_and_converted(python: Run, folder: Path) -> None:
+    recording = folder / "a.plain"
+    shown = python("-c", f"import kineme; print(kineme.read({str(recording)!r}))")
+    assert "Signals of 1200 frames (40.0 s) at 30 Hz" in shown
+    given = ["--preset", "halves", "--cut-share", "0.25", "-o", "a.words"]
+    python("-m", "kineme", "segment", recording, *given)
+    words = Path(folder.parent / "a.words").read_text().splitlines()
+    assert words == ["0.0 10.0 0", "10.0 40.0 1"]
+    python("-m", "kineme", "convert", "a.words", "b.csv", "--fps", "30")
+    python("-m", "kineme", "convert", "b.csv", "b.words", "--fps", "30")
+    assert (folder.parent / "b.words").read_text().splitlines() == words
+    python("-m", "kineme", "convert", recording, "c.csv")
+    python("-m", "kineme", "convert", "c.csv", "c.plain")
+    same = "import kineme; print((kineme.read('c.plain').values == kineme.read({!r}).values).all())"
+    assert python("-c", same.format(str(recording))).strip() == "True"
+    python("-m", "kineme", "segment", folder, "--preset", "slowly", "-o", "{name}.json")
+    made = json.loads((folder.parent / "a.json").read_text())
+    assert made["provenance"]["parameters"]["min_action"] == 3.0
+
+
+def test_its_methods_are_scored_by_its_score_on_its_recordings(python: Run, folder: Path) -> None:
+    given = ["evaluate", folder, "--labels", folder.parent / "labels", "--methods", "halves,slowly"]
+    scored = json.loads(python("-m", "kineme", *given, "--json"))
+    assert scored["methods"]["halves"]["scores"]["longest"] == 20.0
+    assert scored["methods"]["halves"]["scores"]["mof"] == 1.0
+    assert "longest" in scored["methods"]["slowly"]["scores"]
+    assert "longest found" in python("-m", "kineme", *given)
+
+
+def test_the_studio_offers_all_of_it(python: Run, folder: Path) -> None:
+    told = json.loads(python("-c", STUDIO, folder))
+    presets = {each["name"]: each for each in told["state"]["presets"]}
+    (slider,) = presets["halves"]["parameters"]
+    assert (slider["name"], slider["help"]) == ("cut_share", "where the one cut is")
+    assert "min_action" in [each["name"] for each in presets["slowly"]["parameters"]]
+    assert "words" in [each["name"] for each in told["state"]["export_formats"]]
+    starts = [row["start_frame"] for row in told["done"]["segmentation"]["segments"]]
+    assert starts == [0, 360]
+    assert told["words"].splitlines() == ["0.0 12.0 0", "12.0 40.0 1"]
