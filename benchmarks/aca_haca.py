@@ -25,8 +25,8 @@ import kineme
 from kineme.evaluation import Labelling
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.baselines import aca, haca
-from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
+from kineme.methods.baselines.segments import Segments
 from kineme.reproduction import read_trials
 from kineme.reproduction.aca_protocol import aca_accuracy
 
@@ -79,7 +79,7 @@ def stage_seconds(features: np.ndarray, v: dict[str, Any], seed: int) -> dict[st
     return seconds
 
 
-def found(features: np.ndarray, v: dict[str, Any], seed: int) -> dict[str, Pieces]:
+def found(features: np.ndarray, v: dict[str, Any], seed: int) -> dict[str, Segments]:
     shared = {"n_classes": v["classes"], "centres": v["centres"], "seed": seed}
     shortest, longest = v["lengths"]
     return {
@@ -99,11 +99,11 @@ def compare(trial: str) -> None:
         for seed, result in zip(SEEDS, results, strict=True):
             random = np.random.RandomState(seed)
             blocks = block_starts(features, centres=v["centres"], random=random)
-            pieces = result[method]
+            segments = result[method]
             labelling = Labelling.from_cuts(
-                pieces.cuts, pieces.clusters.tolist(), frames=pieces.n_frames, fps=120.0
+                segments.cuts, segments.clusters.tolist(), frames=segments.n_frames, fps=120.0
             )
-            ours.append((aca_accuracy(truth, labelling, blocks=blocks), pieces.objective))
+            ours.append((aca_accuracy(truth, labelling, blocks=blocks), segments.objective))
         theirs = [(r[method]["accuracy"], r[method]["objective"]) for r in reference["runs"]]
         for who, rows in (("ours", ours), ("original", theirs)):
             accuracy, objective = zip(*rows, strict=True)

@@ -451,7 +451,7 @@ def clusters(links, connection):
 
 
 def dtak(kernel, a_weights, b_weights):
-    """Dynamic time alignment kernel of two pieces, from the kernel between their frames."""
+    """Dynamic time alignment kernel of two segments, from the kernel between their frames."""
     n, m = kernel.shape
     table = np.empty((n, m))
     for i in range(n):
@@ -499,7 +499,7 @@ def cover_cost(costs, lengths):
 
 
 def first_segmentation(labels, shortest, longest):
-    """Piece lengths as the program's ``mergeDP`` finds them, its slip included."""
+    """Segment lengths as the program's ``mergeDP`` finds them, its slip included."""
     n = len(labels)
     best, length_at = [0.0] + [None] * n, [0] * (n + 1)
     for v in range(1, n + 1):
@@ -640,16 +640,16 @@ def merged_cuts(main, mirrored, gap):
 
 
 # --- recurrence: pair by pair; bands are written out as full matrices -------------------------
-# ``near`` and ``alike`` are matrices of which only pairs at most ``width`` apart are looked at.
+# ``near`` and ``similarity`` are matrices; only pairs at most ``width`` apart are looked at.
 
 
-def nearest_in_bins(features, step, width):
-    """Distance of frame i * step to the nearest frame of bin j, infinite beyond the width."""
+def nearest_frames(features, step, width):
+    """Distance of frame i * step to the nearest frame at sample j, infinite beyond the width."""
     n = len(features)
-    bins = -(-n // step)
-    near = np.full((bins, bins), np.inf)
-    for i in range(bins):
-        for j in range(bins):
+    samples = -(-n // step)
+    near = np.full((samples, samples), np.inf)
+    for i in range(samples):
+        for j in range(samples):
             first = j * step - step // 2
             frames = [f for f in range(first, first + step) if 0 <= f < n]
             if abs(i - j) <= width and frames:
@@ -678,16 +678,16 @@ def local_scales(blurred, width, gap, rank, low, high):
 
 
 def similarities(blurred, scales, width, softness):
-    alike = np.zeros(blurred.shape)
+    similarity = np.zeros(blurred.shape)
     for i, j in np.ndindex(blurred.shape):
         if abs(i - j) <= width:
             distance = max(blurred[i, j], blurred[j, i])
-            alike[i, j] = np.exp(-(distance**2) / (softness**2 * scales[i] * scales[j]))
-    return alike
+            similarity[i, j] = np.exp(-(distance**2) / (softness**2 * scales[i] * scales[j]))
+    return similarity
 
 
 def class_distances(near, width, labels, wanted, gap):
-    """For each bin the distance to the nearest bin of the class wanted there; none for -1."""
+    """For each sample the distance to the nearest sample of the class wanted there; none for -1."""
     return [
         min(
             (
@@ -702,7 +702,7 @@ def class_distances(near, width, labels, wanted, gap):
 
 
 def coverage(near, width, scales, g, h, gap, softness):
-    """Mean over the bins of g of how near the nearest of h is, more than the gap away."""
+    """Mean over the samples of g of how near the nearest of h is, more than the gap away."""
     total = 0.0
     for i in g:
         nearest = min((near[i, j] for j in h if gap < abs(i - j) <= width), default=np.inf)
@@ -710,16 +710,16 @@ def coverage(near, width, scales, g, h, gap, softness):
     return total / len(g)
 
 
-def division_cost(alike, borders, penalty):
+def division_cost(similarity, borders, penalty):
     """What a division costs: per segment its length, less its mean sum of likeness, and more."""
     return sum(
-        stop - start - alike[start:stop, start:stop].sum() / (stop - start) + penalty
+        stop - start - similarity[start:stop, start:stop].sum() / (stop - start) + penalty
         for start, stop in pairwise(borders)
     )
 
 
 def divisions(n, shortest, longest):
-    """All borders of n bins in segments of such lengths; undivided if there are none."""
+    """All borders of n samples in segments of such lengths; undivided if there are none."""
     found = [
         [0, *inner, n]
         for count in range(n)
@@ -729,12 +729,12 @@ def divisions(n, shortest, longest):
     return found or [[0, n]]
 
 
-def class_affinities(alike, width, labels, classes, gap, min_count):
+def class_affinities(similarity, width, labels, classes, gap, min_count):
     affinity = np.zeros((len(labels), classes))
     for i in range(len(labels)):
         for c in range(classes):
             others = [j for j, label in enumerate(labels) if label == c]
-            values = [alike[i, j] for j in others if gap < abs(i - j) <= width]
+            values = [similarity[i, j] for j in others if gap < abs(i - j) <= width]
             if len(values) >= min_count:
                 affinity[i, c] = sum(values) / len(values)
     return affinity

@@ -21,7 +21,7 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
 
 
 def even_slices(n: int) -> list[slice]:
-    """``range(n)`` in pieces of like size, a few for each core."""
+    """``range(n)`` in slices of like size, a few for each core."""
     edges = [n * part // (2 * n_threads()) for part in range(2 * n_threads() + 1)]
     return [slice(a, b) for a, b in pairwise(edges) if a < b]
 

@@ -64,7 +64,7 @@ def test_coarser_levels_halve_until_one_tile_is_left() -> None:
 
 @pytest.mark.parametrize(("motion", "times"), [(RECORDING, 3), (LEGS, 2)])
 def test_from_afar_activities_are_plain_blocks(motion: Motion, times: float) -> None:
-    """Moments of one activity are alike whatever their phase, those of different ones are not."""
+    """Frames of one activity are similar whatever their phase, those of different ones are not."""
     truth = kineme.read_segments(bundled_truth())
     matrix = matrix_of_motion(motion)
     assert matrix.head().sizes == [483, 242]

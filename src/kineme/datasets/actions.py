@@ -2,7 +2,7 @@
 
 A cycle is what a person counts as one: a double step, a jump, a squat, a kick,
 a full circle of the arms, a punch, a wave to and fro. Angles of ``figure`` are
-given at a few moments (shares of the cycle) and joined by monotone cubics. A
+given at a few phases (shares of the cycle) and joined by monotone cubics. A
 limb's angle without a side holds for both; in a gait the right side follows
 half a cycle later. Angles not given are those of standing.
 
@@ -42,9 +42,9 @@ class Cycle:
     seconds : float
         How long it takes at speed 1.
     at : sequence of float
-        Moments, shares of the cycle from 0 to 1.
+        Phases, shares of the cycle from 0 to 1.
     angles : mapping of str to sequence of float
-        Degrees at these moments, by name; an angle whose last value is not its first goes on
+        Degrees at these phases, by name; an angle whose last value is not its first goes on
         turning from cycle to cycle.
     gait : bool, optional
         The right side follows half a cycle later.
@@ -99,9 +99,9 @@ def _whole_names(name: str) -> list[str]:
 def _cyclic(at: Sequence[float], values: Sequence[float]) -> Callable[[Floats], Floats]:
     """The cyclic curve through values at the given shares of a cycle."""
     gain = values[-1] - values[0]
-    moments, heights = np.asarray(at, float), np.asarray(values, float)
+    phases, heights = np.asarray(at, float), np.asarray(values, float)
     curve = PchipInterpolator(
-        np.concatenate([moments[:-1] - 1, moments, moments[1:] + 1]),
+        np.concatenate([phases[:-1] - 1, phases, phases[1:] + 1]),
         np.concatenate([heights[:-1] - gain, heights, heights[1:] + gain]),
     )
 

@@ -18,7 +18,7 @@ _GRAVITY = 9.81
 _SIZE_VARIES = 0.06  # standard deviation, relative
 _SWAY_DEG = 1.5
 _SWAY_S = 0.35
-_TURN_DEG = 120.0  # standard deviation of the turn over one stretch of walking
+_TURN_DEG = 120.0  # standard deviation of the turn over one bout of walking
 
 
 def perform(

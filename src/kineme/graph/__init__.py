@@ -1,4 +1,4 @@
-"""Which frames look alike, and which stretches match: graph and warping paths.
+"""Which frames are similar, and which spans match: graph and warping paths.
 
 Nothing here knows what a skeleton is: any array of frames × dims will do.
 """

@@ -1,10 +1,10 @@
-"""Warping paths: stretches of a recording that match under time warping.
+"""Warping paths: spans of a recording that match under time warping.
 
 Instead of filling a dynamic-time-warping matrix, paths walk over the stored
 pairs (t, j) of a neighbour graph. A warping step (a, b) leads from (t, j) to
 (t + a, j + b) if both are stored. Each minor diagonal of the self-similarity
 matrix is one weakly connected component, and its cheapest path from its first
-row to its last matches two stretches frame by frame.
+row to its last matches two spans frame by frame.
 
 Source: Vögele, Krüger and Klein 2014, sections 3 and 3.2; the graph after
 Krüger, Tautges, Weber and Zinke 2010.
@@ -71,12 +71,12 @@ class WarpingPaths:
 
     @property
     def slopes(self) -> NDArray[np.float64]:
-        """Columns per row from start to end; 1 where both stretches last equally long."""
+        """Columns per row from start to end; 1 where both spans last equally long."""
         (row_start, column_start), (row_end, column_end) = self.starts, self.ends
         return (column_end - column_start) / (row_end - row_start)
 
     def within_slope(self, max_slope: float) -> NDArray[np.bool_]:
-        """Which paths match stretches that differ by this factor at most in length."""
+        """Which paths match spans that differ by this factor at most in length."""
         slopes = self.slopes
         return (slopes >= 1 / max_slope) & (slopes <= max_slope)
 

@@ -20,10 +20,10 @@ from kineme.methods.baselines._kernels import (
     propagate,
     window_alignments,
 )
-from kineme.methods.baselines.aca import State, aca, improve, majority_pieces
+from kineme.methods.baselines.aca import State, aca, improve, majority_segments
 from kineme.methods.baselines.haca import haca, haca_levels
-from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
+from kineme.methods.baselines.segments import Segments
 from kineme.reproduction import read_trials
 from kineme.reproduction.aca_protocol import aca_accuracy
 
@@ -80,12 +80,12 @@ def test_cheapest_lengths_are_the_cheapest_cover(seed, n, shortest, more):
 @given(SEEDS, st.integers(1, 3), st.integers(1, 4))
 def test_first_segmentation_repeats_the_programs_slip(seed, shortest, more):
     labels = np.random.default_rng(seed).integers(0, 3, 24)
-    state = majority_pieces(labels, 3, shortest, shortest + more)
+    state = majority_segments(labels, 3, shortest, shortest + more)
     expected = naive.first_segmentation(labels, shortest, shortest + more)
     assert np.diff(state.borders).tolist() == expected
 
 
-def test_search_improves_until_pieces_repeat():
+def test_search_improves_until_segments_repeat():
     kernel = random_kernel(3, 60)
     start = State(np.arange(0, 61, 6), np.arange(10) % 2)
     weights = np.ones(60)
@@ -102,19 +102,19 @@ def test_a_lost_class_is_no_result():
 
 
 def test_two_movements_in_turn_are_told_apart():
-    """Borders may be off by as much as a piece: nothing but its length holds one in place."""
+    """Borders may be off by as much as a segment: nothing but its length holds one in place."""
     features = two_movements()
     truth = np.repeat([0, 1] * 2, 480)
-    for pieces in (
+    for segments in (
         aca(features, n_classes=2, shortest=12, longest=30, centres=8),
         haca(features, n_classes=2, fine_lengths=(4, 6), coarse_lengths=(2, 4), centres=8),
     ):
-        labels = pieces.per_frame()
+        labels = segments.per_frame()
         agreement = np.mean(labels == truth)
         assert max(agreement, 1 - agreement) > 0.85
 
 
-def test_equal_seeds_give_equal_pieces_and_turned_features_the_same():
+def test_equal_seeds_give_equal_segments_and_turned_features_the_same():
     features = two_movements()
     turn = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
     first, second, turned = (
@@ -127,7 +127,7 @@ def test_equal_seeds_give_equal_pieces_and_turned_features_the_same():
     assert turned.objective == pytest.approx(first.objective)
 
 
-def test_second_level_pieces_are_made_of_first_level_ones():
+def test_second_level_segments_are_made_of_first_level_ones():
     fine, coarse = haca_levels(
         two_movements(), n_classes=2, fine_lengths=(4, 6), coarse_lengths=(2, 4), centres=8
     )
@@ -145,7 +145,7 @@ def test_blocks_are_runs_of_one_centre_of_at_most_five_frames():
     ("values", "message"),
     [
         ({"n_classes": 40}, "cannot hold 40 classes"),
-        ({"shortest": 30, "longest": 20}, "pieces of 30 to 20 blocks"),
+        ({"shortest": 30, "longest": 20}, "segments of 30 to 20 blocks"),
         ({"shortest": 300, "longest": 301}, "cannot hold 2 classes"),
         ({"shortest": 95, "longest": 97, "n_classes": 1}, "let them differ more"),
     ],
@@ -180,9 +180,9 @@ def test_accuracy_agrees_with_the_original_program(data_dir: Path, trial: str):
     lengths = (32, 60) if trial != "86_11" else (21, 36)
     levels = {} if trial != "86_11" else {"fine_lengths": (7, 9), "coarse_lengths": (3, 4)}
 
-    def accuracy(pieces: Pieces) -> float:
-        labels = pieces.clusters.tolist()
-        found = Labelling.from_cuts(pieces.cuts, labels, frames=pieces.n_frames, fps=120.0)
+    def accuracy(segments: Segments) -> float:
+        labels = segments.clusters.tolist()
+        found = Labelling.from_cuts(segments.cuts, labels, frames=segments.n_frames, fps=120.0)
         return aca_accuracy(truth, found)
 
     for name, run in (

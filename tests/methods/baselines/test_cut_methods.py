@@ -110,9 +110,9 @@ def test_bad_features_are_refused(method):
 
 def test_gaussians_are_clusters_that_come_back():
     first, second, third = changing(1)[:60], changing(1)[60:130], changing(1)[:60]
-    pieces = gmm(np.concatenate([first, second, third]), n_classes=2)
-    assert pieces.cuts.tolist() == [60, 130]
-    assert pieces.clusters[0] == pieces.clusters[2] != pieces.clusters[1]
+    segments = gmm(np.concatenate([first, second, third]), n_classes=2)
+    assert segments.cuts.tolist() == [60, 130]
+    assert segments.clusters[0] == segments.clusters[2] != segments.clusters[1]
 
 
 def test_more_gaussians_than_frames_are_refused():
@@ -125,7 +125,7 @@ def test_pca_methods_find_the_borders_of_a_real_recording(data_dir):
     truth = read_trials(folder / "annotations.json", fps=120.0)["86_09"]
     quaternions = joint_quaternions(kineme.read(folder / "86_09.amc"))
     for method in (pca, ppca):
-        pieces = method(quaternions.reshape(len(quaternions), -1), fps=120.0)
-        labels = pieces.clusters.tolist()
-        found = Labelling.from_cuts(pieces.cuts, labels, frames=pieces.n_frames, fps=120.0)
+        segments = method(quaternions.reshape(len(quaternions), -1), fps=120.0)
+        labels = segments.clusters.tolist()
+        found = Labelling.from_cuts(segments.cuts, labels, frames=segments.n_frames, fps=120.0)
         assert border_score(truth, found).recall == 1

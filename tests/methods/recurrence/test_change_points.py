@@ -26,37 +26,37 @@ seconds = settings(max_examples=120)
 
 @st.composite
 def similarities(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
-    """Symmetric, from 0 to 1, each moment alike to itself."""
+    """Symmetric, from 0 to 1, each sample similar to itself."""
     n = draw(st.integers(1, max_bins))
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    alike = rng.random((n, n)) ** draw(st.sampled_from([0.1, 1, 10]))
-    alike = np.round(np.minimum(alike, alike.T), 2)
-    np.fill_diagonal(alike, 1)
-    return alike
+    similarity = rng.random((n, n)) ** draw(st.sampled_from([0.1, 1, 10]))
+    similarity = np.round(np.minimum(similarity, similarity.T), 2)
+    np.fill_diagonal(similarity, 1)
+    return similarity
 
 
 @given(similarities(), st.integers(0, 9), st.integers(0, 4), st.sampled_from([0.0, 0.3, 1.0, 5.0]))
 @seconds
-def test_no_division_is_cheaper(alike, width, shortest, penalty) -> None:
-    width = min(width, len(alike) - 1)
-    divisions = naive.divisions(len(alike), shortest, width + 1)
-    found = kernels.change_points(one_sided(alike, width), penalty, shortest).tolist()
+def test_no_division_is_cheaper(similarity, width, shortest, penalty) -> None:
+    width = min(width, len(similarity) - 1)
+    divisions = naive.divisions(len(similarity), shortest, width + 1)
+    found = kernels.change_points(one_sided(similarity, width), penalty, shortest).tolist()
     assert found in divisions
-    costs = [naive.division_cost(alike, borders, penalty) for borders in divisions]
-    assert naive.division_cost(alike, found, penalty) == pytest.approx(min(costs), abs=1e-4)
+    costs = [naive.division_cost(similarity, borders, penalty) for borders in divisions]
+    assert naive.division_cost(similarity, found, penalty) == pytest.approx(min(costs), abs=1e-4)
 
 
 @given(
     similarities(max_bins=12), st.integers(0, 12), st.integers(0, 5), st.integers(1, 4), st.data()
 )
 @seconds
-def test_affinities_are_those_of_the_naive_version(alike, width, gap, min_count, data) -> None:
-    n = len(alike)
+def test_affinities_are_those_of_the_naive_version(similarity, width, gap, min_count, data) -> None:
+    n = len(similarity)
     labels = np.array(data.draw(st.lists(st.integers(0, 2), min_size=n, max_size=n)), np.int64)
     found = np.full((n, 3), np.nan)
-    band = one_sided(alike, width)
+    band = one_sided(similarity, width)
     kernels.class_affinities(band, labels, gap, min_count, 0, n, found)
-    expected = naive.class_affinities(alike, width, labels, 3, gap, min_count)
+    expected = naive.class_affinities(similarity, width, labels, 3, gap, min_count)
     np.testing.assert_allclose(found, expected, atol=1e-6)
 
 

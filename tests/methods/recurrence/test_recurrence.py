@@ -23,17 +23,17 @@ BLURS = GAPS = st.integers(0, 15)
 
 @given(points(), STEPS, WIDTHS)
 @seconds
-def test_nearest_in_bins_is_that_of_the_naive_version(features, step, width) -> None:
-    expected = naive.nearest_in_bins(features, step, width)
+def test_nearest_frames_is_that_of_the_naive_version(features, step, width) -> None:
+    expected = naive.nearest_frames(features, step, width)
     near = np.full((len(expected), 2 * width + 1), np.nan, np.float32)
-    kernels.nearest_in_bins(features, step, width, 0, len(near), near)
+    kernels.nearest_frames(features, step, width, 0, len(near), near)
     np.testing.assert_allclose(near, two_sided(expected, width), rtol=1e-6)
 
 
 @given(points(), WIDTHS, BLURS)
 @seconds
 def test_blurred_rows_are_those_of_the_naive_version(features, width, blur) -> None:
-    near = naive.nearest_in_bins(features, 1, width)
+    near = naive.nearest_frames(features, 1, width)
     found = np.full((len(near), 2 * width + 1), np.nan, np.float32)
     kernels.blur_rows(two_sided(near, width), blur, 0, len(near), found)
     # Beyond the ends a window may still reach back into the recording; nobody asks there.
@@ -48,7 +48,7 @@ def test_blurred_rows_are_those_of_the_naive_version(features, width, blur) -> N
 )  # fmt: skip
 @seconds
 def test_local_scales_are_those_of_the_naive_version(features, width, gap, rank, low, high) -> None:
-    near = naive.nearest_in_bins(features, 1, width)
+    near = naive.nearest_frames(features, 1, width)
     found = np.full(len(near), np.nan, np.float32)
     kernels.local_scales(two_sided(near, width), gap, rank, 0, len(near), low, high, found)
     expected = naive.local_scales(near, width, gap, rank, low, high)
@@ -58,7 +58,7 @@ def test_local_scales_are_those_of_the_naive_version(features, width, gap, rank,
 @given(points(), WIDTHS, st.sampled_from([0.5, 1.0, 3.0]))
 @seconds
 def test_similarities_are_those_of_the_naive_version(features, width, softness) -> None:
-    near = naive.nearest_in_bins(features, 1, width)
+    near = naive.nearest_frames(features, 1, width)
     scales = np.linspace(0.5, 2, len(near)).astype(np.float32)
     found = np.zeros((len(near), width + 1), np.float32)
     for weight in (0.25, 0.75):
@@ -73,9 +73,9 @@ def test_similarities_are_those_of_the_naive_version(features, width, softness) 
 @seconds
 def test_coverage_is_that_of_the_naive_version(features, width, gap, data) -> None:
     n = len(features)
-    near = naive.nearest_in_bins(features, 1, width)
+    near = naive.nearest_frames(features, 1, width)
     scales = np.linspace(0.5, 2, n).astype(np.float32)
-    g, h = (stretch(data, n) for _ in range(2))
+    g, h = (part(data, n) for _ in range(2))
     ends = (g.start, g.stop, h.start, h.stop)
     covered = kernels.coverage(two_sided(near, width), scales, *ends, gap, 1.5)
     assert covered == pytest.approx(naive.coverage(near, width, scales, g, h, gap, 1.5), abs=1e-6)
@@ -84,7 +84,7 @@ def test_coverage_is_that_of_the_naive_version(features, width, gap, data) -> No
 @given(points(), WIDTHS, GAPS, st.data())
 @seconds
 def test_distances_to_classes_are_those_of_the_naive_version(features, width, gap, data) -> None:
-    near = naive.nearest_in_bins(features, 1, width)
+    near = naive.nearest_frames(features, 1, width)
     labels, wanted = (
         np.array(data.draw(st.lists(st.integers(-1, 2), min_size=len(near), max_size=len(near))))
         for _ in range(2)
@@ -113,9 +113,9 @@ def test_stretches_are_as_alike_as_in_the_naive_version(poses, reaches, gap, dat
     )
 
 
-def stretch(data: st.DataObject, bins: int) -> range:
-    start = data.draw(st.integers(0, bins - 1))
-    return range(start, data.draw(st.integers(start + 1, bins)))
+def part(data: st.DataObject, samples: int) -> range:
+    start = data.draw(st.integers(0, samples - 1))
+    return range(start, data.draw(st.integers(start + 1, samples)))
 
 
 OPTIONS = {
@@ -126,19 +126,19 @@ OPTIONS = {
 
 def test_samples_of_one_movement_are_similar_whatever_their_phase() -> None:
     rows = np.concatenate([swing(8, period=1.2), swing(8, period=1.2, axis=2)])
-    alike = to_matrix(recurrence(rows, **OPTIONS).similarity)
-    assert alike[:84, :84].min() > 0.5
-    assert alike[108:, 108:].min() > 0.5
-    assert np.median(alike[:84, 108:]) < 0.1
+    similarity = to_matrix(recurrence(rows, **OPTIONS).similarity)
+    assert similarity[:84, :84].min() > 0.5
+    assert similarity[108:, 108:].min() > 0.5
+    assert np.median(similarity[:84, 108:]) < 0.1
 
 
 def test_a_band_is_no_wider_than_the_recording() -> None:
     for frames in (1, 2, 3, 4, 50):
         found = recurrence(swing(2, period=1)[:frames], **OPTIONS)
-        bins = -(-frames // 3)
-        assert len(found) == bins
-        assert found.near.shape == (bins, 2 * bins - 1)
-        assert found.similarity.shape == (bins, bins)
+        samples = -(-frames // 3)
+        assert len(found) == samples
+        assert found.near.shape == (samples, 2 * samples - 1)
+        assert found.similarity.shape == (samples, samples)
 
 
 def test_a_narrow_band_is_the_middle_of_a_wide_one() -> None:

@@ -1,8 +1,8 @@
 """The methods kineme is compared with, one file each.
 
-They are pure functions on arrays (frames, dims) and return `Pieces`.
+They are pure functions on arrays (frames, dims) and return `Segments`.
 """
 
-from kineme.methods.baselines.pieces import Pieces
+from kineme.methods.baselines.segments import Segments
 
-__all__ = ["Pieces"]
+__all__ = ["Segments"]

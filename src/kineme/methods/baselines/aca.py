@@ -1,9 +1,9 @@
-"""Aligned cluster analysis (ACA): k-means over the pieces of a recording.
+"""Aligned cluster analysis (ACA): k-means over the segments of a recording.
 
-Pieces are compared by the dynamic time alignment kernel (DTAK): the best sum of
-frame kernel values along a warping path, over the weights of both pieces. Given
+Segments are compared by the dynamic time alignment kernel (DTAK): the best sum of
+frame kernel values along a warping path, over the weights of both segments. Given
 the number of classes, borders and classes are improved in turn: all windows up
-to the longest piece are compared with the present pieces, and dynamic
+to the longest segment are compared with the present segments, and dynamic
 programming picks the windows of least total distance to their class.
 
 Source: Zhou, De la Torre and Hodgins, FG 2008, TPAMI 35(3), 2013, as their
@@ -26,12 +26,12 @@ from kineme.methods.baselines._kernels import (
     propagate,
     window_alignments,
 )
-from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import (
     block_starts,
     frame_kernel,
     tightest_clusters,
 )
+from kineme.methods.baselines.segments import Segments
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -41,7 +41,7 @@ ITERATIONS = 20
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Borders (first frames, then the number of frames) and classes of the pieces."""
+    """Borders (first frames, then the number of frames) and classes of the segments."""
 
     borders: Ints
     classes: Ints
@@ -62,8 +62,8 @@ def aca(
     starts: int = 1,
     centres: int = 20,
     seed: int = 0,
-) -> Pieces:
-    """Pieces in ``n_classes`` clusters with the least total distance to their class.
+) -> Segments:
+    """Segments in ``n_classes`` clusters with the least total distance to their class.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def aca(
     n_classes : int
         The number of classes, which the method has to be told.
     shortest, longest : int, optional
-        Length of a piece, in blocks of at most five frames.
+        Length of a segment, in blocks of at most five frames.
     starts : int, optional
         Initialisations, of which the one with the least objective is kept.
     centres : int, optional
@@ -92,7 +92,7 @@ def aca(
     weights = np.ones(len(blocks))
     first = initial_states(kernel, n_classes, shortest, longest, starts, random)
     best = least([improve(kernel, weights, state, n_classes, longest) for state in first])
-    return pieces_of(best, np.append(blocks, len(features)))
+    return segments_of(best, np.append(blocks, len(features)))
 
 
 def initial_states(
@@ -107,7 +107,7 @@ def initial_states(
     embedding = spectral_embedding(propagate(kernel, longest), n_classes)
     for _ in range(starts):
         labels = tightest_clusters(embedding, n_classes, random)
-        yield majority_pieces(labels, n_classes, shortest, longest)
+        yield majority_segments(labels, n_classes, shortest, longest)
 
 
 def spectral_embedding(similarity: Floats, n_classes: int) -> Floats:
@@ -123,8 +123,8 @@ def spectral_embedding(similarity: Floats, n_classes: int) -> Floats:
     return embedding
 
 
-def majority_pieces(labels: Ints, n_classes: int, shortest: int, longest: int) -> State:
-    """Pieces of ``shortest`` to ``longest`` frames with few frames off their majority.
+def majority_segments(labels: Ints, n_classes: int, shortest: int, longest: int) -> State:
+    """Segments of ``shortest`` to ``longest`` frames with few frames off their majority.
 
     Each is in its majority's class. The fewest is what the program means to
     find; see `cheapest_lengths` for what it finds, which is kept here.
@@ -143,9 +143,9 @@ def majority_pieces(labels: Ints, n_classes: int, shortest: int, longest: int) -
 
 
 def improve(kernel: Floats, weights: Floats, state: State, n_classes: int, longest: int) -> State:
-    """The state reached when the pieces repeat, or after 20 searches.
+    """The state reached when the segments repeat, or after 20 searches.
 
-    A class left without pieces ends it with an infinite objective. A search
+    A class left without segments ends it with an infinite objective. A search
     depends on the state alone, so once a state comes back the 20th is known.
     """
     found: list[State] = []
@@ -172,16 +172,16 @@ def improve(kernel: Floats, weights: Floats, state: State, n_classes: int, longe
 def search(state: State, alignments: list[Floats], n_classes: int) -> State:
     """The windows of least total distance to the classes of ``state``, covering all frames.
 
-    The distance of a window to a class of m pieces is 1 - 2/m times the sum of
+    The distance of a window to a class of m segments is 1 - 2/m times the sum of
     its DTAK with them, plus their mean DTAK among themselves.
 
     Parameters
     ----------
     alignments : list of ndarray
-        Per piece, DTAK with every window, see `window_alignments`.
+        Per segment, DTAK with every window, see `window_alignments`.
     """
     distance = np.full((n_classes, *alignments[0].shape), np.inf)
-    among = piece_kernel(state.borders, alignments)
+    among = segment_kernel(state.borders, alignments)
     for c in np.unique(state.classes):
         members = np.flatnonzero(state.classes == c)
         mean = sum(alignments[j] for j in members) / len(members)
@@ -193,8 +193,8 @@ def search(state: State, alignments: list[Floats], n_classes: int) -> State:
     return State(borders, distance.argmin(axis=0)[chosen], costs[chosen].sum())
 
 
-def piece_kernel(borders: Ints, alignments: list[Floats]) -> Floats:
-    """DTAK of every piece with every piece, (pieces, pieces)."""
+def segment_kernel(borders: Ints, alignments: list[Floats]) -> Floats:
+    """DTAK of every segment with every segment, (segments, segments)."""
     last, length = borders[1:] - 1, np.diff(borders)
     return np.stack([table[last, length - 1] for table in alignments])
 
@@ -204,25 +204,25 @@ def least(states: list[State]) -> State:
     return min(states, key=lambda state: state.objective)
 
 
-def pieces_of(state: State, block_borders: Ints) -> Pieces:
-    """A state in blocks as pieces in frames."""
+def segments_of(state: State, block_borders: Ints) -> Segments:
+    """A state in blocks as segments in frames."""
     borders = block_borders[state.borders]
-    return Pieces(borders[1:-1], state.classes, int(borders[-1]), state.objective)
+    return Segments(borders[1:-1], state.classes, int(borders[-1]), state.objective)
 
 
 def check_room(n_blocks: int, n_classes: int, shortest: int, longest: int) -> None:
     """Refuse lengths and classes that no segmentation of so many blocks can have."""
     if not 1 <= shortest <= longest:
         raise ParameterError(
-            f"pieces of {shortest} to {longest} blocks: need 1 <= shortest <= longest"
+            f"segments of {shortest} to {longest} blocks: need 1 <= shortest <= longest"
         )
     if n_classes < 1 or n_blocks < n_classes * shortest:
         raise ParameterError(
             f"{n_blocks} blocks (of up to five frames) cannot hold {n_classes} classes with "
-            f"pieces of at least {shortest}: use a longer recording or smaller values"
+            f"segments of at least {shortest}: use a longer recording or smaller values"
         )
     if -(-n_blocks // longest) > n_blocks // shortest:
         raise ParameterError(
-            f"{n_blocks} blocks cannot be cut into pieces of {shortest} to {longest}: "
+            f"{n_blocks} blocks cannot be cut into segments of {shortest} to {longest}: "
             "let them differ more in length"
         )

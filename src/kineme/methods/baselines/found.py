@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.base import Columns
-from kineme.methods.baselines.pieces import Pieces
+from kineme.methods.baselines.segments import Segments
 
 if TYPE_CHECKING:
     from kineme.graph import NeighborGraph
@@ -20,30 +20,30 @@ PICTURED, PAIRS = 128, 2000
 
 
 @dataclass(frozen=True, eq=False)
-class PiecesFound:
+class SegmentsFound:
     """Segments of the activity level, each in a cluster.
 
     Attributes
     ----------
     features : (samples, dims) array
-    pieces : Pieces
+    segments : Segments
     timings : dict of str to float
         Seconds per stage.
     """
 
     features: NDArray[np.float64]
-    pieces: Pieces
+    segments: Segments
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
         """Activities only; methods without clusters number them."""
-        n = len(self.pieces.clusters)
+        n = len(self.segments.clusters)
         return {
             "level": np.full(n, "activity"),
             "kind": np.full(n, "activity"),
-            "start_frame": self.pieces.starts,
-            "stop_frame": self.pieces.stops,
-            "cluster": self.pieces.clusters,
+            "start_frame": self.segments.starts,
+            "stop_frame": self.segments.stops,
+            "cluster": self.segments.clusters,
             "score": np.full(n, np.nan),
         }
 

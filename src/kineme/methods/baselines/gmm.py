@@ -15,19 +15,19 @@ from sklearn.mixture import GaussianMixture
 from threadpoolctl import threadpool_limits
 
 from kineme.errors import ParameterError
-from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.principal import checked
+from kineme.methods.baselines.segments import Segments
 
 Floats = NDArray[np.float64]
 
 SHARE = 0.9
 
 
-def gmm(features: Floats, *, n_classes: int, seed: int = 0) -> Pieces:
+def gmm(features: Floats, *, n_classes: int, seed: int = 0) -> Segments:
     """Runs of frames whose likeliest Gaussian is the same; the Gaussians are the clusters.
 
     The features are reduced to the principal components with 90 % of their
-    variance; expectation maximisation starts from k-means. No piece is too
+    variance; expectation maximisation starts from k-means. No segment is too
     short to stand.
 
     Parameters
@@ -51,4 +51,4 @@ def gmm(features: Floats, *, n_classes: int, seed: int = 0) -> Pieces:
         reduced = PCA(SHARE, svd_solver="full").fit_transform(frames)
         labels = GaussianMixture(n_classes, random_state=seed).fit_predict(reduced)
     cuts = np.flatnonzero(np.diff(labels)) + 1
-    return Pieces(cuts, labels[np.append(0, cuts)].astype(np.int64), len(frames))
+    return Segments(cuts, labels[np.append(0, cuts)].astype(np.int64), len(frames))

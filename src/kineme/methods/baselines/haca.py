@@ -1,7 +1,7 @@
-"""Hierarchical aligned cluster analysis (HACA): ACA of the pieces that ACA found.
+"""Hierarchical aligned cluster analysis (HACA): ACA of the segments that ACA found.
 
-The first level cuts the recording into short pieces; their DTAK matrix takes
-the frame kernel's place on the second level, where a piece weighs as much as
+The first level cuts the recording into short segments; their DTAK matrix takes
+the frame kernel's place on the second level, where a segment weighs as much as
 the blocks it is made of.
 
 Source: Zhou, De la Torre and Hodgins, TPAMI 35(3), 2013, as their program does
@@ -20,11 +20,11 @@ from kineme.methods.baselines.aca import (
     improve,
     initial_states,
     least,
-    piece_kernel,
-    pieces_of,
+    segment_kernel,
+    segments_of,
 )
-from kineme.methods.baselines.pieces import Pieces
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
+from kineme.methods.baselines.segments import Segments
 
 FINE_CLASSES = 12
 FINE_STARTS, COARSE_STARTS = 5, 10
@@ -38,8 +38,8 @@ def haca(
     coarse_lengths: tuple[int, int] = (4, 6),
     centres: int = 20,
     seed: int = 0,
-) -> Pieces:
-    """Pieces of the second level, in ``n_classes`` clusters; see `haca_levels`."""
+) -> Segments:
+    """Segments of the second level, in ``n_classes`` clusters; see `haca_levels`."""
     return haca_levels(
         features,
         n_classes=n_classes,
@@ -58,8 +58,8 @@ def haca_levels(
     coarse_lengths: tuple[int, int] = (4, 6),
     centres: int = 20,
     seed: int = 0,
-) -> tuple[Pieces, Pieces]:
-    """Short pieces in 12 clusters, and pieces made of these in ``n_classes`` clusters.
+) -> tuple[Segments, Segments]:
+    """Short segments in 12 clusters, and segments made of these in ``n_classes`` clusters.
 
     Parameters
     ----------
@@ -68,9 +68,9 @@ def haca_levels(
     n_classes : int
         The number of classes, which the method has to be told.
     fine_lengths : (int, int), optional
-        Shortest and longest first-level piece, in blocks of at most five frames.
+        Shortest and longest first-level segment, in blocks of at most five frames.
     coarse_lengths : (int, int), optional
-        Shortest and longest second-level piece, in first-level pieces.
+        Shortest and longest second-level segment, in first-level segments.
     centres : int, optional
         K-means centres of the reduction to blocks.
     seed : int, optional
@@ -94,7 +94,7 @@ def haca_levels(
         )
     fine, coarse = min(levels, key=lambda both: both[1].objective)
     block_borders = np.append(blocks, len(features))
-    return pieces_of(fine, block_borders), pieces_of(coarse, block_borders[fine.borders])
+    return segments_of(fine, block_borders), segments_of(coarse, block_borders[fine.borders])
 
 
 def second_level(
@@ -105,12 +105,12 @@ def second_level(
     lengths: tuple[int, int],
     random: np.random.RandomState,
 ) -> State:
-    """ACA of the first-level pieces: the best of ten starts, with borders in such pieces."""
+    """ACA of the first-level segments: the best of ten starts, with borders in such segments."""
     spans = zip(fine.borders[:-1].tolist(), fine.borders[1:].tolist(), strict=True)
     longest = int(np.diff(fine.borders).max())
     windows = [window_alignments(kernel, weights, *span, longest) for span in spans]
-    pieces = piece_kernel(fine.borders, windows)
-    piece_weights = np.add.reduceat(weights, fine.borders[:-1])
-    check_room(len(pieces), n_classes, *lengths)
-    first = initial_states(pieces, n_classes, *lengths, COARSE_STARTS, random)
-    return least([improve(pieces, piece_weights, one, n_classes, lengths[1]) for one in first])
+    segments = segment_kernel(fine.borders, windows)
+    segment_weights = np.add.reduceat(weights, fine.borders[:-1])
+    check_room(len(segments), n_classes, *lengths)
+    first = initial_states(segments, n_classes, *lengths, COARSE_STARTS, random)
+    return least([improve(segments, segment_weights, one, n_classes, lengths[1]) for one in first])

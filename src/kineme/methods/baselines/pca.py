@@ -20,12 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from kineme.methods.baselines.pieces import Pieces, unclustered
 from kineme.methods.baselines.principal import (
     checked,
     dimensions_kept,
     leading_scatters,
 )
+from kineme.methods.baselines.segments import Segments, unclustered
 
 Floats = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ FIRST_S, LAG_S, PCA_SHARE, DEVIATIONS = 240 / 120, 60 / 120, 0.9, 3.0
 AHEAD_S, GROWTH_S, PPCA_SHARE, RISE = 150 / 120, 10 / 120, 0.95, 0.1
 
 
-def pca(features: Floats, *, fps: float) -> Pieces:
+def pca(features: Floats, *, fps: float) -> Segments:
     """Cuts where the error of a fixed number of principal components rises faster than before.
 
     The first two seconds fix the number r of components that keep 90 % of the
@@ -61,7 +61,7 @@ def pca(features: Floats, *, fps: float) -> Pieces:
     return _cut_and_start_anew(checked(features, fps), partial(_error_jump, first=first, lag=lag))
 
 
-def ppca(features: Floats, *, fps: float) -> Pieces:
+def ppca(features: Floats, *, fps: float) -> Segments:
     """Cuts where the frames ahead are least like the frames so far.
 
     A Gaussian is fitted to the first K frames: their principal components up to
@@ -87,7 +87,7 @@ def ppca(features: Floats, *, fps: float) -> Pieces:
     )
 
 
-def _cut_and_start_anew(features: Floats, find: Callable[..., int | None]) -> Pieces:
+def _cut_and_start_anew(features: Floats, find: Callable[..., int | None]) -> Segments:
     """Cuts by a rule that finds the first one in the frames it is given, or None.
 
     Variances below the rounding error of the whole count as that.

@@ -19,8 +19,8 @@ from kineme.methods.base import RATE, Mirror, Preset, Unit, View
 from kineme.methods.constants import COUNT, SOME, SOME_TIME, constant
 
 if TYPE_CHECKING:
-    from kineme.methods.baselines.found import PiecesFound
-    from kineme.methods.baselines.pieces import Pieces
+    from kineme.methods.baselines.found import SegmentsFound
+    from kineme.methods.baselines.segments import Segments
     from kineme.methods.stages import Progress
 
 Floats = NDArray[np.float64]
@@ -47,18 +47,18 @@ class BaselinePreset(Preset):
         *,
         mirror: Mirror | None = None,  # noqa: ARG002 (left and right are told apart)
         progress: Progress | None = None,
-    ) -> PiecesFound:
+    ) -> SegmentsFound:
         """Segments of the activity level; see the method's own module."""
-        from kineme.methods.baselines.found import PiecesFound
+        from kineme.methods.baselines.found import SegmentsFound
         from kineme.methods.stages import stopwatch
 
         rows = as_features(features)
         timings: dict[str, float] = {}
         with stopwatch(timings, progress)(self.name):
-            pieces = self.pieces(rows)
-        return PiecesFound(rows, pieces, timings)
+            segments = self.segments(rows)
+        return SegmentsFound(rows, segments, timings)
 
-    def pieces(self, features: Floats) -> Pieces:
+    def segments(self, features: Floats) -> Segments:
         """The segments in features (samples, dims)."""
         raise NotImplementedError
 
@@ -98,7 +98,7 @@ class AcaPreset(ToldPreset):
     starts: int = constant("initialisations, of which the best is kept", limits=SOME, default=1)
     centres: int = constant("k-means centres of the reduction to blocks", limits=SOME, default=20)
 
-    def pieces(self, features: Floats) -> Pieces:
+    def segments(self, features: Floats) -> Segments:
         """Segments of least total distance to their cluster."""
         from kineme.methods.baselines.aca import aca
 
@@ -129,7 +129,7 @@ class HacaPreset(ToldPreset):
     )  # fmt: skip
     centres: int = constant("k-means centres of the reduction to blocks", limits=SOME, default=20)
 
-    def pieces(self, features: Floats) -> Pieces:
+    def segments(self, features: Floats) -> Segments:
         """Segments of the second level."""
         from kineme.methods.baselines.haca import haca
 
@@ -147,7 +147,7 @@ class HacaPreset(ToldPreset):
 class GmmPreset(ToldPreset):
     """Gaussian mixture; see `kineme.methods.baselines.gmm`."""
 
-    def pieces(self, features: Floats) -> Pieces:
+    def segments(self, features: Floats) -> Segments:
         """Runs of samples whose likeliest Gaussian is the same."""
         from kineme.methods.baselines.gmm import gmm
 
@@ -158,7 +158,7 @@ class GmmPreset(ToldPreset):
 class PcaPreset(BaselinePreset):
     """Cuts where principal components cease to fit; see `kineme.methods.baselines.pca`."""
 
-    def pieces(self, features: Floats) -> Pieces:
+    def segments(self, features: Floats) -> Segments:
         """Segments that share their principal components."""
         from kineme.methods.baselines.pca import pca
 
@@ -169,7 +169,7 @@ class PcaPreset(BaselinePreset):
 class PpcaPreset(BaselinePreset):
     """Cuts where a Gaussian ceases to fit; see `kineme.methods.baselines.pca`."""
 
-    def pieces(self, features: Floats) -> Pieces:
+    def segments(self, features: Floats) -> Segments:
         """Segments that share their Gaussian."""
         from kineme.methods.baselines.pca import ppca
 
@@ -182,7 +182,7 @@ class UniformPreset(BaselinePreset):
 
     interval: float = constant("time between two cuts", unit="s", limits=SOME_TIME, default=0.5)
 
-    def pieces(self, features: Floats) -> Pieces:
+    def segments(self, features: Floats) -> Segments:
         """Segments of equal length."""
         from kineme.methods.baselines.uniform import uniform
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from kineme.errors import ParameterError
-from kineme.methods.baselines.pieces import Pieces, unclustered
+from kineme.methods.baselines.segments import Segments, unclustered
 
 
-def uniform(n_frames: int, *, fps: float, seconds: float) -> Pieces:
+def uniform(n_frames: int, *, fps: float, seconds: float) -> Segments:
     """A cut every so many seconds, each at the nearest frame; clusters are not sought.
 
     Raises

@@ -15,20 +15,20 @@ SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 
 @njit("int64[::1](float32[:, ::1], float64, int64)", **OPTIONS)
 def change_points(similarity, penalty, min_length):
-    """Borders of the segments whose frames are most alike, ends included.
+    """Borders of the segments whose samples are most similar, ends included.
 
     Minimises, by dynamic programming, the sum over segments of
     ``length - (sum of similarities of all pairs) / length + penalty``. No
     segment is longer than the band is wide; where that leaves no division,
     there is one segment.
     """
-    bins, width = similarity.shape
-    best = np.full(bins + 1, np.inf)
+    samples, width = similarity.shape
+    best = np.full(samples + 1, np.inf)
     best[0] = 0
-    before = np.zeros(bins + 1, np.int64)
-    # row_sums[s]: similarities of s with the later bins of the segment so far.
-    row_sums = np.zeros(bins)
-    for end in range(1, bins + 1):
+    before = np.zeros(samples + 1, np.int64)
+    # row_sums[s]: similarities of s with the later samples of the segment so far.
+    row_sums = np.zeros(samples)
+    for end in range(1, samples + 1):
         last = end - 1
         inside = 0.0
         for start in range(last, max(-1, last - width), -1):
@@ -36,12 +36,12 @@ def change_points(similarity, penalty, min_length):
                 row_sums[start] += similarity[start, last - start]
             inside += similarity[start, 0] + 2 * row_sums[start]
             length = end - start
-            if length >= min_length or length == bins:
+            if length >= min_length or length == samples:
                 cost = best[start] + length - inside / length + penalty
                 if cost < best[end]:
                     best[end] = cost
                     before[end] = start
-    borders = [bins]
+    borders = [samples]
     while borders[-1] > 0:
         borders.append(before[borders[-1]])
     return np.array(borders[::-1], dtype=np.int64)
@@ -49,16 +49,16 @@ def change_points(similarity, penalty, min_length):
 
 @njit("void(float32[:, ::1], int64[::1], int64, int64, int64, int64, float64[:, ::1])", **SUMS)
 def class_affinities(similarity, labels, gap, min_count, start, stop, affinity):
-    """Mean similarity of each bin to the bins of each class, within the band and off the gap.
+    """Mean similarity of each sample to the samples of each class, within the band and off the gap.
 
-    Zero where fewer than ``min_count`` bins, at least one, of the class are within reach.
+    Zero where fewer than ``min_count`` samples, at least one, of the class are within reach.
     """
-    bins, width = similarity.shape
+    samples, width = similarity.shape
     counts = np.empty(affinity.shape[1], np.int64)
     for i in range(start, stop):
         affinity[i] = 0
         counts[:] = 0
-        for j in range(max(0, i - width + 1), min(bins, i + width)):
+        for j in range(max(0, i - width + 1), min(samples, i + width)):
             lag = abs(j - i)
             if lag > gap:
                 affinity[i, labels[j]] += similarity[min(i, j), lag]

@@ -1,4 +1,4 @@
-"""Compiled loops over single frames: stretches far apart, and visits of a pose.
+"""Compiled loops over single frames: spans far apart, and visits of a pose.
 
 Naive twins are in ``tests/naive.py``.
 """

@@ -18,22 +18,22 @@ FAR = np.float32(np.inf)
 
 
 @njit("void(float32[:, ::1], int64, int64, int64, int64, float32[:, ::1])", **SUMS)
-def nearest_in_bins(features, step, width, start, stop, near):
-    """Distances from every ``step``-th frame to the nearest frame of each bin around it.
+def nearest_frames(features, step, width, start, stop, near):
+    """Distances from every ``step``-th frame to the nearest frame at each sample around it.
 
-    Row i is frame ``i step``; bin j holds the ``step`` frames around frame
+    Row i is frame ``i step``; sample j is the ``step`` frames around frame
     ``j step``. Fills rows ``[start, stop)`` of a two-sided band; pairs beyond
     the ends are infinite.
     """
     frames, dims = features.shape
-    bins = near.shape[0]
+    samples = near.shape[0]
     reach = step // 2
     for i in range(start, stop):
         row = features[i * step]
         for lag in range(-width, width + 1):
             j = i + lag
             nearest = FAR
-            if 0 <= j < bins:
+            if 0 <= j < samples:
                 for f in range(max(0, j * step - reach), min(frames, j * step + step - reach)):
                     square = np.float32(0)
                     for d in range(dims):
@@ -71,14 +71,14 @@ def blur_rows(near, blur, start, stop, blurred):
 )
 def local_scales(blurred, gap, rank, start, stop, low, high, scales):
     """For each row the ``rank``-th smallest symmetric distance beyond the gap, clipped."""
-    bins, lags = blurred.shape
+    samples, lags = blurred.shape
     width = lags // 2
     row = np.empty(lags, np.float32)
     for i in range(start, stop):
         count = 0
         for lag in range(-width, width + 1):
             j = i + lag
-            if abs(lag) > gap and 0 <= j < bins:
+            if abs(lag) > gap and 0 <= j < samples:
                 distance = max(blurred[i, lag + width], blurred[j, width - lag])
                 if distance < high:
                     row[count] = distance
@@ -93,10 +93,10 @@ def local_scales(blurred, gap, rank, start, stop, low, high, scales):
 )
 def add_similarities(blurred, scales, softness, weight, start, stop, similarity):
     """Adds the similarity of each pair, from 0 to 1, times a weight to a one-sided band."""
-    bins, lags = blurred.shape
+    samples, lags = blurred.shape
     width = lags // 2
     for i in range(start, stop):
-        for lag in range(min(width + 1, bins - i)):
+        for lag in range(min(width + 1, samples - i)):
             distance = max(blurred[i, width + lag], blurred[i + lag, width - lag])
             unit = softness * softness * scales[i] * scales[i + lag]
             similarity[i, lag] += weight * np.exp(-distance * distance / unit)
@@ -104,23 +104,23 @@ def add_similarities(blurred, scales, softness, weight, start, stop, similarity)
 
 @njit("void(float32[:, ::1], int64[::1], int64[::1], int64, int64, int64, float32[::1])", **OPTIONS)
 def class_distances(near, labels, wanted, gap, start, stop, nearest):
-    """For each bin the distance to the nearest bin of the class wanted there, beyond the gap.
+    """For each sample the distance to the nearest sample of the class wanted there, beyond the gap.
 
     Fills ``nearest[start:stop]``; where no class is wanted (-1) it is infinite.
     """
-    bins = len(labels)
+    samples = len(labels)
     width = near.shape[1] // 2
     for i in range(start, stop):
         nearest[i] = FAR
         if wanted[i] >= 0:
-            for j in range(max(0, i - width), min(bins, i + width + 1)):
+            for j in range(max(0, i - width), min(samples, i + width + 1)):
                 if labels[j] == wanted[i] and abs(j - i) > gap:
                     nearest[i] = min(nearest[i], near[i, j - i + width])
 
 
 @njit("float64(float32[:, ::1], float32[::1], int64, int64, int64, int64, int64, float64)", **SUMS)
 def coverage(near, scales, g_start, g_stop, h_start, h_stop, gap, softness):
-    """How well the bins of g recur in h beyond the gap: mean similarity, 0 to 1."""
+    """How well the samples of g recur in h beyond the gap: mean similarity, 0 to 1."""
     width = near.shape[1] // 2
     total = 0.0
     for i in range(g_start, g_stop):

@@ -114,7 +114,7 @@ def recurrence(
     parts = even_slices(n)
 
     def measure(part: slice) -> None:
-        kernels.nearest_in_bins(rows, step, width, part.start, part.stop, near)
+        kernels.nearest_frames(rows, step, width, part.start, part.stop, near)
 
     def scale(part: slice) -> None:
         kernels.local_scales(blurred, phases[0], rank, part.start, part.stop, low, high, scales)

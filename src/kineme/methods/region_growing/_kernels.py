@@ -157,7 +157,7 @@ def count_members(values, of):
 
 @njit("boolean[::1](int64[::1], int32[::1], int32[::1], float64)", **OPTIONS)
 def coherent_paths(ptr, rows, columns, share):
-    """Which paths have a mirror image: a path that matches their stretches the other way."""
+    """Which paths have a mirror image: a path that matches their spans the other way round."""
     n = len(ptr) - 1
     coherent = np.zeros(n, np.bool_)
     for p in range(n):

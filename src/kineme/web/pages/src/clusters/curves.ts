@@ -67,8 +67,8 @@ export function liveliest(motion: Motion, members: readonly Segment[]): Track {
   for (const joint of joints) {
     for (const axis of AXES) {
       const { mean } = spreadOf(members.map((member) => curveOf(motion, member, { joint, axis })));
-      const way = Math.max(...mean) - Math.min(...mean);
-      if (way > most) [best, most] = [{ joint, axis }, way];
+      const extent = Math.max(...mean) - Math.min(...mean);
+      if (extent > most) [best, most] = [{ joint, axis }, extent];
     }
   }
   return best;

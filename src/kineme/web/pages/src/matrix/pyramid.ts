@@ -20,7 +20,7 @@ export function levelFor(head: MatrixHead, secondsPerPixel: number): number {
   return Math.min(Math.max(level, 0), head.sizes.length - 1);
 }
 
-/** The tiles of a level that two stretches of time cover. */
+/** The tiles of a level that two spans of time cover. */
 export function tilesFor(head: MatrixHead, level: number, down: Span, across: Span): Place[] {
   const seconds = cellSeconds(head, level) * head.tile;
   const last = Math.max(Math.ceil((head.sizes[level] ?? 0) / head.tile) - 1, 0);

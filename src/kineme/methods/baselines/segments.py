@@ -1,4 +1,4 @@
-"""Pieces: what every method of this folder returns."""
+"""Segments: what every method of this folder returns."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
-    """A recording in consecutive pieces, each in a cluster.
+class Segments:
+    """A recording in consecutive segments, each in a cluster.
 
-    Piece i is the span ``[starts[i], stops[i])``, in frames of the array the
+    Segment i is the span ``[starts[i], stops[i])``, in frames of the array the
     method was given.
 
     Parameters
     ----------
     cuts : ndarray
-        First frames of all pieces but the first, ascending.
+        First frames of all segments but the first, ascending.
     clusters : ndarray
-        One number per piece, so one more than cuts; equal numbers are equal movements. A method
-        that finds no clusters numbers the pieces.
+        One number per segment, so one more than cuts; equal numbers are equal movements. A method
+        that finds no clusters numbers the segments.
     n_frames : int
         Length of the recording.
     objective : float, optional
@@ -37,12 +37,12 @@ class Pieces:
 
     @property
     def starts(self) -> Ints:
-        """First frame of each piece."""
+        """First frame of each segment."""
         return np.concatenate([[0], self.cuts])
 
     @property
     def stops(self) -> Ints:
-        """One past the last frame of each piece."""
+        """One past the last frame of each segment."""
         return np.concatenate([self.cuts, [self.n_frames]])
 
     def per_frame(self) -> Ints:
@@ -50,6 +50,6 @@ class Pieces:
         return np.repeat(self.clusters, self.stops - self.starts)
 
 
-def unclustered(cuts: list[int] | Ints, n_frames: int) -> Pieces:
-    """Pieces of a method that finds cuts only: each is a cluster of its own."""
-    return Pieces(np.asarray(cuts, np.int64), np.arange(len(cuts) + 1), n_frames)
+def unclustered(cuts: list[int] | Ints, n_frames: int) -> Segments:
+    """Segments of a method that finds cuts only: each is a cluster of its own."""
+    return Segments(np.asarray(cuts, np.int64), np.arange(len(cuts) + 1), n_frames)
