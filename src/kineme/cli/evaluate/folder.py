@@ -8,6 +8,7 @@ from typing import Any
 
 import typer
 
+from kineme.cli.evaluate.tables import show_table
 from kineme.cli.messages import progress
 from kineme.errors import ParameterError
 from kineme.evaluation.folder import FolderScores, Mapped, evaluate_folder
@@ -76,8 +77,6 @@ def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:
 
 def _show(result: FolderScores) -> None:
     """Print the scores of each recording by the methods, then those over all of them."""
-    from kineme.cli.scores import show_table
-
     columns: dict[str, Any] = {method: result.over_all(method) for method in result.methods}
     first, *_ = result.methods.values()
     short = ("mof", "edit", "f1@50", "border_f1")

@@ -1,4 +1,4 @@
-"""Scores as tables for people: one per trial, and the means."""
+"""Scores as tables for people."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ from kineme.reproduction.benchmark import Result, mean_scores
 Scores = Mapping[str, float]
 
 Group = tuple[str, Sequence[tuple[str, Sequence[str]]]]
-
+"""A title, and rows: a name and the cells beside it."""
 NARROW = 80
+"""Columns of a terminal; a file gets at least so many."""
 
 
 def show_results(results: Sequence[Result]) -> None:
@@ -38,7 +39,7 @@ def show_one(name: str, scores: Scores) -> None:
 def show_table(
     title: str,
     header: Sequence[str],
-    groups: Sequence[tuple[str, Sequence[tuple[str, Sequence[str]]]]],
+    groups: Sequence[Group],
 ) -> None:
     """Print a table: a column of names, one per title in the header, rows in groups."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))

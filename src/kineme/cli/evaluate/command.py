@@ -1,27 +1,21 @@
-"""``kineme evaluate``: methods on the benchmark or any folder, or one result against its truth."""
+"""The options of ``kineme evaluate``, and which of its three kinds of run they ask for."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import typer
 
-from kineme._files import atomic_write
-from kineme.cli.messages import Failures, progress
+from kineme.cli.messages import Failures
 from kineme.cli.reading import Quiet
-from kineme.errors import ParameterError, ReadError, WriteError
-
-if TYPE_CHECKING:
-    from kineme.reproduction.benchmark import Result
-    from kineme.reproduction.methods import Method
+from kineme.errors import WriteError
+from kineme.methods.presets import DEFAULT
 
 BENCHMARK = "cmu86"
 BENCH = "Benchmark"
 FOLDER = "A folder of recordings"
 OWN = "One result"
-DEFAULT = "kineme"
 Mapped = Literal["recording", "folder"]
 
 
@@ -99,8 +93,8 @@ def evaluate(
             "--method",
             "--methods",
             metavar="NAME,NAME,…",
-            help="Methods to run: presets, aca, haca, pca, ppca, gmm or uniform. All by default; "
-            "of a folder, the default preset.",
+            help="Presets to run, such as kineme,haca,uniform. All by default; of a folder, the "
+            "default preset.",
         ),
     ] = None,
     trial: Annotated[
@@ -143,7 +137,7 @@ def evaluate(
         if what != BENCHMARK and Path(what).is_dir():
             if labels is None:
                 raise typer.BadParameter("--labels FILE or FOLDER is needed for a folder")
-            from kineme.cli.evaluate_folder import run_folder
+            from kineme.cli.evaluate.folder import run_folder
             from kineme.evaluation.recordings import Reading
 
             scored = run_folder(
@@ -160,11 +154,15 @@ def evaluate(
         if what != BENCHMARK:
             if against is None:
                 raise typer.BadParameter(f"--against LABELS is needed, or {BENCHMARK} to run it")
-            records = _score_file(Path(what), against, fps, recording, trial, quiet=quiet)
+            from kineme.cli.evaluate.result import score_file
+
+            records = score_file(Path(what), against, fps, recording, trial, quiet=quiet)
         else:
             if against is not None:
                 raise typer.BadParameter(f"{BENCHMARK} brings its own truth: leave out --against")
-            records = _run_benchmark(names, trial, data, plot, figures, quiet=quiet)
+            from kineme.cli.evaluate.benchmark import run_benchmark
+
+            records = run_benchmark(names, trial, data, plot, figures, quiet=quiet)
         if output is not None:
             from kineme.evaluation.tables import write_records
 
@@ -178,97 +176,6 @@ def _listed(*texts: str | None) -> tuple[str, ...]:
     return tuple(name for name in names if name)
 
 
-def _score_file(
-    path: Path,
-    labels: Path,
-    fps: float | None,
-    recording: Path | None,
-    trials: list[str] | None,
-    *,
-    quiet: bool,
-) -> list[dict[str, Any]]:
-    from kineme.cli.scores import show_one
-    from kineme.evaluation.inputs import (
-        comparison,
-        read_result,
-        read_truth,
-        recording_of,
-        score,
-    )
-    from kineme.formats import read_motion
-    from kineme.reproduction.annotations import is_annotations, read_trial
-
-    found = read_result(path, fps=fps)
-    n_frames, rate = comparison(found)
-    if is_annotations(labels):
-        recorded = (found.provenance.get("input") or {}).get("path") or ""
-        truth = read_trial(labels, trials[0] if trials else Path(recorded).stem, fps=rate)
-        if truth.frames != n_frames:
-            said, lasts = truth.frames / rate, n_frames / rate
-            raise ReadError(labels, f"speaks of {said:.2f} s, the result of {lasts:.2f} s")
-    else:
-        truth = read_truth(labels, found, fps=fps)
-    source = recording or recording_of(found)
-    scores = score(truth, found, read_motion(source) if source else None)
-    if not quiet:
-        show_one(path.name, scores)
-        if source is None:
-            typer.echo("The recording is not at hand, so there are no distances: --recording FILE")
-    return [{"result": path.name, "truth": labels.name, **scores}]
-
-
-def _run_benchmark(
-    names: list[str],
-    trials: list[str] | None,
-    data: Path | None,
-    plot: Path | None,
-    figures: Path | None,
-    *,
-    quiet: bool,
-) -> list[dict[str, Any]]:
-    from kineme.cli.scores import show_results
-    from kineme.reproduction.benchmark import as_records, run
-    from kineme.reproduction.trials import find_folder, load_trials
-
-    methods = _methods(names)
-    for folder in (plot, figures):
-        _make_folder(folder)
-    with progress(BENCHMARK, quiet=quiet) as stage:
-        folder = find_folder(data)
-        loaded = load_trials(folder, trials, progress=stage)
-        results = run(loaded, methods, progress=stage)
-    if not quiet:
-        show_results(results)
-    with progress("figures", quiet=quiet) as stage:
-        _draw(results, folder, plot, figures, stage)
-    return as_records(results)
-
-
-def _methods(names: list[str]) -> Mapping[str, Method]:
-    from kineme.reproduction.methods import METHODS, method
-
-    try:
-        return {name: method(name) for name in names} or METHODS
-    except ParameterError as error:
-        raise typer.BadParameter(str(error)) from error
-
-
-def _draw(
-    results: list[Result], data: Path, plot: Path | None, figures: Path | None, stage: Any
-) -> None:
-    if plot is not None:
-        from kineme.reproduction.figures.bars import plot_trials
-
-        plot_trials(results, plot)
-    if figures is not None:
-        from kineme.reproduction.figures import make_figures
-
-        tables = make_figures(results, data, figures, progress=stage)
-        text = "\n".join(f"## {title}\n\n{table}" for title, table in tables.items())
-        with atomic_write(figures / "tables.md") as draft:
-            draft.write_text(text, encoding="utf-8")
-
-
 def _check_output(output: Path | None) -> None:
     """WriteError before the work for what could not be written after it."""
     if output is None:
@@ -279,11 +186,3 @@ def _check_output(output: Path | None) -> None:
         raise WriteError(output, f"scores are written as {' or '.join(OUTPUTS)}")
     if not output.parent.is_dir():
         raise WriteError(output, f"the folder {output.parent} does not exist")
-
-
-def _make_folder(folder: Path | None) -> None:
-    try:
-        if folder is not None:
-            folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise WriteError(folder or "", f"cannot be made: {error.strerror}") from error

@@ -1,0 +1,72 @@
+"""``kineme evaluate cmu86``: methods on the trials of subject 86."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from kineme._files import atomic_write
+from kineme.cli.evaluate.tables import show_results
+from kineme.cli.messages import progress
+from kineme.errors import ParameterError, WriteError
+from kineme.reproduction.benchmark import Result, as_records, run
+from kineme.reproduction.methods import METHODS, Method, method
+from kineme.reproduction.trials import find_folder, load_trials
+
+
+def run_benchmark(
+    names: list[str],
+    trials: list[str] | None,
+    data: Path | None,
+    plot: Path | None,
+    figures: Path | None,
+    *,
+    quiet: bool,
+) -> list[dict[str, Any]]:
+    """The scores of methods on trials as records; printed unless quiet, pictures if asked for."""
+    methods = _methods(names)
+    for folder in (plot, figures):
+        _make_folder(folder)
+    with progress("cmu86", quiet=quiet) as stage:
+        folder = find_folder(data)
+        loaded = load_trials(folder, trials, progress=stage)
+        results = run(loaded, methods, progress=stage)
+    if not quiet:
+        show_results(results)
+    with progress("figures", quiet=quiet) as stage:
+        _draw(results, folder, plot, figures, stage)
+    return as_records(results)
+
+
+def _methods(names: list[str]) -> Mapping[str, Method]:
+    try:
+        return {name: method(name) for name in names} or METHODS
+    except ParameterError as error:
+        raise typer.BadParameter(str(error)) from error
+
+
+def _draw(
+    results: list[Result], data: Path, plot: Path | None, figures: Path | None, stage: Any
+) -> None:
+    if plot is not None:
+        from kineme.reproduction.figures.bars import plot_trials
+
+        plot_trials(results, plot)
+    if figures is not None:
+        from kineme.reproduction.figures import make_figures
+
+        tables = make_figures(results, data, figures, progress=stage)
+        text = "\n".join(f"## {title}\n\n{table}" for title, table in tables.items())
+        with atomic_write(figures / "tables.md") as draft:
+            draft.write_text(text, encoding="utf-8")
+
+
+def _make_folder(folder: Path | None) -> None:
+    try:
+        if folder is not None:
+            folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise WriteError(folder or "", f"cannot be made: {error.strerror}") from error
