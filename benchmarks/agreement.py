@@ -33,7 +33,8 @@ from scipy.optimize import linear_sum_assignment
 import kineme
 from _figures import add_option, record
 from kineme.features import mirror_features
-from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
+from kineme.methods.region_growing.analysis import analyze_regions
+from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 from kineme.segmentation.bodies import motion_features
 

@@ -20,7 +20,7 @@ import kineme
 from kineme._colors import PALETTE, cluster_color
 from kineme.datasets import bundled_truth
 from kineme.graph import component_labels
-from kineme.methods.recurrence.analysis import RecurrenceFound
+from kineme.methods.recurrence.found import RecurrenceFound
 from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.region_growing.preset import KRUEGER2017
 from kineme.methods.region_growing.preset import VOEGELE2014 as PRESET

@@ -1,4 +1,4 @@
-"""Writing files so that a reader finds the old one or the new one, never half of one."""
+"""Files as such: written whole or not at all, and known by their first and last bytes."""
 
 from __future__ import annotations
 
@@ -9,6 +9,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from kineme.errors import WriteError
+
+HEAD = 4096
+"""Bytes by which a file is known without reading it whole."""
+TAIL = 1 << 16
+"""Bytes at the end of a Parquet file, where it names its columns."""
 
 
 @contextmanager
@@ -37,3 +42,16 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
         raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
     finally:
         draft.unlink(missing_ok=True)
+
+
+def head_of(path: Path) -> bytes:
+    """The first bytes of a file; OSError if it cannot be opened."""
+    with path.open("rb") as file:
+        return file.read(HEAD)
+
+
+def tail_of(path: Path) -> bytes:
+    """The last bytes of a file; OSError if it cannot be opened."""
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - TAIL))
+        return file.read()

@@ -22,9 +22,6 @@ from kineme.recordings import Note, Provenance
 MOST_EXPANSION = 100
 """Times that a compressed file may grow in memory; recordings compress to a half or a tenth."""
 
-HEAD = 4096
-"""Bytes by which a file is known without reading it whole."""
-
 
 @dataclass(frozen=True)
 class FileContent:
@@ -76,15 +73,6 @@ def load(path: str | PathLike[str]) -> FileContent:
         raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
     except ValueError as error:  # a null byte in the name
         raise ReadError(path, f"cannot be opened: {error}") from error
-
-
-def head_of(path: Path) -> bytes:
-    """The first bytes of a file; none if it cannot be read."""
-    try:
-        with path.open("rb") as file:
-            return file.read(HEAD)
-    except OSError:
-        return b""
 
 
 def numbers(words: Sequence[str | bytes]) -> list[float]:

@@ -22,15 +22,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from kineme._files import head_of, tail_of
 from kineme.formats.columns import is_timing, joint_names
-from kineme.formats.files import HEAD
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.registry import supported_formats
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""
 
-_TAIL = 1 << 16  # bytes at the end of a Parquet file, where it names its columns
 _SKELETONS = {".asf"}  # belong to the AMC beside them
 _ANYTHING = {".json", ".txt", ".dat"}
 
@@ -146,12 +145,12 @@ def _is_recording(path: Path) -> bool:
     if not formats or suffix in _SKELETONS:
         return False
     if suffix in _ANYTHING:
-        head = _first_bytes(path)
+        head = head_of(path)
         return any(known.recognises(head) for known in formats)
     if suffix in (".csv", ".tsv"):
-        return not _names_spans(_first_bytes(path))
+        return not _names_spans(head_of(path))
     if suffix == ".parquet":
-        tail = _last_bytes(path)
+        tail = tail_of(path)
         return not any(name in tail for name in SPANS[:2])
     return suffix != ".npz" or _names_motion(path)
 
@@ -169,17 +168,6 @@ def _names_motion(path: Path) -> bool:
         or any(map(is_timing, names))
         or bool(joint_names(names))
     )
-
-
-def _first_bytes(path: Path) -> bytes:
-    with path.open("rb") as file:
-        return file.read(HEAD)
-
-
-def _last_bytes(path: Path) -> bytes:
-    with path.open("rb") as file:
-        file.seek(max(0, path.stat().st_size - _TAIL))
-        return file.read()
 
 
 def _reason(error: Exception) -> str:

@@ -17,9 +17,10 @@ from functools import cache
 from pathlib import Path
 
 from kineme._checks import check_type
+from kineme._files import HEAD
 from kineme._plugins import plugins
 from kineme.errors import ReadError
-from kineme.formats.files import HEAD, FileContent
+from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion, Signals
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import csv
+from codecs import BOM_UTF8
 from pathlib import Path
 
-LENGTH = 4096
+from kineme._files import head_of, tail_of
 
 
 def head(path: Path) -> bytes:
     """The first bytes of a file; none if it cannot be read."""
     try:
-        with path.open("rb") as file:
-            return file.read(LENGTH).removeprefix(b"\xef\xbb\xbf")
+        return head_of(path).removeprefix(BOM_UTF8)
     except OSError:
         return b""
 
@@ -20,9 +20,7 @@ def head(path: Path) -> bytes:
 def tail(path: Path) -> bytes:
     """The last bytes of a file, where Parquet keeps what it knows of itself."""
     try:
-        with path.open("rb") as file:
-            file.seek(max(0, path.stat().st_size - 16 * LENGTH))
-            return file.read()
+        return tail_of(path)
     except OSError:
         return b""
 

@@ -17,7 +17,8 @@ from scipy.stats import ortho_group
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
 from kineme.methods.presets import resolve_preset
-from kineme.methods.recurrence.analysis import RecurrenceFound, analyze_actions
+from kineme.methods.recurrence.analysis import analyze_actions
+from kineme.methods.recurrence.found import RecurrenceFound
 from kineme.methods.recurrence.preset import KINEME
 from kineme.segmentation.bodies import motion_features
 from loops import swing

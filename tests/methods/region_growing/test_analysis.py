@@ -19,7 +19,8 @@ from kineme.datasets import random_recording
 from kineme.errors import ParameterError
 from kineme.graph import BASIC_STEPS
 from kineme.methods.presets import PUBLISHED, resolve_preset
-from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
+from kineme.methods.region_growing.analysis import analyze_regions
+from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.segmentation.bodies import motion_features
 

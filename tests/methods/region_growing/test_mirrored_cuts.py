@@ -13,7 +13,8 @@ import naive
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
 from kineme.features import mirror, mirror_features
-from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
+from kineme.methods.region_growing.analysis import analyze_regions
+from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.mirroring import merged_cuts
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 from kineme.segmentation.bodies import motion_features

@@ -24,8 +24,9 @@ from typing import Any
 
 import numpy as np
 
+from kineme._files import head_of
 from kineme.errors import ReadError
-from kineme.formats.files import FileContent, head_of, load
+from kineme.formats.files import FileContent, load
 from kineme.formats.keypoints.video import (
     Person,
     Video,
@@ -109,7 +110,10 @@ def frame_files(folder: Path) -> list[tuple[int, Path]]:
 
 
 def _begins_a_frame(file: Path) -> bool:
-    head = head_of(file)
+    try:
+        head = head_of(file)
+    except OSError:
+        return False
     return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") and b'"people"' in head
 
 

@@ -30,7 +30,7 @@ from kineme.methods.constants import (
 )
 
 if TYPE_CHECKING:
-    from kineme.methods.recurrence.analysis import RecurrenceFound
+    from kineme.methods.recurrence.found import RecurrenceFound
     from kineme.methods.stages import Progress
 
 

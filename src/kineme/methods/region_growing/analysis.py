@@ -5,7 +5,6 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from itertools import repeat
 from math import ceil
 from typing import TYPE_CHECKING
@@ -17,7 +16,7 @@ from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.errors import ParameterError
 from kineme.graph import NeighborGraph, component_labels, neighbor_graph
-from kineme.methods.base import Columns, Mirror
+from kineme.methods.base import Mirror
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.activities import (
     ActivityCuts,
@@ -25,74 +24,15 @@ from kineme.methods.region_growing.activities import (
     square_cuts,
 )
 from kineme.methods.region_growing.clustering import Clustering, cluster_segments
+from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.mirroring import merged_cuts, symmetry_type
 from kineme.methods.region_growing.primitives import PrimitiveCuts, primitive_cuts
-from kineme.methods.segments import by_first_appearance, columns_of
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
     from kineme.methods.region_growing.preset import RegionGrowingPreset
 
 Frames = NDArray[np.int64]
-
-
-@dataclass(frozen=True, eq=False)
-class RegionsFound:
-    """What the stages found, stage by stage.
-
-    Attributes
-    ----------
-    features : (frames, dims) array
-        As given, or bundled.
-    graph : NeighborGraph
-        Neighbours of every frame, main diagonal included.
-    activity_cuts : ActivityCuts
-        Where activities end and start.
-    borders : (segments + 1,) array
-        Of activities and transitions, from 0 to n.
-    repeats : (segments,) array of bool
-        Whether it is an activity, or else a transition.
-    repetition : (segments,) array
-        Share of its frames that are similar to others of it.
-    primitives : (primitives + 1,) array
-        Borders of the primitives, from 0 to n, those of activities included.
-    clustering : Clustering
-        Cluster and score of each primitive.
-    symmetry : (segments,) array of str, optional
-        How left and right go together in each activity: ``symmetric``, ``alternating`` or
-        ``one-sided`` (see `kineme.methods.region_growing.mirroring`); empty in transitions;
-        None where the preset does not mirror.
-    timings : dict of str to float
-        Seconds per stage.
-    """
-
-    features: NDArray[np.float64]
-    graph: NeighborGraph
-    activity_cuts: ActivityCuts
-    borders: Frames
-    repeats: NDArray[np.bool_]
-    repetition: NDArray[np.float64]
-    primitives: Frames
-    clustering: Clustering
-    symmetry: NDArray[np.str_] | None = None
-    timings: dict[str, float] = field(default_factory=dict)
-
-    def columns(self) -> Columns:
-        """Activities in the cluster that most of their frames are in, primitives in their own."""
-        parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
-        clusters = _cluster_numbers(self, parents)
-        of_activities = _main_clusters(clusters, parents, np.diff(self.primitives))
-        return columns_of(
-            self.borders,
-            self.primitives,
-            is_activity=self.repeats,
-            clusters=(of_activities, clusters),
-            scores=(self.repetition, self.clustering.scores),
-        )
-
-    def doubts(self, columns: Columns, fps: float) -> list[str]:  # noqa: ARG002
-        """None: the published methods do not say how sure they are."""
-        return []
 
 
 def analyze_regions(
@@ -287,19 +227,3 @@ def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionGrowingPrese
 
 def _separation(preset: RegionGrowingPreset) -> int | None:
     return None if preset.path_separation is None else preset.frames(preset.path_separation)
-
-
-def _cluster_numbers(found: RegionsFound, parents: NDArray[np.intp]) -> Frames:
-    """Numbers from 0 by first appearance; -1 for transitions that nothing else is similar to."""
-    labels = found.clustering.labels
-    lonely = np.bincount(labels)[labels] == 1
-    named = ~(lonely & ~found.repeats[parents])
-    return by_first_appearance(np.where(named, labels, -1))
-
-
-def _main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Frames) -> Frames:
-    """For each activity the cluster that most of its frames are in; -1 where that is none."""
-    frames = np.zeros((int(parents.max()) + 1, int(clusters.max()) + 2), np.int64)
-    np.add.at(frames, (parents, clusters), lengths)  # those in no cluster: the last column
-    main = frames.argmax(axis=1)
-    return np.where(main == frames.shape[1] - 1, -1, main)

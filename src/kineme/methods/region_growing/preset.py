@@ -30,7 +30,7 @@ from kineme.methods.constants import (
 )
 
 if TYPE_CHECKING:
-    from kineme.methods.region_growing.analysis import RegionsFound
+    from kineme.methods.region_growing.found import RegionsFound
     from kineme.methods.stages import Progress
 
 Step = tuple[int, int]

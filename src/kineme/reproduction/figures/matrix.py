@@ -23,7 +23,8 @@ from kineme._colors import PALETTE
 from kineme.evaluation.labelling import TRANSITION, Annotation
 from kineme.graph import NeighborGraph, component_labels
 from kineme.methods.presets import PUBLISHED
-from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
+from kineme.methods.region_growing.analysis import analyze_regions
+from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import primitive_cuts
 from kineme.plot.matrix import SHADES, similarity_image
