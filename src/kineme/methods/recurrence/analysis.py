@@ -22,7 +22,7 @@ from kineme.methods.recurrence.transitions import activity_ends
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
-    from kineme.methods.recurrence.preset import RecurrencePreset
+    from kineme.methods.recurrence.constants import RecurrenceConstants
 
 Frames = NDArray[np.int64]
 
@@ -31,7 +31,7 @@ _TINY, _HUGE = 1e-9, 1e9
 
 
 def analyze_actions(
-    features: ArrayLike, preset: RecurrencePreset, *, progress: Progress | None = None
+    features: ArrayLike, preset: RecurrenceConstants, *, progress: Progress | None = None
 ) -> RecurrenceFound:
     """Recurrence, actions and repetitions of a sequence of features.
 
@@ -41,7 +41,7 @@ def analyze_actions(
         Stacked poses at the working rate, scaled so that distances are body
         sizes: divided by the size of the body and by the root of the number
         of stacked poses.
-    preset : RecurrencePreset
+    preset : RecurrenceConstants
     progress : callable, optional
         Called with the name of each stage before it runs.
 
@@ -73,7 +73,7 @@ def analyze_actions(
     )
 
 
-def find_actions(recurring: Recurrence, preset: RecurrencePreset) -> Actions:
+def find_actions(recurring: Recurrence, preset: RecurrenceConstants) -> Actions:
     """Segments of one action each, in samples."""
     per_second = preset.working_fps / preset.step
     borders = change_points.change_points(
@@ -114,7 +114,7 @@ def find_actions(recurring: Recurrence, preset: RecurrencePreset) -> Actions:
     )
 
 
-def recurrence_unit(features: NDArray[np.float64], preset: RecurrencePreset) -> float:
+def recurrence_unit(features: NDArray[np.float64], preset: RecurrenceConstants) -> float:
     """The length in which the median sample of signals recurs at ``preset.recurs_at``.
 
     1 where nothing is long enough to recur.
@@ -127,7 +127,7 @@ def recurrence_unit(features: NDArray[np.float64], preset: RecurrencePreset) -> 
 
 
 def _recurrence(
-    features: NDArray[np.float64], preset: RecurrencePreset, low: float, high: float
+    features: NDArray[np.float64], preset: RecurrenceConstants, low: float, high: float
 ) -> Recurrence:
     reach = preset.window if preset.max_lag is None else min(preset.window, preset.max_lag)
     return recurrence(
@@ -153,7 +153,7 @@ def _poses(features: NDArray[np.float32], offsets: tuple[float, ...]) -> NDArray
 
 
 def _activities(
-    found: Actions, recurring: Recurrence, preset: RecurrencePreset, n: int
+    found: Actions, recurring: Recurrence, preset: RecurrenceConstants, n: int
 ) -> tuple[Frames, Frames, NDArray[np.float64]]:
     """Borders, labels and confidence of activities and the transitions between them, in frames."""
     ends, begins = activity_ends(
@@ -180,7 +180,7 @@ def _count(
     borders: Frames,
     labels: Frames,
     limits: Frames,
-    preset: RecurrencePreset,
+    preset: RecurrenceConstants,
 ) -> list[Repetitions]:
     """Repetitions of each activity; none in transitions.
 

@@ -15,7 +15,7 @@ from kineme.methods.segments import columns_of
 
 if TYPE_CHECKING:
     from kineme.graph import NeighborGraph
-    from kineme.methods.recurrence.preset import RecurrencePreset
+    from kineme.methods.recurrence.constants import RecurrenceConstants
 
 Frames = NDArray[np.int64]
 
@@ -33,7 +33,7 @@ class RecurrenceFound:
         Scaled so that distances are body sizes.
     recurrence : Recurrence
         How similar the samples are.
-    preset : RecurrencePreset
+    preset : RecurrenceConstants
     borders : (segments + 1,) array
         Of activities and transitions, from 0 to n.
     labels : (segments,) array
@@ -50,7 +50,7 @@ class RecurrenceFound:
 
     features: NDArray[np.float64]
     recurrence: Recurrence
-    preset: RecurrencePreset
+    preset: RecurrenceConstants
     borders: Frames
     labels: Frames
     confidence: NDArray[np.float64]

@@ -30,14 +30,14 @@ from kineme.methods.region_growing.primitives import PrimitiveCuts, primitive_cu
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
-    from kineme.methods.region_growing.preset import RegionGrowingPreset
+    from kineme.methods.region_growing.constants import RegionGrowingConstants
 
 Frames = NDArray[np.int64]
 
 
 def analyze_regions(
     features: ArrayLike,
-    preset: RegionGrowingPreset,
+    preset: RegionGrowingConstants,
     *,
     mirror: Mirror | None = None,
     progress: Progress | None = None,
@@ -49,7 +49,7 @@ def analyze_regions(
     features : (frames, dims) array
         Stacked poses at the working rate, in metres where the preset's radius is to mean
         what its source means.
-    preset : RegionGrowingPreset
+    preset : RegionGrowingConstants
     mirror : callable, optional
         Exchanges left and right in such features; `kineme.features.mirror_features` for
         those of motions.
@@ -114,7 +114,7 @@ def analyze_regions(
 
 
 def _neighbors(
-    features: ArrayLike, others: ArrayLike | None, preset: RegionGrowingPreset
+    features: ArrayLike, others: ArrayLike | None, preset: RegionGrowingConstants
 ) -> NeighborGraph:
     return neighbor_graph(
         features,
@@ -125,7 +125,7 @@ def _neighbors(
     )
 
 
-def _growth_graph(graph: NeighborGraph, preset: RegionGrowingPreset) -> NeighborGraph:
+def _growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> NeighborGraph:
     """The pairs that growing regions count: near enough, and off the main diagonal."""
     if preset.growth_neighbors is not None:
         graph = graph.nearest(preset.growth_neighbors)
@@ -136,7 +136,7 @@ def _growth_graph(graph: NeighborGraph, preset: RegionGrowingPreset) -> Neighbor
     return graph.restrict(radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width))
 
 
-def _activity_cuts(graph: NeighborGraph, preset: RegionGrowingPreset) -> ActivityCuts:
+def _activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) -> ActivityCuts:
     gap = max(1, preset.frames(preset.growth_gap))
     if preset.growth == "squares":
         return square_cuts(
@@ -155,7 +155,7 @@ def _borders(cuts: Frames, n: int) -> Frames:
 
 
 def _repeats(
-    borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingPreset
+    borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingConstants
 ) -> NDArray[np.bool_]:
     """Segments that repeat themselves; those from an end to the next start do not."""
     ends_only = np.isin(borders[:-1], cuts.forward) & ~np.isin(borders[:-1], cuts.backward)
@@ -163,7 +163,7 @@ def _repeats(
 
 
 def _primitives(
-    graph: NeighborGraph, borders: Frames, preset: RegionGrowingPreset
+    graph: NeighborGraph, borders: Frames, preset: RegionGrowingConstants
 ) -> list[PrimitiveCuts]:
     frames = np.minimum(borders, len(graph) - 1).tolist()
 
@@ -185,7 +185,7 @@ def _primitives(
 
 
 def _merged(
-    main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionGrowingPreset
+    main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionGrowingConstants
 ) -> list[Frames]:
     gap = preset.min_primitive * preset.working_fps
     return [merged_cuts(a.cuts, b.cuts, gap) for a, b in zip(main, mirrored, strict=True)]
@@ -196,7 +196,7 @@ def _symmetry(
     repeats: NDArray[np.bool_],
     main: list[PrimitiveCuts],
     mirrored: list[PrimitiveCuts],
-    preset: RegionGrowingPreset,
+    preset: RegionGrowingConstants,
 ) -> NDArray[np.str_]:
     """How left and right go together in each segment that repeats; empty in the others."""
     gap = preset.min_primitive * preset.working_fps
@@ -207,7 +207,7 @@ def _symmetry(
     return np.where(repeats, list(types), "")
 
 
-def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionGrowingPreset) -> Clustering:
+def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionGrowingConstants) -> Clustering:
     if preset.cluster_neighbors is not None:
         graph = graph.nearest(preset.cluster_neighbors)
     return cluster_segments(
@@ -225,5 +225,5 @@ def _clusters(graph: NeighborGraph, segments: Frames, preset: RegionGrowingPrese
     )
 
 
-def _separation(preset: RegionGrowingPreset) -> int | None:
+def _separation(preset: RegionGrowingConstants) -> int | None:
     return None if preset.path_separation is None else preset.frames(preset.path_separation)

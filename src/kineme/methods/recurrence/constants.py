@@ -1,0 +1,212 @@
+"""The constants of the ``kineme`` method: what each does, its unit and its limits.
+
+Lengths are shares of the body's size (see ``kineme.features.body_size``) or of
+what stands for it in signals, times seconds. ``docs/method.md`` says what each
+does and what other values measure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from kineme.errors import ParameterError
+from kineme.methods.base import Preset, Unit
+from kineme.methods.constants import (
+    FACTOR,
+    SHARE,
+    SOME,
+    SOME_FACTOR,
+    SOME_LENGTH,
+    SOME_SHARE,
+    SOME_TIME,
+    TIME,
+    Limits,
+    constant,
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecurrenceConstants(Preset):
+    """Of recurrence, change points, actions and repetitions."""
+
+    method: ClassVar[str] = "recurrence"
+    units: ClassVar[tuple[Unit, ...]] = ("body sizes",)
+    # Few channels at one sample tell little, so pace counts: what is the same at another
+    # pace is another action, as running is to a sensor that walks.
+    signal_defaults: ClassVar[Mapping[str, Any]] = {"any_pace": False}
+
+    unit: Unit = "body sizes"
+    # Recurrence: how similar any two samples are, whatever the phase.
+    resolution: float = constant(
+        "time between two samples that are compared", unit="s", limits=Limits(0.001, 60.0)
+    )
+    window: float = constant(
+        "samples this far apart are compared to find borders", unit="s", limits=SOME_TIME
+    )
+    phase: float = constant(
+        "a sample may find its like this much earlier or later at most", unit="s",
+        limits=Limits(0.0, 60.0), slider=(0.25, 5.0, 0.25),
+    )  # fmt: skip
+    phase_shares: tuple[float, ...] = constant(
+        "similarity is the mean of those with phases of these shares of the widest",
+        limits=SOME_SHARE, fine=True,
+    )  # fmt: skip
+    recurrence_time: float = constant(
+        "the scale of a sample is the distance within which so much of the recording recurs",
+        unit="s", limits=SOME_TIME,
+    )  # fmt: skip
+    min_scale: float = constant("smallest scale", unit="body sizes", limits=SOME_LENGTH)
+    max_scale: float = constant(
+        "largest scale", unit="body sizes", limits=SOME_LENGTH, slider=(0.08, 0.4, 0.01)
+    )
+    softness: float = constant("scales at which similarity has fallen to 1/e", limits=SOME_FACTOR)
+    # Change points, and which of the segments between them are one action.
+    border_cost: float = constant(
+        "similarity that a border between activities must gain", unit="s", limits=TIME,
+        slider=(0.25, 6.0, 0.25),
+    )  # fmt: skip
+    min_segment: float = constant(
+        "shortest segment between two such borders", unit="s", limits=TIME
+    )
+    merge_gap: float = constant(
+        "what is no farther away does not count as recurrence in a neighbour", unit="s", limits=TIME
+    )
+    merge_softness: float = constant(
+        "scales at which recurrence in a neighbour has fallen to 1/e", limits=SOME_FACTOR
+    )
+    merge_share: float = constant(
+        "share of a segment that must recur in its neighbour to be part of it", limits=SOME_FACTOR
+    )
+    link_similarity: float = constant(
+        "similarity, relative to that within, from which segments are one action",
+        limits=SOME_SHARE, slider=(0.1, 1.0, 0.05),
+    )  # fmt: skip
+    link_softness: float = constant(
+        "scales at which that similarity has fallen to 1/e", limits=SOME_FACTOR
+    )
+    link_samples: int = constant(
+        "segments are compared by so many of their samples at most", limits=SOME, fine=True
+    )
+    any_pace: bool = constant("whether the same at another pace is the same action")
+    least_self_similarity: float = constant(
+        "a segment is taken to be at least so similar within", limits=SOME_SHARE, fine=True
+    )
+    min_repetition: float = constant(
+        "share of a segment that must recur for it to be an activity", limits=FACTOR
+    )
+    # Actions: what each sample belongs to.
+    switch_cost: float = constant(
+        "dissimilarity that a change of action costs", unit="s", limits=TIME
+    )
+    no_action_cost: float = constant(
+        "dissimilarity at which a sample is better in no action", limits=FACTOR
+    )
+    least_similarity: float = constant(
+        "samples less similar to an action than this share of its own are as dissimilar as can be",
+        limits=Limits(0.0, 0.999, above=True), fine=True,
+    )  # fmt: skip
+    rounds: int = constant(
+        "times that actions are learnt anew from their samples", limits=Limits(1, 100), fine=True
+    )
+    min_action: float = constant("shortest action", unit="s", limits=TIME, slider=(0.2, 10.0, 0.1))
+    # Transitions: where one activity ends and the next begins.
+    transition_factor: float = constant(
+        "samples that recur farther than this times the usual distance of their action are "
+        "transition, at the ends of an activity", limits=SOME_FACTOR,
+    )  # fmt: skip
+    transition_spread: float = constant(
+        "thresholds from one minus this to one plus this times that factor vote",
+        limits=Limits(0.0, 0.999), fine=True,
+    )  # fmt: skip
+    usual_quantile: float = constant(
+        "quantile of an action's distances that is called usual", limits=SHARE, fine=True
+    )
+    max_transition: float = constant(
+        "longest transition taken from one end of an activity", unit="s", limits=TIME
+    )
+    max_transition_share: float = constant(
+        "largest share of an activity that a transition takes from one end", limits=Limits(0, 0.5),
+        fine=True,
+    )  # fmt: skip
+    # Repetitions: how an activity is divided.
+    repetition_smoothing: float = constant(
+        "speeds are those of poses averaged over this time before and after", unit="s",
+        limits=TIME, fine=True,
+    )  # fmt: skip
+    deep_quantile: float = constant(
+        "depths of dips are measured against this quantile of a pose's distances",
+        limits=SHARE, fine=True,
+    )  # fmt: skip
+    noise_share: float = constant(
+        "share of that below which a dip is noise", limits=SHARE, fine=True
+    )
+    voters: int = constant(
+        "poses that vote on the number of repetitions, evenly spread", limits=SOME, fine=True
+    )
+    counts_tried: int = constant(
+        "numbers of repetitions with the most votes that are tried", limits=SOME, fine=True
+    )
+    poses_tried: int = constant(
+        "poses with which each is tried, those that tell it best", limits=SOME, fine=True
+    )
+    path_points: int = constant(
+        "places along a repetition's path at which it is compared", limits=Limits(2, 1000),
+        fine=True,
+    )  # fmt: skip
+    end_distance: float = constant(
+        "an end belongs to a repetition as long as it is nearer than this share of the variance",
+        limits=SHARE, fine=True,
+    )  # fmt: skip
+    length_cost: float = constant(
+        "cost of the repetition that the others are compared with, per share of the activity",
+        limits=FACTOR, fine=True,
+    )  # fmt: skip
+    max_unexplained: float = constant(
+        "where more than this share stays unexplained, similarity is chance", limits=SHARE,
+        fine=True,
+    )  # fmt: skip
+    same_cost: float = constant(
+        "divisions that cost no more than this above the best say with it how long the ends are",
+        limits=FACTOR, fine=True,
+    )  # fmt: skip
+    same_count: float = constant(
+        "repetitions by which these differ at most", limits=FACTOR, fine=True
+    )
+    rival_cost: float = constant(
+        "divisions that cost no more than this above the best say whether the count is certain",
+        limits=SOME_FACTOR, fine=True,
+    )  # fmt: skip
+    # What is said to be looked at.
+    unsure_action: float = constant(
+        "confidence below which a note says to look at the activity", limits=SHARE, fine=True
+    )
+    unsure_count: float = constant(
+        "score below which a note says to look at the repetitions", limits=SHARE, fine=True
+    )
+    # Signals, which have no size of their own.
+    recurs_at: float = constant(
+        "distance at which the median sample of signals recurs: their unit of length", fine=True,
+        unit="body sizes", limits=SOME_LENGTH,
+    )  # fmt: skip
+    exact_below: float = constant(
+        "what recurs nearer than this recurs exactly, as in made-up signals", fine=True,
+        unit="standard deviations", limits=SOME_LENGTH,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.min_scale > self.max_scale:
+            raise ParameterError(
+                f"min_scale {self.min_scale} is larger than max_scale {self.max_scale}"
+            )
+
+    @property
+    def step(self) -> int:
+        """Frames of the working rate between two samples."""
+        return max(1, self.frames(self.resolution))
+
+    def samples(self, seconds: float) -> int:
+        """Seconds in whole samples, one in ``step`` frames of the working rate."""
+        return round(seconds * self.working_fps / self.step)
