@@ -10,21 +10,17 @@ from __future__ import annotations
 
 import json
 import math
-import time
-import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
 from kineme._version import __version__
-from kineme.errors import KinemeError, KinemeWarning
-from kineme.evaluation.comparison import Comparison, best_mapping, compare
-from kineme.evaluation.methods import check_method, segment_by
+from kineme.evaluation.comparison import Comparison, best_mapping
+from kineme.evaluation.jobs import Answer, Job, answers_to
+from kineme.evaluation.methods import check_method
 from kineme.evaluation.recordings import Reading
 from kineme.evaluation.score import Ratio, over_all, scores, value_of
 from kineme.labels.collections import LabelSource
@@ -176,7 +172,7 @@ def evaluate_folder(
         for name in methods
     ]
     answers: dict[Job, Answer] = {}
-    for done, (job, answer) in enumerate(_answers(jobs, processes), 1):
+    for done, (job, answer) in enumerate(answers_to(jobs, processes), 1):
         answers[job] = answer
         if progress is not None:
             progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
@@ -186,70 +182,6 @@ def evaluate_folder(
             for name in methods
         },
         mapping,
-    )
-
-
-@dataclass(frozen=True)
-class Job:
-    """A method on a recording."""
-
-    path: Path
-    source: LabelSource
-    method: str
-    reading: Reading
-
-    def __hash__(self) -> int:
-        return hash((self.path, self.method))
-
-
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """What came out of a job: something to compare, or an error."""
-
-    compared: Comparison | None = None
-    classes: Mapping[str, int] = field(default_factory=dict)
-    seconds: float = 0.0
-    length_s: float = 0.0
-    notes: tuple[str, ...] = ()
-    error: str = ""
-
-
-def _answers(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
-    """Each job and its answer, as they come."""
-    if processes == 1:
-        for job in jobs:
-            yield job, _answer(job)
-        return
-    # Started anew, for a copy of this process could wait forever for threads that it lacks.
-    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-        waiting: dict[Future[Answer], Job] = {pool.submit(_answer, job): job for job in jobs}
-        for future in as_completed(waiting):
-            failure = future.exception()
-            yield waiting[future], future.result() if failure is None else _failed(failure)
-
-
-def _answer(job: Job) -> Answer:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", KinemeWarning)
-            recording = job.reading.read(job.path)
-            truth = job.source.of(n_frames=recording.n_frames, fps=recording.fps)
-            classes: dict[str, int] = {}
-            compare(truth, truth, classes=classes)
-            start = time.perf_counter()
-            found = segment_by(job.method, recording, n_classes=len(classes))
-            seconds = time.perf_counter() - start
-            compared = compare(truth, found, classes=classes)
-    except (KinemeError, ValueError, ArithmeticError, MemoryError) as error:
-        return _failed(error)
-    notes = tuple(truth.provenance.get("notes", ()))
-    return Answer(compared, classes, seconds, recording.n_frames / recording.fps, notes)
-
-
-def _failed(error: BaseException) -> Answer:
-    text = " ".join(str(error).split())
-    return Answer(
-        error=text if isinstance(error, KinemeError) else f"{type(error).__name__}: {text}"
     )
 
 

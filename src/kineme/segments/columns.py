@@ -19,7 +19,7 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
     Parameters
     ----------
     columns : mapping of str to array_like
-        Mapping of str to array-like.
+        By name, one value for each segment.
     fps : float
         Frames per second.
 

@@ -99,7 +99,7 @@ class Segmentation:
         Parameters
         ----------
         columns : mapping of str to array_like
-            Mapping of str to array-like.
+            By name, one value for each segment.
         n_frames : int
             Length of the recording.
         fps : float

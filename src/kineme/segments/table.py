@@ -144,7 +144,7 @@ class SegmentTable:
         Parameters
         ----------
         rows : slice or array_like
-            Slice or array-like.
+            Row numbers or a mask, as in numpy.
 
         Returns
         -------

@@ -24,7 +24,8 @@ from kineme.errors import ParameterError
 from kineme.methods.recurrence.preset import KINEME
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable
-from kineme.transfer.knowledge import FPS, KnowledgeBase, working_frames
+from kineme.transfer.features import FPS, working_frames
+from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.matching import Floats, Primitives, label_costs
 
 THRESHOLD = (KINEME.min_scale + KINEME.max_scale) / 2

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.knowledge import KnowledgeBase, transfer_features
+from kineme.transfer.features import transfer_features
+from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.labels import THRESHOLD, transfer_labels
 
 

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from kineme.reproduction.benchmark import PublishedCuts, Result, mean
+from kineme.reproduction.benchmark import PublishedCuts, Result
 from kineme.reproduction.figures.style import (
     FAINT,
     INK,
@@ -103,9 +103,3 @@ def _draw_gap(axes: Axes, found: Sequence[PublishedCuts], score: str) -> None:
     axes.set_xticks(places, [p.trial.removeprefix("86_") for p in found])
     axes.set_ylim(0.4, 1.02)
     tidy(axes)
-
-
-def gap_means(found: Sequence[PublishedCuts], method: str) -> tuple[dict[str, float], ...]:
-    """Means over the trials of what the cuts score, and of what was printed."""
-    own = [p for p in found if p.method == method]
-    return mean([p.scores for p in own]), mean([p.printed for p in own])
