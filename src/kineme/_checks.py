@@ -106,7 +106,8 @@ def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64
     ParameterError
         Another shape, no frames or no dims, or values that are not finite.
     """
-    array = np.ascontiguousarray(as_floats(values, name))
+    # Compiled code is typed for arrays that may be written to, whether it does or not.
+    array = np.require(as_floats(values, name), requirements=("C", "W"))
     if array.ndim != 2 or 0 in array.shape:
         raise ParameterError(
             f"{name} must be frames x dims with at least one of each, not of shape {array.shape}"

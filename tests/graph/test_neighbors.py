@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import KDTree
 
+import kineme
 import naive
 from graphs import as_pairs, features, sparse_graphs
 from kineme.errors import ParameterError
@@ -209,3 +210,8 @@ def test_a_sparse_matrix_keeps_neighbours_at_distance_zero() -> None:
 def test_refuses_what_has_no_neighbours(points, options, message) -> None:
     with pytest.raises(ParameterError, match=message):
         neighbor_graph(points, **{"radius": 1.0, **options})
+
+
+def test_arrays_that_may_not_be_written_to_are_taken() -> None:
+    signals = kineme.Signals(np.random.default_rng(0).normal(size=(50, 2)), 30)
+    assert len(kineme.neighbor_graph(signals.values, radius=1.0)) == 50

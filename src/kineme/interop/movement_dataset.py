@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from kineme.errors import MissingDependencyError, ParameterError, ReadError
 from kineme.formats.columns import SURE
-from kineme.formats.files import FileContent
+from kineme.formats.files import FileContent, warn
 from kineme.formats.gaps import split_at
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import Timing, timing_of
@@ -151,7 +151,10 @@ def from_movement(
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
     said = Provenance(str(source.path), name).noted(*timing.notes, *notes)
-    return split_at(to_motion(points, said), timing.gaps)
+    motion = split_at(to_motion(points, said), timing.gaps)
+    if remarks := motion.provenance.warnings:
+        warn(f"{said.path or 'dataset'}: {'; '.join(remarks)}")
+    return motion
 
 
 def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
