@@ -70,7 +70,7 @@ ROOMS = {
     ),
     "transfer": Room(
         "`KnowledgeBase`; labels and cluster numbers for other recordings",
-        "features graph methods recordings segmentation segments",
+        "features formats graph methods recordings segmentation segments",
     ),
     "synthesis": Room(
         "`MotionGraph`, routes through it, new motion from them",

@@ -20,7 +20,10 @@ from kineme.errors import KinemeWarning, ReadError
 from kineme.recordings import Note, Provenance
 
 MOST_EXPANSION = 100
-"""Times that a compressed file may grow in memory; recordings compress to a half or a tenth."""
+"""Times its own size that a file may take in memory; honest ones take one to forty times it."""
+
+LEAST_ROOM = 1 << 20
+"""Bytes that any file may take in memory, however small it is."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,22 @@ class FileContent:
     def provenance(self, name: str, notes: Iterable[str]) -> Provenance:
         """Where a recording in this file comes from, with the remarks so far and these notes."""
         return Provenance(str(self.path), name, self.digest).noted(*self.remarks, *notes)
+
+    @property
+    def room(self) -> int:
+        """Bytes of memory that what a file of this size holds can honestly take."""
+        return max(LEAST_ROOM, MOST_EXPANSION * len(self.data))
+
+    def claim(self, size: int, what: str) -> None:
+        """ReadError where ``what`` the file describes would take more memory than its `room`.
+
+        Every reader calls this before it allocates more than a few times the bytes it has seen.
+        """
+        if size > self.room:
+            raise self.error(
+                f"claims {what}: {size / 1e6:.0f} MB of memory, too much for a file of "
+                f"{len(self.data) / 1e6:.2g} MB, so it is damaged"
+            )
 
     def line_at(self, offset: int) -> int:
         """The line, counted from 1, that a byte stands in."""

@@ -48,6 +48,9 @@ AXES = tuple(_TO_Y)
 _HEAD = re.compile("head", re.IGNORECASE)
 _FOOT = re.compile("foot|feet|toe|ankle", re.IGNORECASE)
 
+BYTES_PER_JOINT = 2 * 8 * (4 + 3 + 3)
+"""What `place` takes for a joint in a frame: rotation, translation, position, and as much again."""
+
 
 def metres(unit: str | float) -> float:
     """The metres in one ``unit``, a name in `UNITS` or already a length."""

@@ -3,8 +3,8 @@
 Columns ``onset``, ``duration`` (seconds) and ``trial_type`` are those of the
 standard; ``level``, ``cluster``, ``score``, ``start_frame`` and ``stop_frame``
 are described in the sidecar, which also has ``SamplingFrequency`` and
-``RecordingDuration`` as in Motion-BIDS. A missing value is ``n/a``. What a
-sidecar already says about columns is kept.
+``RecordingDuration`` as in Motion-BIDS, and a digest of the cuts. A missing
+value is ``n/a``. What a sidecar already says about columns is kept.
 
 Reading needs ``onset``, ``duration`` and ``trial_type`` only; seconds count.
 
@@ -16,11 +16,13 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError, WriteError
+from kineme.labels import pairs
 from kineme.labels.delimited import number, read_rows, whole, write_rows
 from kineme.labels.heads import columns
 from kineme.labels.label_format import LabelFormat
@@ -53,7 +55,9 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         "SamplingFrequency": segmentation.fps,
         "RecordingDuration": segmentation.n_frames / segmentation.fps,
     }
-    sidecar = {**COLUMNS, **_sidecar_to_keep(beside), **facts}
+    cuts = ((row.level, row.start_frame, row.stop_frame) for row in rows)
+    digest = {pairs.KEY: pairs.digest(cuts)}
+    sidecar = {**COLUMNS, **_sidecar_to_keep(beside), **facts, **digest}
     with atomic_write(beside) as side_draft, atomic_write(path) as draft:
         side_draft.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
         with draft.open("w", encoding="utf-8", newline="") as file:
@@ -64,9 +68,19 @@ def read(path: Path) -> Labels:
     """The events at ``path``, with what a sidecar beside them says."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = read_rows(file, path, [NEEDED], delimiter="\t")
-        spans = [_span(cells, path, line) for line, cells in rows]
-    facts = _facts(sidecar_path(path))
-    return Labels(spans, "seconds", facts["SamplingFrequency"], facts["RecordingDuration"])
+        spans, cuts, rates = [], [], []
+        for line, cells in rows:
+            span = _span(cells, path, line)
+            spans.append(span)
+            rates.append((span.stop, _rate(cells, span.stop)))
+            cuts.append((span.level, cells.get("start_frame"), cells.get("stop_frame")))
+    beside = sidecar_path(path)
+    sidecar = _parsed(beside)
+    facts = _facts(sidecar, beside)
+    rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
+    own = max(rates, default=(0.0, None), key=itemgetter(0))[1]
+    notes = pairs.differences(path, beside, sidecar, pairs.digest(cuts), told=rate, own=own)
+    return Labels(spans, "seconds", rate, length, notes)
 
 
 def sidecar_path(path: Path) -> Path:
@@ -99,8 +113,14 @@ def _span(cells: dict[str, str], path: Path, line: int) -> Span:
     )
 
 
-def _facts(beside: Path) -> dict[str, float | None]:
-    sidecar = _parsed(beside)
+def _rate(cells: dict[str, str], stop_s: float) -> float | None:
+    """The frame rate that a row tells by its last frame and second, if it has both."""
+    text = cells.get("stop_frame", MISSING)
+    known = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
+    return int(text) / stop_s if known else None
+
+
+def _facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
     facts: dict[str, float | None] = {}
     for name in ("SamplingFrequency", "RecordingDuration"):
         value = sidecar.get(name)

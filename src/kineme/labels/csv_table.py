@@ -2,8 +2,9 @@
 
 No comment lines: ``pandas.read_csv`` and spreadsheets take the file as it is.
 What does not fit into a table (frame rate, provenance, timings) goes into
-``NAME.provenance.json`` beside ``NAME.csv``. Without that file the frame rate
-is found again from the last row, and the table keeps all it says.
+``NAME.provenance.json`` beside ``NAME.csv``, with a digest of the cuts: a table whose
+cuts were moved since says so in its notes. Without that file the frame rate is found again from the
+last row, and the table keeps all it says.
 An empty score is nan. Columns are found by name; others are ignored.
 
 A table of intervals that people keep by hand is read as well: ``label`` with ``start_s``
@@ -18,14 +19,15 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Sequence
-from dataclasses import astuple
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any, Literal
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.labels.delimited import number, read_rows
+from kineme.labels import pairs
+from kineme.labels.delimited import number, read_rows, write_rows
 from kineme.labels.heads import columns as columns_of
 from kineme.labels.heads import separator
 from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
@@ -53,12 +55,11 @@ SPANS: dict[Unit, tuple[str, str]] = {
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave the table at ``path`` and the rest beside it."""
     beside = provenance_path(path)
+    head = head_of(segmentation) | {pairs.KEY: _digest(segmentation.table.columns())}
     with atomic_write(beside) as head_draft, atomic_write(path) as draft:
-        head_draft.write_text(json.dumps(head_of(segmentation), indent=2) + "\n", encoding="utf-8")
+        head_draft.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8")
         with draft.open("w", encoding="utf-8", newline="") as file:
-            rows = csv.writer(file, lineterminator="\n")
-            rows.writerow(COLUMNS)
-            rows.writerows(map(_cells, segmentation))
+            write_rows(file, COLUMNS, map(_cells, segmentation))
 
 
 def read(path: Path) -> Segmentation | Labels:
@@ -79,9 +80,15 @@ def read(path: Path) -> Segmentation | Labels:
                 f"ends at frame {max(columns['stop_frame'])}, but {beside.name} speaks of "
                 f"{head.get('n_frames')} frames: remove that file if it belongs to another table",
             )
-    else:
-        head = _guessed_head(columns, path)
-    return with_head(columns, head, path)
+        told = with_head(columns, head, path)
+        said = pairs.differences(
+            path, beside, head, _digest(columns), told=told.fps, own=_rate(columns)
+        )
+        if not said:
+            return told
+        notes = [*told.provenance.get("notes", ()), *said]
+        return replace(told, provenance={**told.provenance, "notes": notes})
+    return with_head(columns, _guessed_head(columns, path), path)
 
 
 def provenance_path(path: Path) -> Path:
@@ -167,12 +174,25 @@ def _cell(text: str | None, name: str, path: Path, line: int) -> str | float:
         raise ReadError(path, f"{name} must be {wanted}, not {text!r}", line=line) from error
 
 
+def _digest(columns: Mapping[str, Any]) -> str:
+    return pairs.digest(
+        zip(columns["level"], columns["start_frame"], columns["stop_frame"], strict=True)
+    )
+
+
+def _rate(columns: dict[str, list[Any]]) -> float | None:
+    """The frame rate that the last row tells, if it tells one."""
+    n_frames, seconds = max(zip(columns["stop_frame"], columns["stop_s"], strict=True))
+    known = 0 < n_frames < 2**53 and 0 < seconds < math.inf
+    return roundest_rate(n_frames, seconds) if known else None
+
+
 def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
     """n_frames and fps from the last row."""
-    n_frames, seconds = max(zip(columns["stop_frame"], columns["stop_s"], strict=True))
-    if not (0 < n_frames < 2**53 and 0 < seconds < math.inf):
+    n_frames, fps = max(columns["stop_frame"]), _rate(columns)
+    if fps is None:
+        seconds = max(columns["stop_s"])
         raise ReadError(path, f"ends at frame {n_frames}, {seconds} s: no frame rate follows")
-    fps = roundest_rate(n_frames, seconds)
     note = (
         f"frame rate {fps:g} Hz computed from frames and seconds: no {provenance_path(path).name}"
     )

@@ -13,6 +13,8 @@ from typing import Any
 
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ReadError
+from kineme.formats.channels.parquet import parquet_columns, parquet_file
+from kineme.formats.files import load
 from kineme.labels.heads import tail
 from kineme.labels.json_table import head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
@@ -33,17 +35,14 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
 
 def read(path: Path) -> Segmentation:
     """The segmentation at ``path``."""
-    arrow, parquet = _pyarrow()
-    content = path.read_bytes()
-    try:
-        table = parquet.read_table(arrow.BufferReader(content))
-    except (arrow.ArrowException, OSError) as error:
-        raise ReadError(path, "is not a Parquet file, or is damaged") from error
-    metadata = table.schema.metadata or {}
-    missing = [name for name in COLUMNS if name not in table.column_names]
+    content = load(path)
+    file = parquet_file(content)
+    metadata = file.schema_arrow.metadata or {}
+    missing = [name for name in COLUMNS if name not in file.schema_arrow.names]
     if KEY not in metadata or missing:
         raise ReadError(path, "is a Parquet file, but not a segment table written by kineme")
     head = parse(metadata[KEY].decode(errors="replace"), path)
+    table = parquet_columns(content, file, COLUMNS)
     columns = {name: table.column(name).to_numpy() for name in COLUMNS}
     return with_head(columns, head, path)
 

@@ -20,9 +20,7 @@ change that old readers would misunderstand gets the next number.
 from __future__ import annotations
 
 import json
-import struct
 import zipfile
-import zlib
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -33,6 +31,8 @@ from numpy.typing import NDArray
 from kineme._files import atomic_write
 from kineme._version import __version__
 from kineme.errors import ReadError, WriteError
+from kineme.formats.arrays.numpy_files import members
+from kineme.formats.files import load
 
 SCHEMA = "kineme.knowledge/1"
 KINDS = {
@@ -45,20 +45,6 @@ KINDS = {
     "stop_s": "f",
 }
 TYPES = {"features": np.float32, "lengths": np.int64}
-DAMAGE = (
-    OSError,
-    EOFError,
-    KeyError,
-    TypeError,  # a bare array has no names
-    AttributeError,
-    ValueError,  # pickles, and JSON that is none
-    NotImplementedError,  # flags of a zip entry that mean encryption and the like
-    RuntimeError,
-    MemoryError,  # a shape that nobody has
-    struct.error,
-    zipfile.BadZipFile,
-    zlib.error,
-)
 
 
 def write(
@@ -74,14 +60,21 @@ def write(
 
 def read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDArray[Any]]:
     """The arrays of the knowledge base at ``path``, whose features must have these settings."""
+    if not Path(path).exists():
+        raise ReadError(path, "cannot be read: there is no such file")
+    content = load(path)
     try:
-        with Path(path).open("rb") as raw, np.load(raw, allow_pickle=False) as file:
-            _check_head(json.loads(str(file["head"])), settings, path)
-            arrays = {name: file[name] for name in KINDS}
-    except FileNotFoundError as error:
-        raise ReadError(path, "cannot be read: there is no such file") from error
-    except DAMAGE as error:
-        raise ReadError(path, "is not a knowledge base, or is damaged") from error
+        found = members(content)
+        head = json.loads(str(found["head"]))
+    except KeyError as error:
+        raise ReadError(path, "is not a knowledge base: it has no head") from error
+    except (ReadError, ValueError, RecursionError) as error:
+        reason = f": {error.reason}" if isinstance(error, ReadError) else ""
+        raise ReadError(path, f"is not a knowledge base, or is damaged{reason}") from error
+    _check_head(head, settings, path)
+    if missing := [name for name in KINDS if name not in found]:
+        raise ReadError(path, f"is not a knowledge base, or is damaged: it has no {missing[0]!r}")
+    arrays = {name: found[name] for name in KINDS}
     for name, kind in KINDS.items():
         if arrays[name].dtype.kind != kind:
             raise ReadError(path, f"is damaged: {name} holds {arrays[name].dtype}")

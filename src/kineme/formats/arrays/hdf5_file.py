@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 
 from kineme.errors import MissingDependencyError
-from kineme.formats.files import MOST_EXPANSION, FileContent
+from kineme.formats.files import FileContent
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 _DEEPEST = 30
+_BYTES_PER_LINK = 1000
 # What h5py raises on damaged files, depending on where the damage is.
 _DAMAGE = (
     OSError, RuntimeError, LookupError, ValueError, TypeError, AttributeError, SystemError,
@@ -44,7 +45,7 @@ def parse_hdf5(content: FileContent) -> dict[str, Any]:
             return _Reader(content, file).group(file, 0)
     except _DAMAGE as error:
         reason = " ".join(str(error).split())
-        raise content.error(f"is no whole HDF5 file: {reason[:120]}") from None
+        raise content.error(f"is no whole HDF5 file: {reason[:120]}") from error
 
 
 class _Reader:
@@ -52,13 +53,28 @@ class _Reader:
 
     def __init__(self, content: FileContent, file: Any) -> None:
         self.content, self.file = content, file
-        self.room = MOST_EXPANSION * len(content.data)
+        self.held = 0
+        self.open: list[Any] = []  # the groups that the one being read is in
+
+    def claim(self, size: int) -> None:
+        self.held += size
+        self.content.claim(self.held, "to unpack to much more than it holds")
 
     def group(self, group: Any, depth: int) -> dict[str, Any]:
-        import h5py
-
         if depth > _DEEPEST:
             raise ValueError("groups too deep in one another")
+        if group in self.open:
+            raise ValueError(f"its group {group.name!r:.60} is linked into itself")
+        self.open.append(group)
+        try:
+            return self.linked(group, depth)
+        finally:
+            self.open.pop()
+
+    def linked(self, group: Any, depth: int) -> dict[str, Any]:
+        """What lies in a group, each time that it is linked to."""
+        import h5py
+
         found: dict[str, Any] = {}
         for name in group:
             if name.startswith("#"):  # MATLAB's references
@@ -66,6 +82,7 @@ class _Reader:
             link = group.get(name, getlink=True)
             if not isinstance(link, h5py.HardLink):  # to other files, or in a circle
                 continue
+            self.claim(_BYTES_PER_LINK)
             found[name] = self.value(group[name], depth)
         return found
 
@@ -76,9 +93,7 @@ class _Reader:
             return self.group(item, depth + 1)
         if not isinstance(item, h5py.Dataset) or item.shape is None:
             return None
-        self.room -= int(np.prod(item.shape, dtype=object)) * max(1, item.dtype.itemsize)
-        if self.room < 0:
-            raise ValueError("it claims to unpack to much more than it holds")
+        self.claim(int(np.prod(item.shape, dtype=object)) * max(1, item.dtype.itemsize))
         if item.attrs.get("MATLAB_empty", 0):
             return np.empty((0, 0))
         if h5py.check_ref_dtype(item.dtype) is not None:

@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme.formats.files import MOST_EXPANSION, FileContent
+from kineme.formats.files import FileContent
 
 Array = np.ndarray[Any, np.dtype[Any]]
 Bytes = memoryview
@@ -46,6 +46,7 @@ _NUMBERS = {
 _TEXTS = {16: "utf-8", 17: "utf-16", 18: "utf-32"}
 _CELL, _STRUCT, _CHAR, _NUMERIC = 1, 2, 4, range(6, 16)
 _COMPLEX = 0x08
+_MOST_DIMENSIONS = 32
 _DEEPEST = 30  # structures inside one another
 
 
@@ -65,7 +66,7 @@ def parse_mat(content: FileContent) -> dict[str, Value]:
     order = {b"IM": "<", b"MI": ">"}.get(bytes(data[126:128]))
     if len(data) < _HEADER or order is None:
         raise content.error("is no MAT file of version 5: save it with -v7 or as CSV")
-    budget = MOST_EXPANSION * len(data)
+    budget = content.room
     variables: dict[str, Value] = {}
     try:
         for kind, body in _elements(data[_HEADER:], order):
@@ -117,12 +118,11 @@ def _matrix(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
     if depth > _DEEPEST:
         raise _DamagedError("structures too deep in one another")
     parts = _elements(body, order)
-    flags = _numbers(*_next(parts), order)
-    shape = [int(n) for n in _numbers(*_next(parts), order)]
+    flags, shape = _counts(_next(parts), order), _counts(_next(parts), order)
     name = bytes(_next(parts)[1]).decode("utf-8", "replace")
-    if not len(flags) or not shape or min(shape) < 0:
+    if not flags or not shape or min(shape) < 0 or len(shape) > _MOST_DIMENSIONS:
         raise _DamagedError("an array without flags or dimensions")
-    kind, is_complex = int(flags[0]) & 0xFF, int(flags[0]) >> 8 & _COMPLEX
+    kind, is_complex = flags[0] & 0xFF, flags[0] >> 8 & _COMPLEX
     if kind in _NUMERIC and not is_complex:
         return name, _shaped(_numbers(*_next(parts), order), shape)
     if kind == _CHAR:
@@ -146,6 +146,13 @@ def _numbers(kind: int, data: Bytes, order: str) -> Array:
         raise _DamagedError(f"numbers of the unknown type {kind}")
     number = np.dtype(order + _NUMBERS[kind])
     return np.frombuffer(data, number, len(data) // number.itemsize)
+
+
+def _counts(part: tuple[int, Bytes], order: str) -> list[int]:
+    values = _numbers(*part, order)
+    if values.dtype.kind not in "iu":
+        raise _DamagedError("flags or dimensions that are no whole numbers")
+    return [int(value) for value in values.tolist()]
 
 
 def _shaped(flat: Array, shape: list[int]) -> Array:
@@ -174,11 +181,11 @@ def _text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
 
 def _fields(parts: Iterator[tuple[int, Bytes]], shape: list[int], order: str, depth: int) -> Value:
     """The fields of a structure by name; of several structures, those of the first."""
-    width = _numbers(*_next(parts), order)
+    width = _counts(_next(parts), order)
     names = bytes(_next(parts)[1])
     if len(width) != 1 or width[0] < 1 or 0 in shape:
         return {}
-    step = int(width[0])
+    step = width[0]
     keys = [
         names[i : i + step].split(b"\0")[0].decode("utf-8", "replace")
         for i in range(0, len(names), step)

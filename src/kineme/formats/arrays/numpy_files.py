@@ -13,6 +13,7 @@ from __future__ import annotations
 import io
 import zipfile
 import zlib
+from lzma import LZMAError
 from pathlib import Path
 from tokenize import TokenError
 from typing import Any
@@ -28,15 +29,22 @@ from kineme.formats.arrays.named_arrays import (
     positions_to_motion,
 )
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import MOST_EXPANSION, FileContent
+from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
+_MOST_DIMENSIONS = 32
+# What numpy raises on headers, which are Python literals, depending on where the damage is.
+_HEADER_DAMAGE = (
+    ValueError, TypeError, LookupError, AttributeError, SyntaxError, OverflowError, TokenError,
+    RecursionError, MemoryError,
+)  # fmt: skip
+
 
 def read_npz(content: FileContent, options: ReadOptions) -> Motion:
     """The motion in an npz archive."""
-    return arrays_to_motion(content, "npz", _members(content), options)
+    return arrays_to_motion(content, "npz", members(content), options)
 
 
 def read_npy(content: FileContent, options: ReadOptions) -> Motion:
@@ -67,24 +75,29 @@ def write_npz(motion: Motion, path: Path) -> None:
         np.savez(file, **arrays)
 
 
-def _members(content: FileContent) -> dict[str, Array]:
-    """The arrays of an npz by name; those of another kind than numbers or text are passed over."""
+def members(content: FileContent) -> dict[str, Array]:
+    """The arrays of an npz by name; those of another kind than numbers or text are passed over.
+
+    Raises
+    ------
+    ReadError
+        It is no npz archive, damaged, or claims to hold much more than it can.
+    """
     try:
         with zipfile.ZipFile(io.BytesIO(content.data)) as archive:
             infos = archive.infolist()
             size = sum(info.file_size for info in infos)
-            if size > MOST_EXPANSION * len(content.data):
-                raise content.error(f"claims to unpack to {size / 1e6:.0f} MB: it is damaged")
+            content.claim(size, f"to unpack to {size / 1e6:.0f} MB")
             found = {}
             for info in infos:
                 data = archive.read(info)
                 if not _is_pickled(data):
                     name = info.filename.removesuffix(".npy")
                     found[name] = _array(content, data, name)
-    except (zipfile.BadZipFile, zlib.error, OSError, EOFError, ValueError) as error:
-        raise content.error(f"is no whole npz archive: {error}") from None
+    except (zipfile.BadZipFile, zlib.error, LZMAError, OSError, EOFError, ValueError) as error:
+        raise content.error(f"is no whole npz archive: {error}") from error
     except (NotImplementedError, RuntimeError) as error:  # other compressions, passwords
-        raise content.error(f"its archive cannot be read: {error}") from None
+        raise content.error(f"its archive cannot be read: {error}") from error
     return found
 
 
@@ -102,14 +115,17 @@ def _array(content: FileContent, data: bytes, name: str) -> Array:
             shape, fortran, kind = header(file)
         if kind.hasobject:
             raise content.error(f"{name} holds pickled objects, which are not read")
+        if len(shape) > _MOST_DIMENSIONS:
+            raise content.error(f"{name} has {len(shape)} dimensions, more than any recording")
         count = int(np.prod(shape, dtype=object))
         if count < 0 or count * kind.itemsize > len(data) - file.tell():
             raise content.error(f"{name} claims shape {shape}, more than the file holds")
         if count == 0 or kind.itemsize == 0:
             return np.empty(0)
         flat = np.frombuffer(data, kind, count, file.tell())
-    except (ValueError, TypeError, SyntaxError, OverflowError, TokenError) as error:
-        raise content.error(f"{name} is no npy array: {' '.join(str(error).split())}") from None
+    except _HEADER_DAMAGE as error:
+        reason = " ".join(str(error).split())[:120]
+        raise content.error(f"{name} is no npy array: {reason}") from error
     return flat.reshape(shape, order="F" if fortran else "C")
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from kineme.errors import MissingDependencyError, ReadError
 from kineme.formats.channels.table import ChannelTable, channel_table, named, wanted_columns
 from kineme.formats.columns import is_timing
-from kineme.formats.files import MOST_EXPANSION, FileContent
+from kineme.formats.files import FileContent
 
 
 def parquet_file(content: FileContent) -> Any:
@@ -42,9 +42,52 @@ def parquet_file(content: FileContent) -> Any:
     except (pa.ArrowException, OSError) as error:
         raise ReadError(content.path, "is not a Parquet file, or is damaged") from error
     rows, width = file.metadata.num_rows, file.metadata.num_columns
-    if 8 * rows * width > MOST_EXPANSION * len(content.data):
-        raise content.error(f"claims {rows} rows of {width} columns: it is damaged")
+    content.claim(8 * rows * width, f"{rows} rows of {width} columns")
     return file
+
+
+def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> Any:
+    """Columns of a Parquet file as they are, none larger than the file can honestly hold.
+
+    Texts are first read as the file keeps them, each different one once, and weighed:
+    ten kilobytes can repeat a long text for gigabytes.
+
+    Parameters
+    ----------
+    content : FileContent
+    file : pyarrow.parquet.ParquetFile
+        In it.
+    columns : sequence of str
+
+    Returns
+    -------
+    pyarrow.Table
+
+    Raises
+    ------
+    ReadError
+        The columns are damaged, or would take more memory than the file can honestly fill.
+    """
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    texts = [field.name for field in file.schema_arrow if _is_text(field.type)]
+    try:
+        chunks = [file.metadata.row_group(i) for i in range(file.metadata.num_row_groups)]
+        values = sum(g.column(i).num_values for g in chunks for i in range(g.num_columns))
+        content.claim(8 * values, f"{values} values")
+        if texts:
+            file = parquet.ParquetFile(pa.BufferReader(content.data), read_dictionary=texts)
+        table = file.read(columns=list(columns))
+        content.claim(sum(map(_spread_out, table.columns)), "texts that repeat")
+        plain = [
+            pa.field(field.name, field.type.value_type) if _is_coded(field.type) else field
+            for field in table.schema
+        ]
+        return table.cast(pa.schema(plain, table.schema.metadata))
+    except (pa.ArrowException, OSError, LookupError) as error:
+        reason = " ".join(str(error).split())[:120]
+        raise content.error(f"is damaged, its columns cannot be read: {reason}") from error
 
 
 def parquet_channels(
@@ -82,7 +125,8 @@ def parquet_channels(
     ]
     wanted = wanted_columns(content, names, columns, numeric)
     try:
-        table = file.read(columns=[file.schema_arrow.names[names.index(name)] for name in wanted])
+        stored = [file.schema_arrow.names[names.index(name)] for name in wanted]
+        table = parquet_columns(content, file, stored)
         values = {
             name: column.to_numpy() if is_timing(name) else _plain(column)
             for name, column in zip(wanted, table.columns, strict=True)
@@ -97,6 +141,33 @@ def _tells_dates(kind: Any) -> bool:
     import pyarrow as pa
 
     return bool(pa.types.is_timestamp(kind) or pa.types.is_string(kind))
+
+
+def _is_text(kind: Any) -> bool:
+    import pyarrow as pa
+
+    texts = (pa.types.is_string, pa.types.is_large_string, pa.types.is_binary)
+    return any(is_text(kind) for is_text in (*texts, pa.types.is_large_binary, _is_coded))
+
+
+def _is_coded(kind: Any) -> bool:
+    import pyarrow as pa
+
+    return bool(pa.types.is_dictionary(kind))
+
+
+def _spread_out(column: Any) -> int:
+    """Bytes of a column, with every row's text by itself."""
+    if not _is_coded(column.type):
+        return int(column.nbytes)
+    import pyarrow.compute as pc
+
+    if not _is_text(column.type.value_type):
+        return 8 * len(column)
+    longest = (pc.max(pc.binary_length(chunk.dictionary)).as_py() for chunk in column.chunks)
+    return sum(
+        len(chunk) * max(8, most or 0) for chunk, most in zip(column.chunks, longest, strict=True)
+    )
 
 
 def _plain(column: Any) -> NDArray[np.float64]:

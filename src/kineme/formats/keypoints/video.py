@@ -44,8 +44,8 @@ class Person:
     """
 
     frame: int
-    points: Sequence[Sequence[float]]
-    sure: Sequence[float]
+    points: Sequence[Sequence[float]] | Floats
+    sure: Sequence[float] | Floats
     who: str | None = None
 
 
@@ -99,6 +99,8 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     if not people:
         raise content.error("nobody is found in any frame")
     frames, n_frames = _numbered(content, video, [person.frame for person in people])
+    size = 8 * 4 * len(video.names) * max(n_frames, len(people))
+    content.claim(size, f"{len(video.names)} keypoints in {n_frames} frames")
     points, sure = _stacked(content, people, len(video.names))
     limit = video.limit if options.confidence is None else options.confidence
     unsure = ~(sure >= limit)

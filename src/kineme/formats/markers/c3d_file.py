@@ -136,7 +136,57 @@ class _File:
 
     @cached_property
     def n_points(self) -> int:
-        return int(self.parameters.number("POINT", "USED", self.header.points))
+        return self.counts[0]
+
+    @cached_property
+    def counts(self) -> tuple[int, int]:
+        """Points and analog samples of a frame.
+
+        The header and the parameters count both. Where they differ, the counts hold with
+        which the declared frames fill the file, whose last block may be padded.
+        """
+        header = (self.header.points, self.header.analog_per_frame)
+        used = int(self.parameters.number("POINT", "USED", header[0]))
+        per_frame = max(self.header.samples_per_frame, 1)
+        channels = int(self.parameters.number("ANALOG", "USED", -1))
+        samples = channels * per_frame if channels >= 0 else header[1]
+        if used == header[0] and samples == header[1]:
+            return header
+        pairs = dict.fromkeys((n, m) for n in (used, header[0]) for m in (header[1], samples))
+        fitting = [pair for pair in pairs if any(pair) and self._fills(*pair)]
+        said = (
+            f"the header counts {header[0]} points and {header[1]} analog samples in a frame, "
+            f"the parameters {used} and {samples}"
+        )
+        widths = {4 * n + m for n, m in fitting}
+        if len(fitting) == 1 or (fitting and used == header[0] and len(widths) == 1):
+            n, m = fitting[0]
+            self.content.warn(f"{said}: {n} and {m} are taken, which fit the length of the file")
+            return fitting[0]
+        if used == header[0] and not fitting:  # as header and length of a cut file would
+            self.content.warn(f"{said}: those of the header are taken")
+            return header
+        which = "either fits" if fitting else "neither fits"
+        raise self.content.error(f"{said}, and {which} the length of the file: it is damaged")
+
+    def _fills(self, n_points: int, per_frame: int) -> bool:
+        """Whether a declared number of frames, so wide, ends in the last block of the file."""
+        width = (4 * n_points + per_frame) * self._kind.itemsize
+        size = len(self.content.data) - self._start
+        ends = (frames * width for frames in self._declared_frames())
+        return any(end <= size < (end // BLOCK + 2) * BLOCK for end in ends if end)
+
+    @cached_property
+    def _kind(self) -> np.dtype[Any]:
+        return number_type(self.parameters.processor, real=self.scale < 0)
+
+    @cached_property
+    def _start(self) -> int:
+        """Where the data begin, in bytes."""
+        block = self.header.data_block or int(self.parameters.number("POINT", "DATA_START", 0))
+        if block < 2:
+            raise self.content.error("the header names no place for the data, or no points in it")
+        return (block - 1) * BLOCK
 
     @cached_property
     def scale(self) -> float:
@@ -153,12 +203,10 @@ class _File:
 
     def frames(self) -> Stored:
         """(frames, numbers): the data section as stored."""
-        block = self.header.data_block or int(self.parameters.number("POINT", "DATA_START", 0))
-        width = 4 * self.n_points + self.header.analog_per_frame
-        if block < 2 or width == 0:
+        start, kind = self._start, self._kind
+        width = 4 * self.n_points + self.counts[1]
+        if width == 0:
             raise self.content.error("the header names no place for the data, or no points in it")
-        kind = number_type(self.parameters.processor, real=self.scale < 0)
-        start = (block - 1) * BLOCK
         room = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
         declared = self._declared_frames()
         n = max((frames for frames in declared if 0 < frames <= room), default=room)

@@ -29,7 +29,7 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.amc_writer import write_amc
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
-from kineme.formats.units import metres, place
+from kineme.formats.units import BYTES_PER_JOINT, metres, place
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
@@ -59,6 +59,8 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     if fps is None:
         fps = FPS
         notes.append(f"frame rate {FPS:g} Hz assumed: AMC files do not store one")
+    n_frames, n_joints = len(next(iter(values.values()))), figure.skeleton.n_joints
+    content.claim(BYTES_PER_JOINT * n_joints * n_frames, f"{n_joints} joints in {n_frames} frames")
     return place(
         figure.skeleton,
         *_local(values, figure, turn),

@@ -33,7 +33,7 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.bvh_hierarchy import Joint, read_joints
 from kineme.formats.skeletons.bvh_writer import write_bvh
-from kineme.formats.units import place, rate_from_period
+from kineme.formats.units import BYTES_PER_JOINT, place, rate_from_period
 from kineme.recordings import Motion, Skeleton
 
 Floats = NDArray[np.float64]
@@ -62,6 +62,9 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     values = _frames(content, header.end(), sum(len(joint.channels) for joint in joints), declared)
     if len(values) != declared:
         content.warn(f"{declared} frames declared, {len(values)} found and kept", line)
+    content.claim(
+        BYTES_PER_JOINT * len(joints) * len(values), f"{len(joints)} joints in {len(values)} frames"
+    )
     return place(
         _skeleton(joints),
         *_local(joints, values),

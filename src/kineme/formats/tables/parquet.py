@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from kineme.errors import ReadError
-from kineme.formats.channels.parquet import parquet_channels, parquet_file
+from kineme.formats.channels.parquet import parquet_channels, parquet_columns, parquet_file
 from kineme.formats.channels.reading import to_signals
 from kineme.formats.channels.sensors import hold_channels
 from kineme.formats.channels.table import named
 from kineme.formats.channels.writing import write_signals
-from kineme.formats.columns import columns_to_motion
+from kineme.formats.columns import columns_to_motion, is_used
 from kineme.formats.files import FileContent, unique
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -25,15 +24,13 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
     if options.channels or hold_channels(named(file.schema_arrow.names)):
         table = parquet_channels(content, file, options.columns or None)
         return to_signals(content, NAME, table, options.fps)
-    import pyarrow as pa
-
-    try:
-        read = file.read()
-        columns = {
-            name: np.asarray(read.column(name).to_numpy()) for name in unique(read.column_names)
-        }
-    except (pa.ArrowException, OSError, KeyError) as error:
-        raise ReadError(content.path, "is not a Parquet file, or is damaged") from error
+    stored = file.schema_arrow.names
+    read = parquet_columns(content, file, [name for name in stored if is_used(name)])
+    names = unique(read.column_names)
+    columns = dict.fromkeys(unique(stored), np.empty(0)) | {
+        name: np.asarray(column.to_numpy())
+        for name, column in zip(names, read.columns, strict=True)
+    }
     return columns_to_motion(content, NAME, columns, options)
 
 

@@ -30,6 +30,8 @@ Floats = NDArray[np.float64]
 
 SLEAP_SURE = 0.2
 
+_BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # read, stacked and placed
+
 _FIELDS = {"x": 0, "y": 1, "z": 2, "v": 3, "vis": 3, "visibility": 3, "presence": 3, "score": 3}
 _WORD = r"(?:pose|landmarks?|lm|kp|keypoint|point)?[\s_.-]*"
 _FIELD = r"(x|y|z|v|vis|visibility)"
@@ -120,7 +122,7 @@ def read_landmarks(table: PoseTable, options: ReadOptions) -> Motion:
     elif numbered is not None:
         frames = _whole(table.content, rows[:, -1])
     people = [
-        Person(frame, mark[:, :3].tolist(), mark[:, 3].tolist())
+        Person(frame, mark[:, :3], mark[:, 3])
         for frame, mark in zip(frames.tolist(), marks, strict=True)
         if np.isfinite(mark[:, :2]).any()
     ]
@@ -144,6 +146,8 @@ def read_long(table: PoseTable, options: ReadOptions) -> Motion:
     rows = table.numbers([numbered or 0, *at.values(), *timing])
     landmarks = _landmark_numbers(table.content, table.texts(which or 0)[: len(rows)])
     frames, place = np.unique(_whole(table.content, rows[:, 0]), return_inverse=True)
+    size = _BYTES_PER_POSE * len(frames)
+    table.content.claim(size, f"{len(NAMES)} landmarks in {len(frames)} frames")
     marks = np.full((len(frames), len(NAMES), 4), np.nan)
     marks[..., 2:] = (0.0, 1.0)
     for k, field in enumerate(at, 1):
@@ -154,7 +158,7 @@ def read_long(table: PoseTable, options: ReadOptions) -> Motion:
         times[place] = rows[:, -1]
         fps = timed(table.content, {table.names[timing[0]]: times}, None).fps
     people = [
-        Person(frame, mark[:, :3].tolist(), mark[:, 3].tolist())
+        Person(frame, mark[:, :3], mark[:, 3])
         for frame, mark in zip(frames.tolist(), marks, strict=True)
     ]
     return landmarks_to_motion(table.content, people, options, fps=fps)

@@ -1,0 +1,81 @@
+"""Tables and the files beside them: whether the two were written together.
+
+A table and its side file are renamed one after the other. A writer that is killed between
+the two leaves files of different recordings beside each other, so the side file names the
+SHA-256 of its table's cuts, and reading compares the two.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from hashlib import sha256
+from math import isclose
+from pathlib import Path
+from typing import Any
+
+from kineme.errors import ReadError
+
+KEY = "cuts_sha256"
+"""Where a side file has the digest of its table's cuts."""
+
+SAME = 5e-4
+"""Share by which two frame rates differ that are one, once spreadsheets rounded the seconds."""
+
+
+def digest(cuts: Iterable[tuple[object, object, object]]) -> str:
+    """What a side file says of its table: level, first frame and end of every row, in any order.
+
+    Labels are not in it, so that people may edit them.
+    """
+    lines = sorted(",".join(map(str, cut)) for cut in cuts)
+    return sha256("\n".join(lines).encode()).hexdigest()
+
+
+def differences(
+    path: Path,
+    beside: Path,
+    side: Mapping[str, Any],
+    found: str,
+    *,
+    told: float | None,
+    own: float | None,
+) -> tuple[str, ...]:
+    """What to say of a table and its side file that were not written together.
+
+    Parameters
+    ----------
+    path, beside : Path
+        The table and its side file.
+    side : mapping
+        What the side file holds; older ones have no digest, and are believed.
+    found : str
+        The `digest` of the table.
+    told, own : float or None
+        The frame rate that the side file tells, and the one that frames and seconds of the
+        table tell.
+
+    Returns
+    -------
+    tuple of str
+        Empty where they belong together.
+
+    Raises
+    ------
+    ReadError
+        They tell different frame rates.
+    """
+    if KEY not in side:
+        return ()
+    if told is not None and own is not None and not isclose(told, own, rel_tol=SAME):
+        raise ReadError(
+            path,
+            f"is of {own:g} frames per second, but {beside.name} speaks of {told:g}, and was "
+            "written with another table: remove that file, or write both again",
+        )
+    if side[KEY] == found:
+        return ()
+    said = (
+        f"{path.name} is not the table that {beside.name} was written with: its cuts were moved "
+        "since, or writing broke off between the two"
+    )
+    return (said,)

@@ -1,0 +1,119 @@
+"""Small files that claim much: refused in a sentence, before the memory is taken."""
+
+from __future__ import annotations
+
+import io
+import itertools
+import resource
+import subprocess
+import sys
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+MOST = 4 << 30
+"""Bytes of address space for all of Python; reading each of these files once took more."""
+
+
+def parquet_of_repeated_texts(path: Path) -> None:
+    pa = pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    rows = 20_000
+    names = [f"{joint}_{axis}" for joint in ("a", "b") for axis in "xyz"]
+    texts = pa.DictionaryArray.from_arrays(np.zeros(rows, np.int32), ["x" * 400_000])
+    rng = np.random.default_rng(0)
+    columns = {name: rng.normal(size=rows) for name in names} | {"time": texts}
+    parquet.write_table(pa.table(columns), path, compression="brotli")
+
+
+def bvh_without_channels(path: Path) -> None:
+    joints = "".join(f"JOINT j{i} {{ OFFSET 0 1 0 }}\n" for i in range(4000))
+    frames = "1\n" * 20_000
+    path.write_text(
+        "HIERARCHY\nROOT r\n{ OFFSET 0 0 0\nCHANNELS 1 Xposition\n"
+        f"{joints}}}\nMOTION\nFrames: 20000\nFrame Time: 0.01\n{frames}"
+    )
+
+
+def archive_of_zeros(path: Path) -> None:
+    head = io.BytesIO()
+    np.lib.format.write_array_header_1_0(
+        head, {"descr": "<f4", "fortran_order": False, "shape": (3_000_000, 75)}
+    )
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        text = io.BytesIO()
+        np.save(text, np.array('{"schema": "kineme.knowledge/1"}'))
+        archive.writestr("head.npy", text.getvalue())
+        with archive.open("features.npy", "w", force_zip64=True) as file:
+            file.write(head.getvalue())
+            for _ in range(300):
+                file.write(bytes(3_000_000))
+
+
+def groups_in_groups(path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(path, "w") as file:
+        groups = [file.create_group(f"g{i}") for i in range(25)]
+        for outer, inner in itertools.pairwise(groups):
+            for name in "abcd":
+                outer[name] = inner
+
+
+def group_in_itself(path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(path, "w") as file:
+        inner = file.create_group("outer/inner")
+        for name in "abcd":
+            inner[name] = file["outer"]
+
+
+def landmarks_row_by_row(path: Path) -> None:
+    with path.open("w") as file:
+        file.write("frame,landmark,x,y\n")
+        file.writelines(f"{i},0,1,1\n" for i in range(400_000))
+
+
+RECORDING, KNOWLEDGE = "kineme.read(path, fps=30)", "kineme.KnowledgeBase.load(path)"
+FILES: list[tuple[Callable[[Path], None], str, str]] = [
+    (parquet_of_repeated_texts, "a.parquet", "claims texts that repeat"),
+    (bvh_without_channels, "a.bvh", "claims 4001 joints in 20000 frames"),
+    (archive_of_zeros, "a.npz", "claims to unpack to 900 MB"),
+    (archive_of_zeros, "base.npz", "claims to unpack to 900 MB"),
+    (groups_in_groups, "a.h5", "claims to unpack to much more than it holds"),
+    (group_in_itself, "a.h5", "is linked into itself"),
+    (landmarks_row_by_row, "a.csv", "claims 33 landmarks in 400000 frames"),
+]
+
+
+@pytest.mark.parametrize(("make", "name", "reason"), FILES)
+def test_no_reader_takes_what_the_file_cannot_fill(
+    tmp_path: Path, make: Callable[[Path], None], name: str, reason: str
+) -> None:
+    path = tmp_path / name
+    make(path)
+    assert path.stat().st_size < 7_000_000
+    code = (
+        "import sys, kineme\n"
+        "path = sys.argv[1]\n"
+        f"try: {KNOWLEDGE if name == 'base.npz' else RECORDING}\n"
+        "except kineme.ReadError as error: print(error)\n"
+    )
+
+    def limited() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (MOST, MOST))
+
+    ran = subprocess.run(
+        [sys.executable, "-c", code, str(path)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        preexec_fn=limited,
+        check=False,
+    )
+    assert ran.returncode == 0, ran.stderr
+    assert reason in ran.stdout
+    assert "\n" not in ran.stdout.strip()
