@@ -7,15 +7,14 @@ does and what other values measure.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import ParameterError
-from kineme.methods.base import Mirror, Preset, Unit
+from kineme.methods.base import Mirror, Unit
 from kineme.methods.constants import (
     FACTOR,
     SHARE,
@@ -28,6 +27,7 @@ from kineme.methods.constants import (
     Limits,
     constant,
 )
+from kineme.methods.recurrence.counting import CountingPreset
 
 if TYPE_CHECKING:
     from kineme.methods.recurrence.analysis import RecurrenceFound
@@ -35,14 +35,12 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RecurrencePreset(Preset):
+class RecurrencePreset(CountingPreset):
     """Constants of the ``kineme`` method: recurrence, change points, actions, repetitions."""
 
     method: ClassVar[str] = "recurrence"
     units: ClassVar[tuple[Unit, ...]] = ("body sizes",)
-    # Few channels at one sample tell little, so pace counts: what is the same at another
-    # pace is another action, as running is to a sensor that walks.
-    signal_defaults: ClassVar[Mapping[str, Any]] = {"any_pace": False}
+    for_sensors: ClassVar[str | None] = "sensors"
 
     unit: Unit = "body sizes"
     # Recurrence: how similar any two samples are, whatever the phase.
@@ -137,54 +135,6 @@ class RecurrencePreset(Preset):
         "largest share of an activity that a transition takes from one end", limits=Limits(0, 0.5),
         fine=True,
     )  # fmt: skip
-    # Repetitions: how an activity is divided.
-    repetition_smoothing: float = constant(
-        "speeds are those of poses averaged over this time before and after", unit="s",
-        limits=TIME, fine=True,
-    )  # fmt: skip
-    deep_quantile: float = constant(
-        "depths of dips are measured against this quantile of a pose's distances",
-        limits=SHARE, fine=True,
-    )  # fmt: skip
-    noise_share: float = constant(
-        "share of that below which a dip is noise", limits=SHARE, fine=True
-    )
-    voters: int = constant(
-        "poses that vote on the number of repetitions, evenly spread", limits=SOME, fine=True
-    )
-    counts_tried: int = constant(
-        "numbers of repetitions with the most votes that are tried", limits=SOME, fine=True
-    )
-    poses_tried: int = constant(
-        "poses with which each is tried, those that tell it best", limits=SOME, fine=True
-    )
-    path_points: int = constant(
-        "places along a repetition's path at which it is compared", limits=Limits(2, 1000),
-        fine=True,
-    )  # fmt: skip
-    end_distance: float = constant(
-        "an end belongs to a repetition as long as it is nearer than this share of the variance",
-        limits=SHARE, fine=True,
-    )  # fmt: skip
-    length_cost: float = constant(
-        "cost of the repetition that the others are compared with, per share of the activity",
-        limits=FACTOR, fine=True,
-    )  # fmt: skip
-    max_unexplained: float = constant(
-        "where more than this share stays unexplained, similarity is chance", limits=SHARE,
-        fine=True,
-    )  # fmt: skip
-    same_cost: float = constant(
-        "divisions that cost no more than this above the best say with it how long the ends are",
-        limits=FACTOR, fine=True,
-    )  # fmt: skip
-    same_count: float = constant(
-        "repetitions by which these differ at most", limits=FACTOR, fine=True
-    )
-    rival_cost: float = constant(
-        "divisions that cost no more than this above the best say whether the count is certain",
-        limits=SOME_FACTOR, fine=True,
-    )  # fmt: skip
     # What is said to be looked at.
     unsure_action: float = constant(
         "confidence below which a note says to look at the activity", limits=SHARE, fine=True
@@ -270,19 +220,6 @@ KINEME = RecurrencePreset(
     usual_quantile=0.9,
     max_transition=0.4,
     max_transition_share=0.25,
-    repetition_smoothing=0.07,
-    deep_quantile=0.9,
-    noise_share=0.05,
-    voters=80,
-    counts_tried=8,
-    poses_tried=4,
-    path_points=16,
-    end_distance=0.5,
-    length_cost=1.5,
-    max_unexplained=0.7,
-    same_cost=0.1,
-    same_count=0.75,
-    rival_cost=0.3,
     unsure_action=0.25,
     unsure_count=0.5,
     recurs_at=0.2,
