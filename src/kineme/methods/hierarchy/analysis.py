@@ -6,7 +6,7 @@ them equal weight.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -133,7 +133,7 @@ def analyze_channels(
                 _channels(rows, preset.offsets),
                 preset.working_fps,
                 rate=preset.rate,
-                window=preset.window,
+                window=preset.averaging,
                 bands=preset.bands,
             ),
             np.float32,
@@ -145,20 +145,18 @@ def analyze_channels(
             unit,
             width=max(1, round(preset.samples(preset.max_fine))),
             cost=preset.samples(preset.fine_cost),
-            min_length=max(1, round(preset.samples(preset.min_action))),
         )
         sums = tree.between_segments(features, fine, unit)
     with stage("level"):
-        growth = (len(features) / preset.samples(60.0)) ** preset.cost_growth
         level = tree.best_level(
             fine,
             sums,
-            segment_cost=growth * preset.samples(preset.segment_cost),
-            cluster_cost=growth * preset.samples(preset.cluster_cost),
+            segment_cost=preset.samples(preset.segment_cost),
+            cluster_cost=preset.samples(preset.cluster_cost),
             most_clusters=preset.max_clusters,
         )
-        borders, labels = _joined(level)
-        confidence = _confidence(fine, sums, borders, labels)
+        borders, labels = _joined(level, round(preset.samples(preset.min_action)))
+        confidence = _confidence(fine, sums, level, borders)
     with stage("repetitions"):
         frames = _in_frames(borders, preset, len(rows))
         counted = _count(rows, frames, preset)
@@ -179,27 +177,41 @@ def _channels(rows: NDArray[np.float64], offsets: tuple[float, ...]) -> NDArray[
     return rows[:, first : first + dims]
 
 
-def _joined(level: tree.Level) -> tuple[Frames, Frames]:
-    """Borders and labels with neighbours of one cluster as one segment."""
-    new = np.concatenate([[True], np.diff(level.labels) != 0])
-    return np.append(level.borders[:-1][new], level.borders[-1]), by_first_appearance(
-        level.labels[new]
-    )
+def _joined(level: tree.Level, shortest: int) -> tuple[Frames, Frames]:
+    """Borders and labels with neighbours of one cluster as one segment.
+
+    A cluster of less than `shortest` samples is what a change looks like while it is
+    averaged over: its segments are parted between their neighbours.
+    """
+    lengths = np.diff(level.borders)
+    rare = np.bincount(level.labels, lengths)[level.labels] < shortest
+    if rare.all():
+        return level.borders[[0, -1]], np.zeros(1, np.int64)
+    per_sample = np.repeat(np.where(rare, -1, level.labels), lengths)
+    known = np.flatnonzero(per_sample >= 0)
+    samples = np.arange(len(per_sample))
+    after = np.minimum(np.searchsorted(known, samples), len(known) - 1)
+    before = np.maximum(after - 1, 0)
+    later = np.abs(known[after] - samples) <= np.abs(samples - known[before])
+    per_sample = per_sample[known[np.where(later, after, before)]]
+    first = np.flatnonzero(np.diff(per_sample, prepend=-1))
+    return np.append(first, len(samples)), by_first_appearance(per_sample[first])
 
 
 def _confidence(
-    fine: Frames, sums: NDArray[np.float64], borders: Frames, labels: Frames
+    fine: Frames, sums: NDArray[np.float64], level: tree.Level, borders: Frames
 ) -> NDArray[np.float64]:
-    """How much nearer the samples of each segment are to their own cluster than to the next."""
-    at = np.searchsorted(fine, borders[:-1])
-    lengths = np.diff(borders).astype(np.float64)
+    """How much nearer each segment is to its own cluster than to the next, where it began."""
+    at = np.searchsorted(fine, level.borders[:-1])
+    lengths = np.diff(level.borders).astype(np.float64)
     inner = np.add.reduceat(np.add.reduceat(sums, at, 0), at, 1)
-    members = np.eye(int(labels.max()) + 1)[labels]
+    members = np.eye(int(level.labels.max()) + 1)[level.labels]
     means = (inner @ members) / np.outer(lengths, lengths @ members)
-    own = means[np.arange(len(labels)), labels]
-    means[np.arange(len(labels)), labels] = np.inf
-    other = means.min(axis=1)
-    return np.asarray(np.clip(1 - own / np.maximum(other, 1e-12), 0, 1), np.float64)
+    own = means[np.arange(len(lengths)), level.labels]
+    means[np.arange(len(lengths)), level.labels] = np.inf
+    surer = np.clip(1 - own / np.maximum(means.min(axis=1), 1e-12), 0, 1)
+    middles = (borders[:-1] + borders[1:]) // 2
+    return np.asarray(surer[np.searchsorted(level.borders, middles, "right") - 1], np.float64)
 
 
 def _in_frames(borders: Frames, preset: HierarchyPreset, n: int) -> Frames:
@@ -213,9 +225,14 @@ def _count(
     channels: NDArray[np.float64], borders: Frames, preset: HierarchyPreset
 ) -> list[Repetitions]:
     """The repetitions in each segment."""
-    rows = np.ascontiguousarray(channels, np.float32)
+    step = max(1, round(preset.working_fps / preset.counting_fps))
+    rows = np.ascontiguousarray(channels[::step], np.float32)
+    slower = preset.replace(working_fps=preset.working_fps / step)
 
     def count(span: tuple[int, int]) -> Repetitions:
-        return repetitions(rows, *span, preset)
+        start, stop = span[0] // step, max(span[1] // step, span[0] // step + 1)
+        found = repetitions(rows, start, min(stop, len(rows)), slower)
+        cuts = step * found.cuts
+        return replace(found, cuts=cuts[(span[0] < cuts) & (cuts < span[1])])
 
     return map_threads(count, list(pairwise(borders.tolist())))

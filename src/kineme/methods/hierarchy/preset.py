@@ -28,14 +28,14 @@ class HierarchyPreset(CountingPreset):
 
     unit: Unit = "any"
     working_fps: float = constant(
-        "frames per second at which channels are looked at, at most", unit="Hz", limits=RATE,
+        "samples per second at which the recording is looked at", unit="Hz", limits=RATE,
         default=50.0,
     )  # fmt: skip
     smoothing: float = constant(
         "channels of signals are averaged over this", unit="s", limits=TIME, default=0.0
     )
     rate: float = constant("samples per second that are compared", unit="Hz", limits=RATE)
-    window: float = constant(
+    averaging: float = constant(
         "means and energies of channels are taken over this", unit="s", limits=SOME_TIME
     )
     bands: tuple[float, ...] = constant(
@@ -49,9 +49,7 @@ class HierarchyPreset(CountingPreset):
     max_fine: float = constant(
         "longest segment of the finest level", unit="s", limits=SOME_TIME, fine=True
     )
-    min_action: float = constant(
-        "shortest segment of the finest level", unit="s", limits=TIME, slider=(0.2, 10.0, 0.2)
-    )
+    min_action: float = constant("shortest action", unit="s", limits=TIME, slider=(0.2, 10.0, 0.1))
     segment_cost: float = constant(
         "what a segment must explain: time at the median distance", unit="s", limits=TIME,
         slider=(0.02, 2.0, 0.02),
@@ -60,9 +58,10 @@ class HierarchyPreset(CountingPreset):
         "what a cluster must explain: time at the median distance", unit="s", limits=TIME,
         slider=(0.1, 5.0, 0.1),
     )  # fmt: skip
-    cost_growth: float = constant(
-        "both costs grow with the duration in minutes to this power", limits=SHARE, fine=True
-    )
+    counting_fps: float = constant(
+        "frames per second at which repetitions are counted, at most", unit="Hz", limits=RATE,
+        fine=True,
+    )  # fmt: skip
     max_clusters: int = constant("clusters at most", limits=SOME, fine=True)
     unsure_count: float = constant(
         "score below which a note says to look at the repetitions", limits=SHARE, fine=True
@@ -82,7 +81,10 @@ class HierarchyPreset(CountingPreset):
 
     def at_most(self, fps: float) -> Self:
         """The preset for a recording of that rate: energies above it are not there."""
-        return self if fps >= self.working_fps else replace(self, working_fps=fps)
+        if not RATE.minimum <= fps < self.working_fps:
+            return self
+        apart = len({round(offset * fps) for offset in self.offsets}) == len(self.offsets)
+        return replace(self, working_fps=fps, offsets=self.offsets if apart else (0.0,))
 
     def samples(self, seconds: float) -> float:
         """Seconds in samples, at `rate`."""
@@ -94,14 +96,14 @@ SENSORS = HierarchyPreset(
     help="Finds activities of sensors by posture and energy; what kineme is for signals.",
     offsets=(-0.2, -0.1, 0.0, 0.1, 0.2),
     rate=5.0,
-    window=1.0,
+    averaging=1.0,
     bands=(0.3, 1.0, 2.4, 7.0, 20.0),
     fine_cost=0.4,
     max_fine=80.0,
-    min_action=0.2,
+    min_action=1.4,
     segment_cost=0.15,
     cluster_cost=0.8,
-    cost_growth=0.25,
     max_clusters=16,
+    counting_fps=25.0,
     unsure_count=0.5,
 )

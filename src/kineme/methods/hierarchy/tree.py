@@ -63,9 +63,7 @@ def median_distance(features: NDArray[np.float32]) -> float:
     return middle if middle > 1e-9 else 1.0
 
 
-def fine_borders(
-    features: NDArray[np.float32], unit: float, *, width: int, cost: float, min_length: int
-) -> Samples:
+def fine_borders(features: NDArray[np.float32], unit: float, *, width: int, cost: float) -> Samples:
     """Borders of the segments whose samples are near each other, ends included.
 
     Parameters
@@ -77,8 +75,6 @@ def fine_borders(
         Samples of the longest segment.
     cost : float
         What a border must gain: samples at that distance.
-    min_length : int
-        Samples of the shortest segment.
     """
     similarity = np.empty((len(features), min(width, len(features))), np.float32)
 
@@ -86,7 +82,7 @@ def fine_borders(
         kernels.similarity_band(features, unit, rows.start, rows.stop, similarity)
 
     map_threads(fill, even_slices(len(features)))
-    borders: Samples = change_points(similarity, 2 * cost, min_length)
+    borders: Samples = change_points(similarity, 2 * cost, 1)
     return borders
 
 
@@ -188,12 +184,17 @@ def _groupings(inner: Floats, lengths: Floats, most: int) -> list[tuple[Samples,
     means = inner / np.outer(lengths, lengths)
     np.fill_diagonal(means, 0)
     joined = linkage(squareform(means, checks=False), "average")
+    # Fewer clusters are unions of those of the finest grouping: sums are taken once.
+    finest = fcluster(joined, min(k, most), "maxclust").astype(np.int64) - 1
+    members = np.eye(int(finest.max()) + 1)[finest]
+    sums, sizes = members.T @ inner @ members, lengths @ members
+    first = np.unique(finest, return_index=True)[1]
     found = []
-    for count in range(1, min(k, most) + 1):
+    for count in range(1, len(sizes) + 1):
         labels = fcluster(joined, count, "maxclust").astype(np.int64) - 1
-        members = np.eye(int(labels.max()) + 1)[labels]
-        own = np.einsum("gc,gh,hc->c", members, inner, members, optimize=True)
-        found.append((labels, float((own / (2 * (lengths @ members))).sum())))
+        union = np.eye(int(labels.max()) + 1)[labels[first]]
+        own = np.einsum("gc,gh,hc->c", union, sums, union, optimize=True)
+        found.append((labels, float((own / (2 * (sizes @ union))).sum())))
     return found
 
 
