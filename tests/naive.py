@@ -838,3 +838,24 @@ def followed(poses, path, lengths, mean, near):
         for pose in poses_at(poses, path, lengths)
     ]
     return matched_lengths(gains)
+
+
+def similarity_band(features, unit, width):
+    """One minus the distance of each sample to itself and those after it, in units."""
+    n = len(features)
+    found = np.zeros((n, width))
+    for i in range(n):
+        for lag in range(min(width, n - i)):
+            found[i, lag] = 1 - np.linalg.norm(features[i] - features[i + lag]) / unit
+    return found
+
+
+def mean_distances(features, segments, unit):
+    """The mean distance of the samples of each two segments, in units."""
+    return [
+        [
+            np.mean([[np.linalg.norm(features[a] - features[b]) for b in h] for a in g]) / unit
+            for h in segments
+        ]
+        for g in segments
+    ]

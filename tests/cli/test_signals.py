@@ -29,7 +29,7 @@ def phone(tmp_path: Path) -> Path:
 def test_sensors_are_segmented_as_they_are(kineme, tmp_path, phone) -> None:
     done = kineme("segment", phone, "-o", "cuts.csv", "--plot", "cuts.png")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "2000 frames at 100 Hz, kineme" in done.stdout
+    assert "2000 frames at 100 Hz, sensors" in done.stdout
     assert "note: channels: acc_x, acc_y, biceps" in done.stdout
     written = package.read_segments(tmp_path / "cuts.csv")
     assert np.abs(written.cuts() - 1000).min() <= 50

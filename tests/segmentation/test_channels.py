@@ -14,6 +14,7 @@ from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
 from kineme.features.emg import emg_envelope
 from kineme.methods import resolve_preset
+from kineme.methods.hierarchy.preset import SENSORS
 from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
 from kineme.segmentation.channels import (
@@ -116,8 +117,8 @@ def test_lengths_of_published_presets_are_those_of_a_body() -> None:
     assert resolve_preset("voegele2014", signals=True).radius == pytest.approx(0.734, abs=1e-3)
     assert resolve_preset("voegele2014", signals=True, radius=0.5).radius == 0.5
     assert resolve_preset(VOEGELE2014, signals=True).max_neighbors == VOEGELE2014.max_neighbors
-    assert resolve_preset("kineme", signals=True) == KINEME.replace(any_pace=False)
-    assert resolve_preset("kineme", signals=True, any_pace=True) == KINEME
+    assert resolve_preset("kineme", signals=True) == SENSORS
+    assert resolve_preset(KINEME, signals=True) == KINEME
 
 
 @pytest.mark.parametrize("name", OWN)
@@ -145,7 +146,7 @@ def test_the_unit_of_lengths_is_in_the_provenance_and_is_not_an_option() -> None
     x = Signals(recording(), 60)
     units = {name: segment(x, preset=name).provenance["parameters"]["unit"] for name in OWN}
     assert units == {
-        "kineme": "body sizes",
+        "kineme": "any",
         "voegele2014": "standard deviations",
         "krueger2017": "standard deviations",
     }

@@ -69,7 +69,7 @@ def test_constants_are_parameters_like_others() -> None:
 
 
 def test_what_a_preset_cannot_take_is_said_by_fit() -> None:
-    with pytest.raises(ParameterError, match="kineme has no parameter 'radius'"):
+    with pytest.raises(ParameterError, match="sensors has no parameter 'radius'"):
         Segmenter(radius=0.4).fit(two_movements())
     with pytest.raises(ParameterError, match="one of voegele2014 and krueger2017"):
         Segmenter(radius=0.4).fit(two_movements())

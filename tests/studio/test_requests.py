@@ -104,9 +104,9 @@ def test_each_preset_offers_its_own_constants_with_their_help(studio) -> None:
     for choice in studio.get("/api/state").json()["presets"]:
         preset = PRESETS[choice["name"]]
         assert choice["help"] == preset.help
-        sliders = [known.name for known in preset.constants() if known.slider]
         for signals, which in ((False, "parameters"), (True, "signal_parameters")):
             values = resolve_preset(choice["name"], signals=signals)
+            sliders = [known.name for known in values.constants() if known.slider]
             assert [offered["name"] for offered in choice[which]] == sliders
             for offered in choice[which]:
                 assert offered["help"]
@@ -323,11 +323,13 @@ def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> N
     assert (message["motion"], message["n_frames"], message["fps"]) == (None, 1000, 50.0)
     assert studio.get(f"/api/recordings/{studio.id}/motion").content == b""
     assert studio.get(f"/api/recordings/{studio.id}/matrix/0/0/0").status_code == 200
-    again = studio.done(message["revision"], "segment", preset="kineme", parameters={"phase": 0.5})
+    again = studio.done(
+        message["revision"], "segment", preset="kineme", parameters={"min_action": 1.2}
+    )
     signals = kineme.read(folder / "imu.csv")
     stored = kineme.read_segments(folder / "imu.segments.json")
-    assert stored.table == kineme.segment(signals, preset="kineme", phase=0.5).table
-    assert stored.provenance["parameters"]["any_pace"] is False
+    assert stored.table == kineme.segment(signals, preset="kineme", min_action=1.2).table
+    assert stored.provenance["preset"] == "sensors"
     studio.done(again["revision"], "split", level="activity", frame=500)
     assert 500 in kineme.read_segments(folder / "imu.segments.json").cuts()
     clips = studio.get(f"/api/recordings/{studio.id}/export/motions")

@@ -95,8 +95,8 @@ class Preset(ABC):
 
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "metres", "standard deviations", "any")
     """What its lengths can be in."""
-    signal_defaults: ClassVar[Mapping[str, Any]] = {}
-    """Constants with other values for signals, where the preset is given by name."""
+    for_sensors: ClassVar[str | None] = None
+    """The preset that signals take in place of this one, where it is given by name."""
 
     name: str
     help: str
@@ -154,6 +154,10 @@ class Preset(ABC):
     def signal_unit(self, features: NDArray[np.float64]) -> float:  # noqa: ARG002
         """How many standard deviations one unit of length is in these features."""
         return 1.0
+
+    def at_most(self, fps: float) -> Self:  # noqa: ARG002 (most methods ask for no less)
+        """The preset for a recording of that rate, where it cannot be looked at faster."""
+        return self
 
     def frames(self, seconds: float) -> int:
         """Seconds in whole samples of the working rate."""

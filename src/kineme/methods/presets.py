@@ -14,6 +14,7 @@ from kineme._plugins import plugins
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.baselines.presets import BASELINES
+from kineme.methods.hierarchy.preset import SENSORS
 from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 
@@ -25,7 +26,7 @@ PUBLISHED: Mapping[str, RegionGrowingPreset] = MappingProxyType(
     {preset.name: preset for preset in (VOEGELE2014, KRUEGER2017)}
 )
 _known: dict[str, Preset] = {
-    preset.name: preset for preset in (KINEME, *PUBLISHED.values(), *BASELINES)
+    preset.name: preset for preset in (KINEME, SENSORS, *PUBLISHED.values(), *BASELINES)
 }
 _looked_up: list[bool] = []
 
@@ -76,7 +77,7 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
     Parameters
     ----------
     preset : str or Preset
-        By name it takes its own defaults for signals.
+        By name it may be another for signals: ``sensors`` for ``kineme``.
     signals : bool
         Whether it is for channels: its lengths become standard deviations of them, and so
         those in `overrides` are taken.
@@ -102,8 +103,8 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
         if preset not in PRESETS:
             raise ParameterError(f"no preset {preset!r:.60}; there are {', '.join(PRESETS)}")
         chosen = PRESETS[preset]
-        if signals:
-            chosen = chosen.replace(**chosen.signal_defaults)
+        if signals and chosen.for_sensors is not None:
+            chosen = PRESETS[chosen.for_sensors]
     elif isinstance(preset, Preset):
         chosen = preset
     else:

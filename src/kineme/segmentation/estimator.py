@@ -18,6 +18,9 @@ from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.recordings import Signals
 from kineme.segmentation.segmenter import segment
 
+ASSUMED_FPS = 30.0
+"""Rows per second, where nobody says and the preset is not slower."""
+
 
 class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
     """The segments of a multivariate time series; ``fit_predict`` gives a cluster for each row.
@@ -27,7 +30,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
     preset : str or Preset
         ``kineme``, or another of `kineme.PRESETS`.
     fps : float, optional
-        Rows per second; by default rows are samples of the preset's working rate, 30 Hz.
+        Rows per second; 30 by default, or the working rate of the preset if that is lower.
     standardize : bool
         Divide each column by its standard deviation; not for an embedding.
     unit : float, optional
@@ -86,10 +89,10 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         values = validate_data(self, X, dtype=np.float64)
         preset = resolve_preset(self.preset, signals=True, **self._constants)
         names = getattr(self, "feature_names_in_", ())
-        fps = preset.working_fps if self.fps is None else self.fps
+        fps = min(preset.working_fps, ASSUMED_FPS) if self.fps is None else self.fps
         signals = Signals(values, fps, tuple(map(str, names)))
         if self.fps is None:
-            note = f"frame rate {preset.working_fps:g} Hz assumed: no fps was given"
+            note = f"frame rate {fps:g} Hz assumed: no fps was given"
             signals = signals.noted(note)
         result = segment(
             signals, preset=preset, emg=self.emg, standardize=self.standardize, unit=self.unit

@@ -145,6 +145,7 @@ def segment_and_found(
     if features is not None:
         constants = {"smoothing": 0.0, **constants}
     chosen = resolve_preset(preset, signals=isinstance(seen, Signals), **constants)
+    chosen = chosen.at_most(seen.fps)
     if isinstance(seen, Signals):
         scaled = features is None if standardize is None else standardize
         view = view_of_signals(seen, chosen, emg=emg, standardize=scaled, unit=unit)

@@ -87,10 +87,10 @@ def export_formats() -> list[ExportFormat]:
 
 
 def _parameters(preset: str, *, signals: bool) -> list[Parameter]:
-    constants = resolve_preset(preset).constants()
-    if signals:
-        others = resolve_preset(preset, signals=True).constants()
-        constants = tuple(map(_of_signals, constants, others))
+    chosen, other = resolve_preset(preset), resolve_preset(preset, signals=signals)
+    constants = other.constants()
+    if type(chosen) is type(other):
+        constants = tuple(map(_of_signals, chosen.constants(), constants))
     return [
         _parameter(known, known.slider)
         for known in constants

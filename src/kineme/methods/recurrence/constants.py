@@ -7,12 +7,11 @@ does and what other values measure.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from kineme.errors import ParameterError
-from kineme.methods.base import Preset, Unit
+from kineme.methods.base import Unit
 from kineme.methods.constants import (
     FACTOR,
     SHARE,
@@ -25,17 +24,16 @@ from kineme.methods.constants import (
     Limits,
     constant,
 )
+from kineme.methods.recurrence.counting import CountingPreset
 
 
 @dataclass(frozen=True, kw_only=True)
-class RecurrenceConstants(Preset):
+class RecurrenceConstants(CountingPreset):
     """Of recurrence, change points, actions and repetitions."""
 
     method: ClassVar[str] = "recurrence"
     units: ClassVar[tuple[Unit, ...]] = ("body sizes",)
-    # Few channels at one sample tell little, so pace counts: what is the same at another
-    # pace is another action, as running is to a sensor that walks.
-    signal_defaults: ClassVar[Mapping[str, Any]] = {"any_pace": False}
+    for_sensors: ClassVar[str | None] = "sensors"
 
     unit: Unit = "body sizes"
     # Recurrence: how similar any two samples are, whatever the phase.
@@ -129,54 +127,6 @@ class RecurrenceConstants(Preset):
     max_transition_share: float = constant(
         "largest share of an activity that a transition takes from one end", limits=Limits(0, 0.5),
         fine=True,
-    )  # fmt: skip
-    # Repetitions: how an activity is divided.
-    repetition_smoothing: float = constant(
-        "speeds are those of poses averaged over this time before and after", unit="s",
-        limits=TIME, fine=True,
-    )  # fmt: skip
-    deep_quantile: float = constant(
-        "depths of dips are measured against this quantile of a pose's distances",
-        limits=SHARE, fine=True,
-    )  # fmt: skip
-    noise_share: float = constant(
-        "share of that below which a dip is noise", limits=SHARE, fine=True
-    )
-    voters: int = constant(
-        "poses that vote on the number of repetitions, evenly spread", limits=SOME, fine=True
-    )
-    counts_tried: int = constant(
-        "numbers of repetitions with the most votes that are tried", limits=SOME, fine=True
-    )
-    poses_tried: int = constant(
-        "poses with which each is tried, those that tell it best", limits=SOME, fine=True
-    )
-    path_points: int = constant(
-        "places along a repetition's path at which it is compared", limits=Limits(2, 1000),
-        fine=True,
-    )  # fmt: skip
-    end_distance: float = constant(
-        "an end belongs to a repetition as long as it is nearer than this share of the variance",
-        limits=SHARE, fine=True,
-    )  # fmt: skip
-    length_cost: float = constant(
-        "cost of the repetition that the others are compared with, per share of the activity",
-        limits=FACTOR, fine=True,
-    )  # fmt: skip
-    max_unexplained: float = constant(
-        "where more than this share stays unexplained, similarity is chance", limits=SHARE,
-        fine=True,
-    )  # fmt: skip
-    same_cost: float = constant(
-        "divisions that cost no more than this above the best say with it how long the ends are",
-        limits=FACTOR, fine=True,
-    )  # fmt: skip
-    same_count: float = constant(
-        "repetitions by which these differ at most", limits=FACTOR, fine=True
-    )
-    rival_cost: float = constant(
-        "divisions that cost no more than this above the best say whether the count is certain",
-        limits=SOME_FACTOR, fine=True,
     )  # fmt: skip
     # What is said to be looked at.
     unsure_action: float = constant(

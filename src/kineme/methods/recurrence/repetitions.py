@@ -25,7 +25,7 @@ from kineme.methods.recurrence import _candidate_kernels as candidate_kernels
 from kineme.methods.recurrence import _distance_kernels as kernels
 
 if TYPE_CHECKING:
-    from kineme.methods.recurrence.constants import RecurrenceConstants
+    from kineme.methods.recurrence.counting import CountingPreset
 
 Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
@@ -113,7 +113,7 @@ class _Candidate:
 
 
 def repetitions(
-    features: NDArray[np.float32], start: int, stop: int, preset: RecurrenceConstants
+    features: NDArray[np.float32], start: int, stop: int, preset: CountingPreset
 ) -> Repetitions:
     """Where the repetitions of an activity begin, at equal phase.
 
@@ -125,7 +125,7 @@ def repetitions(
         At the working rate.
     start, stop : int
         Frames of the activity.
-    preset : RecurrenceConstants
+    preset : CountingPreset
 
     Returns
     -------
@@ -167,7 +167,7 @@ def _movement(rows: NDArray[np.float32], smoothing: int) -> _Movement:
 
 
 def _candidates(
-    rows: NDArray[np.float32], movement: _Movement, preset: RecurrenceConstants
+    rows: NDArray[np.float32], movement: _Movement, preset: CountingPreset
 ) -> list[_Candidate]:
     """Divisions of an activity into more than one repetition."""
     voters = min(preset.voters, len(rows))
@@ -186,7 +186,7 @@ def _candidates(
 
 
 def _dips(
-    rows: NDArray[np.float32], references: Frames, preset: RecurrenceConstants
+    rows: NDArray[np.float32], references: Frames, preset: CountingPreset
 ) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
     """Depths, 0 to 1, of each reference's dips, deepest first, and where they are."""
     distances = kernels.distances_to(rows, references, 0, len(rows))
@@ -198,7 +198,7 @@ def _dips(
     return np.maximum(shares - noise, 0), centers
 
 
-def _candidate(movement: _Movement, visits: Frames, preset: RecurrenceConstants) -> _Candidate:
+def _candidate(movement: _Movement, visits: Frames, preset: CountingPreset) -> _Candidate:
     poses, path, places = movement.poses, movement.path, preset.path_points
     whole, at = path[-1], path[visits]
     lengths = np.diff(at)

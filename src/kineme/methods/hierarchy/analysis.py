@@ -1,0 +1,238 @@
+"""The method for sensors: what each stage finds, in frames of the working rate.
+
+Any array of frames × channels will do; equal deviations of the channels give
+them equal weight.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme._checks import as_features
+from kineme._threads import map_threads
+from kineme.methods.base import Columns
+from kineme.methods.hierarchy import tree
+from kineme.methods.hierarchy.statistics import channel_statistics
+from kineme.methods.recurrence.repetitions import Repetitions, repetitions
+from kineme.methods.segments import by_first_appearance, columns_of
+from kineme.methods.stages import Progress, stopwatch
+
+if TYPE_CHECKING:
+    from kineme.graph import NeighborGraph
+    from kineme.methods.hierarchy.preset import HierarchyPreset
+
+Frames = NDArray[np.int64]
+
+# For pictures: neighbours per sample at most.
+PICTURED = 256
+
+
+@dataclass(frozen=True, eq=False)
+class HierarchyFound:
+    """What the stages found.
+
+    Attributes
+    ----------
+    features : (samples, dims) array
+        Statistics of the channels, ``preset.rate`` times a second.
+    preset : HierarchyPreset
+    unit : float
+        The median distance of two samples.
+    borders : (segments + 1,) array
+        Frames of the working rate, from 0 to n.
+    labels : (segments,) array
+        Cluster of each.
+    confidence : (segments,) array
+        How much nearer its samples are to their own cluster than to any other, 0 to 1.
+    primitives : (primitives + 1,) array
+        Borders of the repetitions, those of segments included.
+    agreement : (primitives,) array
+        How certain their number is, 0 to 1.
+    timings : dict of str to float
+        Seconds per stage.
+    """
+
+    features: NDArray[np.float32]
+    preset: HierarchyPreset
+    unit: float
+    borders: Frames
+    labels: Frames
+    confidence: NDArray[np.float64]
+    primitives: Frames
+    agreement: NDArray[np.float64]
+    timings: dict[str, float] = field(default_factory=dict)
+
+    def columns(self) -> Columns:
+        """Activities with their confidence, repetitions with the certainty of their count."""
+        parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
+        return columns_of(
+            self.borders,
+            self.primitives,
+            is_activity=np.full(len(self.labels), True),
+            clusters=(self.labels, self.labels[parents]),
+            scores=(self.confidence, self.agreement),
+        )
+
+    @cached_property
+    def graph(self) -> NeighborGraph:
+        """Neighbours of every sample, for pictures: within half the median distance."""
+        from kineme.graph import neighbor_graph
+
+        return neighbor_graph(self.features, radius=0.5 * self.unit, k=PICTURED)
+
+    def doubts(self, columns: Columns, fps: float) -> list[str]:
+        """A sentence for each activity whose count is not sure."""
+        activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
+        sentences = []
+        for row in np.flatnonzero(activity):
+            start, stop = columns["start_frame"][row], columns["stop_frame"][row]
+            inside = (columns["level"] == "primitive") & (columns["start_frame"] == start)
+            agreement = columns["score"][inside][0]
+            if agreement < self.preset.unsure_count:
+                sentences.append(
+                    f"look at the repetitions at {start / fps:.2f} to {stop / fps:.2f} s: "
+                    f"another number of them fits nearly as well (score {agreement:.2f})"
+                )
+        return sentences
+
+
+def analyze_channels(
+    channels: ArrayLike, preset: HierarchyPreset, *, progress: Progress | None = None
+) -> HierarchyFound:
+    """Segments, clusters and repetitions of channels.
+
+    Parameters
+    ----------
+    channels : (frames, channels * offsets) array
+        At the working rate, stacked at the offsets of the preset.
+    preset : HierarchyPreset
+    progress : callable, optional
+        Called with the name of each stage before it runs.
+
+    Returns
+    -------
+    HierarchyFound
+
+    Raises
+    ------
+    ParameterError
+        Channels of another shape, empty, or not finite.
+    """
+    rows = as_features(channels)
+    timings: dict[str, float] = {}
+    stage = stopwatch(timings, progress)
+    with stage("statistics"):
+        features = np.ascontiguousarray(
+            channel_statistics(
+                _channels(rows, preset.offsets),
+                preset.working_fps,
+                rate=preset.rate,
+                window=preset.averaging,
+                bands=preset.bands,
+            ),
+            np.float32,
+        )
+        unit = tree.median_distance(features)
+    with stage("tree"):
+        fine = tree.fine_borders(
+            features,
+            unit,
+            width=max(1, round(preset.samples(preset.max_fine))),
+            cost=preset.samples(preset.fine_cost),
+        )
+        sums = tree.between_segments(features, fine, unit)
+    with stage("level"):
+        level = tree.best_level(
+            fine,
+            sums,
+            segment_cost=preset.samples(preset.segment_cost),
+            cluster_cost=preset.samples(preset.cluster_cost),
+            most_clusters=preset.max_clusters,
+        )
+        borders, labels = _joined(level, round(preset.samples(preset.min_action)))
+        confidence = _confidence(fine, sums, level, borders)
+    with stage("repetitions"):
+        frames = _in_frames(borders, preset, len(rows))
+        counted = _count(rows, frames, preset)
+    primitives = np.unique(np.concatenate([frames, *(each.cuts for each in counted)]))
+    parents = np.searchsorted(frames, primitives[:-1], side="right") - 1
+    agreement = np.array([each.agreement for each in counted])[parents]
+    return HierarchyFound(
+        features, preset, unit, frames, labels, confidence, primitives, agreement, timings
+    )
+
+
+def _channels(rows: NDArray[np.float64], offsets: tuple[float, ...]) -> NDArray[np.float64]:
+    """The channels without their neighbours in time; all, if they were not stacked."""
+    dims, rest = divmod(rows.shape[1], len(offsets))
+    if rest:
+        return rows
+    first = dims * int(np.argmin(np.abs(offsets)))
+    return rows[:, first : first + dims]
+
+
+def _joined(level: tree.Level, shortest: int) -> tuple[Frames, Frames]:
+    """Borders and labels with neighbours of one cluster as one segment.
+
+    A cluster of less than `shortest` samples is what a change looks like while it is
+    averaged over: its segments are parted between their neighbours.
+    """
+    lengths = np.diff(level.borders)
+    rare = np.bincount(level.labels, lengths)[level.labels] < shortest
+    if rare.all():
+        return level.borders[[0, -1]], np.zeros(1, np.int64)
+    per_sample = np.repeat(np.where(rare, -1, level.labels), lengths)
+    known = np.flatnonzero(per_sample >= 0)
+    samples = np.arange(len(per_sample))
+    after = np.minimum(np.searchsorted(known, samples), len(known) - 1)
+    before = np.maximum(after - 1, 0)
+    later = np.abs(known[after] - samples) <= np.abs(samples - known[before])
+    per_sample = per_sample[known[np.where(later, after, before)]]
+    first = np.flatnonzero(np.diff(per_sample, prepend=-1))
+    return np.append(first, len(samples)), by_first_appearance(per_sample[first])
+
+
+def _confidence(
+    fine: Frames, sums: NDArray[np.float64], level: tree.Level, borders: Frames
+) -> NDArray[np.float64]:
+    """How much nearer each segment is to its own cluster than to the next, where it began."""
+    at = np.searchsorted(fine, level.borders[:-1])
+    lengths = np.diff(level.borders).astype(np.float64)
+    inner = np.add.reduceat(np.add.reduceat(sums, at, 0), at, 1)
+    members = np.eye(int(level.labels.max()) + 1)[level.labels]
+    means = (inner @ members) / np.outer(lengths, lengths @ members)
+    own = means[np.arange(len(lengths)), level.labels]
+    means[np.arange(len(lengths)), level.labels] = np.inf
+    surer = np.clip(1 - own / np.maximum(means.min(axis=1), 1e-12), 0, 1)
+    middles = (borders[:-1] + borders[1:]) // 2
+    return np.asarray(surer[np.searchsorted(level.borders, middles, "right") - 1], np.float64)
+
+
+def _in_frames(borders: Frames, preset: HierarchyPreset, n: int) -> Frames:
+    """Borders in frames of the working rate, each with a frame at least."""
+    frames: Frames = np.rint(borders * (preset.working_fps / preset.rate)).astype(np.int64)
+    frames[-1] = n
+    return frames
+
+
+def _count(
+    channels: NDArray[np.float64], borders: Frames, preset: HierarchyPreset
+) -> list[Repetitions]:
+    """The repetitions in each segment."""
+    step = max(1, round(preset.working_fps / preset.counting_fps))
+    rows = np.ascontiguousarray(channels[::step], np.float32)
+    slower = preset.replace(working_fps=preset.working_fps / step)
+
+    def count(span: tuple[int, int]) -> Repetitions:
+        start, stop = span[0] // step, max(span[1] // step, span[0] // step + 1)
+        found = repetitions(rows, start, min(stop, len(rows)), slower)
+        cuts = step * found.cuts
+        return replace(found, cuts=cuts[(span[0] < cuts) & (cuts < span[1])])
+
+    return map_threads(count, list(pairwise(borders.tolist())))

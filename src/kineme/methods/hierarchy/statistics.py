@@ -1,0 +1,93 @@
+"""Statistics of channels: the posture and the energy of movement, some times a second.
+
+An accelerometer seldom shows the same values twice, however regular the
+movement: what stays is where it hangs (the mean over a second) and how strongly
+it is shaken, slowly and fast (the root mean square in bands of frequency). So
+two samples are similar if these are.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+NYQUIST = 0.45
+"""Share of the rate up to which a band of frequency can be told."""
+
+
+def channel_statistics(
+    channels: Floats, fps: float, *, rate: float, window: float, bands: tuple[float, ...]
+) -> Floats:
+    """Means and energies of channels, each group of them with the same weight.
+
+    Parameters
+    ----------
+    channels : (frames, channels) array
+        With equal deviations.
+    fps : float
+        Frames per second.
+    rate : float
+        Samples per second wanted.
+    window : float
+        Seconds over which means and energies are taken.
+    bands : tuple of float
+        Edges of the bands of frequency, hertz, ascending; those beyond the rate are left out.
+
+    Returns
+    -------
+    (samples, channels * groups) array
+        One group of means, and one for each band. Distances are root mean squares over all.
+
+    Examples
+    --------
+    >>> from itertools import pairwise
+
+    import numpy as np
+    >>> still = np.zeros((500, 2))
+    >>> channel_statistics(still, 50.0, rate=5.0, window=1.0, bands=(1.0, 4.0, 16.0)).shape
+    (50, 6)
+    """
+    width = max(1, round(window * fps))
+    groups = [_mean(channels, width)]
+    groups += [
+        np.sqrt(_mean(_band(channels, fps, low, high) ** 2, width))
+        for low, high in pairwise(bands)
+        if low < NYQUIST * fps
+    ]
+    n = int((len(channels) - 1) / fps * rate + 1e-9) + 1
+    at = np.minimum(np.rint(np.arange(n) * fps / rate).astype(np.int64), len(channels) - 1)
+    scaled = [_of_equal_weight(group[at]) for group in groups]
+    return np.asarray(np.hstack(scaled) / np.sqrt(len(groups) * channels.shape[1]), np.float64)
+
+
+def _mean(values: Floats, width: int) -> Floats:
+    """The mean over so many frames around each; at the ends over what is there."""
+    sums = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
+    frames = np.arange(len(values))
+    first = np.clip(frames - width // 2, 0, len(values))
+    last = np.clip(frames - width // 2 + width, 0, len(values))
+    means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
+    return np.maximum(means, 0.0) if (values >= 0).all() else means
+
+
+def _band(channels: Floats, fps: float, low: float, high: float) -> Floats:
+    """The channels between two frequencies, without delay (Butterworth, both ways)."""
+    from scipy.signal import butter, sosfiltfilt
+
+    edges = [low, min(high, NYQUIST * fps)]
+    if edges[0] >= edges[1]:
+        return np.zeros_like(channels)
+    sections = butter(2, edges, "bandpass", fs=fps, output="sos")
+    padding = min(len(channels) - 1, int(3 * fps / low))
+    return np.asarray(sosfiltfilt(sections, channels, axis=0, padlen=padding), np.float64)
+
+
+def _of_equal_weight(group: Floats) -> Floats:
+    """The group around its mean, with a mean variance of 1; 0 where nothing changes."""
+    centred = group - group.mean(axis=0)
+    deviation = float(np.sqrt((centred**2).mean()))
+    return centred / deviation if deviation > 1e-9 else np.zeros_like(centred)

@@ -1,0 +1,204 @@
+"""A tree of segments: fine ones joined with their neighbours, the most similar first.
+
+1. Fine borders are change points of the distances: the cheapest division into
+   segments whose samples are near each other.
+2. The two neighbours whose union costs least are joined, again and again, until
+   one segment is left: each number of segments is a level of the tree.
+3. At each level segments are grouped, by average linkage of their mean distances.
+4. The level and the number of clusters are those of the shortest description:
+   what samples differ within clusters, and a price for each segment and cluster.
+
+Sources: change points after Arlot, Celisse and Harchaoui 2019; bottom-up
+segmentation after Keogh, Chu, Hart and Pazzani 2001; the rest is ours.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._threads import even_slices, map_threads
+from kineme.methods.hierarchy import _kernels as kernels
+from kineme.methods.recurrence._action_kernels import change_points
+
+Floats = NDArray[np.float64]
+Samples = NDArray[np.int64]
+
+PAIRS = 2000
+"""Samples whose distances tell the median one."""
+COMPARED = 12_000
+"""Samples that stand for all segments of a long recording."""
+LEAST, MOST = 4, 32
+"""Samples that stand for one segment."""
+EACH_LEVEL, LEVELS = 150, 60
+"""Levels up to so many segments are tried one by one; of the others so many."""
+
+
+@dataclass(frozen=True, eq=False)
+class Level:
+    """A level of the tree, grouped.
+
+    Attributes
+    ----------
+    borders : (segments + 1,) array
+        Samples, from 0 to the end.
+    labels : (segments,) array
+        Cluster of each.
+    """
+
+    borders: Samples
+    labels: Samples
+
+
+def median_distance(features: NDArray[np.float32]) -> float:
+    """The median distance of two samples; 1 where all are equal."""
+    from scipy.spatial.distance import pdist
+
+    n = min(len(features), PAIRS)
+    at = (np.arange(n) * len(features)) // n
+    middle = float(np.median(pdist(features[at]))) if n > 1 else 0.0
+    return middle if middle > 1e-9 else 1.0
+
+
+def fine_borders(features: NDArray[np.float32], unit: float, *, width: int, cost: float) -> Samples:
+    """Borders of the segments whose samples are near each other, ends included.
+
+    Parameters
+    ----------
+    features : (samples, dims) array
+    unit : float
+        The distance that counts as 1.
+    width : int
+        Samples of the longest segment.
+    cost : float
+        What a border must gain: samples at that distance.
+    """
+    similarity = np.empty((len(features), min(width, len(features))), np.float32)
+
+    def fill(rows: slice) -> None:
+        kernels.similarity_band(features, unit, rows.start, rows.stop, similarity)
+
+    map_threads(fill, even_slices(len(features)))
+    borders: Samples = change_points(similarity, 2 * cost, 1)
+    return borders
+
+
+def between_segments(features: NDArray[np.float32], borders: Samples, unit: float) -> Floats:
+    """Summed distances of the samples of each two segments, (segments, segments), in units."""
+    k = len(borders) - 1
+    most = max(LEAST, min(MOST, COMPARED // k))
+    chosen = [_spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
+    ends = np.concatenate([[0], np.cumsum([len(each) for each in chosen])])
+    means = np.zeros((k, k))
+
+    def fill(rows: slice) -> None:
+        kernels.mean_distances(
+            features, np.concatenate(chosen), ends, unit, rows.start, rows.stop, means
+        )
+
+    map_threads(fill, even_slices(k))
+    means = np.triu(means) + np.triu(means, 1).T
+    lengths = np.diff(borders)
+    return np.asarray(means * np.outer(lengths, lengths), np.float64)
+
+
+def levels(borders: Samples, sums: Floats) -> list[Samples]:
+    """Borders of each level, indices of `borders`, from one segment to all.
+
+    Parameters
+    ----------
+    borders : (segments + 1,) array
+    sums : (segments, segments) array
+        Of `between_segments`; is used up.
+    """
+    lengths = np.diff(borders).astype(np.float64)
+    alive = list(range(len(lengths)))
+    found = [np.append(alive, len(lengths))]
+
+    def loss(g: int, h: int) -> float:
+        union = (sums[g, g] + sums[h, h] + 2 * sums[g, h]) / (lengths[g] + lengths[h])
+        return float(union - sums[g, g] / lengths[g] - sums[h, h] / lengths[h])
+
+    losses = [loss(g, h) for g, h in pairwise(alive)]
+    while losses:
+        at = int(np.argmin(losses))
+        g, h = alive[at], alive[at + 1]
+        sums[g] += sums[h]
+        sums[:, g] += sums[:, h]
+        lengths[g] += lengths[h]
+        del alive[at + 1], losses[at]
+        for left in (at - 1, at):
+            if 0 <= left < len(losses):
+                losses[left] = loss(alive[left], alive[left + 1])
+        found.append(np.append(alive, len(lengths)))
+    return found[::-1]
+
+
+def best_level(
+    borders: Samples, sums: Floats, *, segment_cost: float, cluster_cost: float, most_clusters: int
+) -> Level:
+    """The level and clusters of the shortest description.
+
+    Parameters
+    ----------
+    borders : (segments + 1,) array
+        Of the finest level.
+    sums : (segments, segments) array
+        Of `between_segments`.
+    segment_cost, cluster_cost : float
+        What a segment and a cluster cost: samples at the median distance.
+    most_clusters : int
+
+    Returns
+    -------
+    Level
+    """
+    best, cheapest = Level(borders[[0, -1]], np.zeros(1, np.int64)), np.inf
+    tree = levels(borders, sums.copy())
+    tried = {*range(min(len(tree), EACH_LEVEL))}
+    tried |= {int(at) for at in np.geomspace(1, len(tree), LEVELS).astype(np.int64) - 1}
+    for at in sorted(tried):
+        level = tree[at]
+        lengths = np.diff(borders[level]).astype(np.float64)
+        inner = np.add.reduceat(np.add.reduceat(sums, level[:-1], 0), level[:-1], 1)
+        for labels, within in _groupings(inner, lengths, most_clusters):
+            runs = 1 + np.count_nonzero(np.diff(labels))
+            clusters = int(labels.max()) + 1
+            cost = within + segment_cost * runs + cluster_cost * clusters
+            if cost < cheapest:
+                cheapest, best = cost, Level(borders[level], labels)
+    return best
+
+
+def _groupings(inner: Floats, lengths: Floats, most: int) -> list[tuple[Samples, float]]:
+    """Labels of the segments for each number of clusters, and half the distances within them."""
+    from scipy.cluster.hierarchy import fcluster, linkage
+    from scipy.spatial.distance import squareform
+
+    k = len(lengths)
+    if k == 1:
+        return [(np.zeros(1, np.int64), float(inner[0, 0] / (2 * lengths[0])))]
+    means = inner / np.outer(lengths, lengths)
+    np.fill_diagonal(means, 0)
+    joined = linkage(squareform(means, checks=False), "average")
+    # Fewer clusters are unions of those of the finest grouping: sums are taken once.
+    finest = fcluster(joined, min(k, most), "maxclust").astype(np.int64) - 1
+    members = np.eye(int(finest.max()) + 1)[finest]
+    sums, sizes = members.T @ inner @ members, lengths @ members
+    first = np.unique(finest, return_index=True)[1]
+    found = []
+    for count in range(1, len(sizes) + 1):
+        labels = fcluster(joined, count, "maxclust").astype(np.int64) - 1
+        union = np.eye(int(labels.max()) + 1)[labels[first]]
+        own = np.einsum("gc,gh,hc->c", union, sums, union, optimize=True)
+        found.append((labels, float((own / (2 * (sizes @ union))).sum())))
+    return found
+
+
+def _spread(start: int, stop: int, most: int) -> Samples:
+    """Samples of a segment, evenly spread."""
+    n = min(stop - start, most)
+    return start + (2 * np.arange(n) + 1) * (stop - start) // (2 * n)

@@ -1,0 +1,129 @@
+"""Sensors: what is posture and energy, a tree of segments, and the level that fits."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import kineme
+import naive
+from kineme.methods.hierarchy import _kernels as kernels
+from kineme.methods.hierarchy import tree
+from kineme.methods.hierarchy.preset import SENSORS
+from kineme.methods.hierarchy.statistics import channel_statistics
+
+FPS = 50.0
+DONE = ((0, 0, 0), (0, 1.8, 1), (0, 0, 0), (0, 2.8, 3), (2, 0, 0), (0, 1.8, 1))
+"""Posture, pace and strength of each."""
+
+
+def worn(seed: int = 0) -> tuple[np.ndarray, list[int]]:
+    """Standing, walking, standing, running, lying, walking: six channels, and where each ends."""
+    rng = np.random.default_rng(seed)
+    parts = []
+    for posture, pace, strength in (
+        (0, 0, 0),
+        (0, 1.8, 1),
+        (0, 0, 0),
+        (0, 2.8, 3),
+        (2, 0, 0),
+        (0, 1.8, 1),
+    ):
+        t = np.arange(int(12 * FPS)) / FPS
+        phases = rng.uniform(0, 6, 6)
+        waves = strength * np.sin(2 * np.pi * pace * t[:, None] + phases)
+        parts.append(posture * np.array([1, -1, 0, 0, 0, 0]) + waves)
+    borders = np.cumsum([len(part) for part in parts])[:-1]
+    rows = np.concatenate(parts)
+    return rows + 0.1 * rng.standard_normal(rows.shape), borders.tolist()
+
+
+def samples() -> st.SearchStrategy[np.ndarray]:
+    def made(shape: tuple[int, int, int]) -> np.ndarray:
+        return np.random.default_rng(shape[2]).normal(size=shape[:2]).astype(np.float32)
+
+    return st.tuples(st.integers(2, 12), st.integers(1, 3), st.integers(0, 99)).map(made)
+
+
+@given(samples(), st.integers(1, 14), st.floats(0.1, 5))
+@settings(max_examples=60)
+def test_the_band_is_that_of_the_naive_version(features, width, unit) -> None:
+    width = min(width, len(features))
+    found = np.empty((len(features), width), np.float32)
+    kernels.similarity_band(features, unit, 0, len(features), found)
+    np.testing.assert_allclose(found, naive.similarity_band(features, unit, width), atol=1e-5)
+
+
+@given(samples(), st.data())
+@settings(max_examples=60)
+def test_distances_of_segments_are_those_of_the_naive_version(features, data) -> None:
+    cuts = data.draw(st.sets(st.integers(1, len(features) - 1)))
+    borders = np.array([0, *sorted(cuts), len(features)])
+    sums = tree.between_segments(features, borders, 2.0)
+    segments = [range(a, b) for a, b in pairwise(borders.tolist())]
+    expected = np.array(naive.mean_distances(features, segments, 2.0))
+    lengths = np.diff(borders)
+    np.testing.assert_allclose(sums, expected * np.outer(lengths, lengths), atol=1e-4)
+
+
+@given(samples(), st.data())
+@settings(max_examples=60)
+def test_each_level_has_the_borders_of_the_coarser_ones(features, data) -> None:
+    cuts = data.draw(st.sets(st.integers(1, len(features) - 1)))
+    borders = np.array([0, *sorted(cuts), len(features)])
+    levels = tree.levels(borders, tree.between_segments(features, borders, 1.0))
+    assert [len(level) - 1 for level in levels] == list(range(1, len(borders)))
+    for coarse, fine in pairwise(levels):
+        assert set(coarse.tolist()) <= set(fine.tolist())
+
+
+def test_activities_of_sensors_are_found_and_known_again() -> None:
+    for seed in range(5):
+        rows, borders = worn(seed)
+        found = kineme.segment(kineme.Signals(rows, FPS))
+        assert found.provenance["preset"] == "sensors"
+        cuts = found.cuts()
+        assert len(cuts) <= len(borders) + 1
+        assert all(np.abs(cuts - border).min() <= FPS for border in borders)
+        middles = np.array([0, *borders]) + int(6 * FPS)
+        standing, walking, again, running, lying, last = found.per_frame("cluster")[middles]
+        assert standing == again
+        assert walking == last
+        assert len({standing, walking, running, lying}) == 4
+
+
+def test_a_slow_recording_has_no_energies_above_its_rate() -> None:
+    fast = channel_statistics(worn()[0], FPS, rate=5, window=1, bands=SENSORS.bands)
+    slow = channel_statistics(worn()[0][::10], FPS / 10, rate=5, window=1, bands=SENSORS.bands)
+    assert (fast.shape[1], slow.shape[1]) == (30, 18)
+    found = kineme.segment(kineme.Signals(worn()[0][::10], FPS / 10))
+    assert found.provenance["parameters"]["working_fps"] == FPS / 10
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3, 10, 60])
+def test_short_and_still_recordings_are_one_activity(frames: int) -> None:
+    rows = np.ones((frames, 2))
+    found = kineme.segment(kineme.Signals(rows, FPS))
+    assert found.activities.stop_frame.tolist() == [frames]
+
+
+def test_dearer_segments_are_fewer_and_cheaper_ones_more() -> None:
+    rows, _ = worn()
+    counts = [
+        len(kineme.segment(kineme.Signals(rows, FPS), segment_cost=cost).activities)
+        for cost in (0.02, 0.15, 2.0, 40.0)
+    ]
+    assert counts == sorted(counts, reverse=True)
+    assert counts[-1] == 1
+
+
+def test_steps_are_counted() -> None:
+    t = np.arange(int(20 * FPS)) / FPS
+    swing = np.column_stack([np.sin(2 * np.pi * t), np.sin(4 * np.pi * t + 1)])
+    rows = swing + 0.02 * np.random.default_rng(0).standard_normal(swing.shape)
+    found = kineme.segment(kineme.Signals(rows, FPS))
+    assert abs(len(found.primitives) - 20) <= 1
