@@ -105,6 +105,7 @@ HELPERS = {
     "_checks": {"errors"},
     "_colors": set(),
     "_compiled": set(),
+    "_doors": {"errors"},
     "_files": {"errors"},
     "_interpolation": set(),
     "_plugins": {"errors"},

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import re
 import secrets
+import sys
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from kineme.errors import WriteError
@@ -14,6 +17,14 @@ HEAD = 4096
 """Bytes by which a file is known without reading it whole."""
 TAIL = 1 << 16
 """Bytes at the end of a Parquet file, where it names its columns."""
+if sys.platform != "win32":  # where an open file cannot be removed anyway
+    import fcntl
+
+ABANDONED_S = 3600.0
+"""Age from which a draft that no writer holds is that of one that was killed."""
+
+_DRAFT = re.compile(r"\.kineme-[0-9a-f]{12}(\.\w+)?")
+_swept: set[Path] = set()  # folders whose drafts this process has looked at
 
 
 @contextmanager
@@ -21,27 +32,30 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A path to write to; what is there when the block ends becomes ``path``.
 
     It lies in the same folder and keeps the suffix. If the block raises, it
-    is removed and what was at ``path`` before stays as it was.
+    is removed and what was at ``path`` before stays as it was. Once the block has
+    ended the file is on the disk under its name, should the machine go down.
+    Drafts of killed writers are removed when they are an hour old.
 
     Raises
     ------
     WriteError
         The folder is missing or the file cannot be written.
     """
-    target = Path(path)
-    if target.is_dir():
-        raise WriteError(path, "cannot be written: it is a folder; name a file in it")
-    if not target.parent.is_dir():
-        raise WriteError(path, f"cannot be written: the folder {target.parent} does not exist")
-    final = Path(os.path.realpath(target))
-    draft = final.with_name(f".{secrets.token_hex(6)}{final.suffix}")
+    final, draft = _places(path)
+    held = None
     try:
+        held = _hold(draft)
         yield draft
+        _synchronise(draft)
         draft.replace(final)
+        _synchronise(final.parent)
     except OSError as error:
         raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
     finally:
-        draft.unlink(missing_ok=True)
+        if held is not None:
+            os.close(held)
+        with suppress(OSError):  # a place that may not be written any more
+            draft.unlink(missing_ok=True)
 
 
 def head_of(path: Path) -> bytes:
@@ -55,3 +69,68 @@ def tail_of(path: Path) -> bytes:
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - TAIL))
         return file.read()
+
+
+def _places(path: str | os.PathLike[str]) -> tuple[Path, Path]:
+    """Where the file goes in the end, and where it is written."""
+    target = Path(path)
+    try:
+        if target.is_dir():
+            raise WriteError(path, "cannot be written: it is a folder; name a file in it")
+        if not target.parent.is_dir():
+            raise WriteError(path, f"cannot be written: the folder {target.parent} does not exist")
+        final = Path(os.path.realpath(target))
+    except (OSError, ValueError) as error:  # a folder closed to us; a null byte in the name
+        reason = getattr(error, "strerror", None) or error
+        raise WriteError(path, f"cannot be written: {reason}") from error
+    _sweep(final.parent)
+    return final, final.with_name(f".kineme-{secrets.token_hex(6)}{final.suffix}")
+
+
+def _hold(draft: Path) -> int | None:
+    """Make the draft, and lock it as long as it is written."""
+    if sys.platform == "win32":
+        return None
+    held = os.open(draft, os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o666)
+    with suppress(OSError):  # file systems without locks
+        fcntl.flock(held, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    return held
+
+
+def _is_held(draft: Path) -> bool:
+    if sys.platform == "win32":
+        return False
+    file = os.open(draft, os.O_RDWR | os.O_CLOEXEC)
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return True
+    finally:
+        os.close(file)
+    return False
+
+
+def _sweep(folder: Path) -> None:
+    """Remove drafts of killed writers, once per folder and process."""
+    if folder in _swept:
+        return
+    _swept.add(folder)
+    with suppress(OSError), os.scandir(folder) as entries:
+        drafts = [Path(entry) for entry in entries if _DRAFT.fullmatch(entry.name)]
+        for draft in drafts:
+            with suppress(OSError):
+                old = time.time() - draft.stat().st_mtime > ABANDONED_S
+                if old and not _is_held(draft):
+                    draft.unlink()
+
+
+def _synchronise(place: Path) -> None:
+    """Have a file, or the names in a folder, on the disk."""
+    if sys.platform == "win32" and place.is_dir():  # where folders cannot be opened
+        return
+    file = os.open(place, os.O_RDONLY | getattr(os, "O_CLOEXEC", 0))
+    try:
+        with suppress(OSError):  # file systems that cannot
+            os.fsync(file)
+    finally:
+        os.close(file)

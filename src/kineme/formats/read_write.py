@@ -7,10 +7,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from kineme._checks import check_path, check_type
-from kineme.errors import MotionError, ReadError, WriteError
+from kineme._doors import reading
+from kineme.errors import ReadError, WriteError
 from kineme.formats.files import FileContent, load, warn
 from kineme.formats.options import AnyPath, ReadOptions
 from kineme.formats.registry import recognise, supported_formats
@@ -101,14 +100,10 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
     """
     check_path(path, "read")
     options = options or ReadOptions()
-    try:
-        # Values too large to compute with end up as an error in Motion.
-        with np.errstate(over="ignore", invalid="ignore"):
-            if Path(path).is_dir():
-                return _read_folder(Path(path), options)
-            return _read_file(load(path), options)
-    except MotionError as error:
-        raise ReadError(path, str(error)) from error
+    with reading(path):
+        if Path(path).is_dir():
+            return _read_folder(Path(path), options)
+        return _read_file(load(path), options)
 
 
 def read_motion(path: AnyPath, **options: Any) -> Motion:

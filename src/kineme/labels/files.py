@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from kineme._checks import check_path, check_type, is_number
+from kineme._doors import reading
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.registry import format_to_read, format_to_write
@@ -126,9 +127,10 @@ def read_segments(
     known, content = read_content(path, format)
     told = content.fps
     if isinstance(content, Labels):
-        content, unusual = as_segmentation(
-            content, Path(path), known.name, fps=fps, n_frames=n_frames
-        )
+        with reading(path):
+            content, unusual = as_segmentation(
+                content, Path(path), known.name, fps=fps, n_frames=n_frames
+            )
         if unusual:
             warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
     if fps is not None and told is not None and not isclose(told, fps, rel_tol=1e-6):
@@ -149,12 +151,5 @@ def read_content(
         Missing, damaged, or of another format.
     """
     known = format_to_read(path, name)
-    try:
+    with reading(path):
         return known, known.read(Path(path))
-    except OSError as error:
-        raise ReadError(path, f"cannot be read: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        encoding = error.encoding.upper()
-        raise ReadError(path, f"is not {encoding} text (byte {error.start})") from error
-    except ParameterError as error:
-        raise ReadError(path, str(error)) from error

@@ -8,6 +8,9 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._checks import as_floats, is_number
 from kineme.errors import MotionError, ParameterError
 
+SLOWEST, FASTEST = 1e-9, 1e9
+"""Frames per second: one in thirty years, and what oscilloscopes do."""
+
 Error = type[ParameterError | MotionError]
 
 
@@ -52,6 +55,10 @@ def as_rate(fps: object, *, error: Error = ParameterError) -> float:
     """The frame rate as a float; ``error`` unless it is one positive number."""
     if not (is_number(fps) and fps > 0):  # type: ignore[operator]
         raise error(f"the frame rate is {fps!r:.60}: it must be a positive number")
+    if not SLOWEST <= fps <= FASTEST:  # type: ignore[operator]
+        raise error(
+            f"the frame rate is {fps:g} Hz, which no clock has: give it in frames per second"
+        )
     return float(fps)  # type: ignore[arg-type]
 
 

@@ -24,6 +24,9 @@ from kineme.recordings.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 
+FARTHEST = 1e9
+"""Metres from the origin; ten times those of the largest coordinates that maps have."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motion(Recording):
@@ -71,6 +74,10 @@ class Motion(Recording):
         check_type(self.skeleton, Skeleton, "Motion", "then positions and fps", error=MotionError)
         assign(self, fps=as_rate(self.fps, error=MotionError))
         assign(self, positions=frozen(self.positions, "positions", error=MotionError))
+        if (reach := float(np.abs(self.positions).max(initial=0.0))) > FARTHEST:
+            raise MotionError(
+                f"positions reach {reach:.3g} m, where no body is: give unit=, or mend the values"
+            )
         joints = self.skeleton.n_joints
         if self.positions.ndim != 3 or self.positions.shape[1:] != (joints, 3):
             raise MotionError(

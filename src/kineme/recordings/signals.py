@@ -17,6 +17,9 @@ from kineme.recordings.recording import Recording, Spans, as_gaps
 
 Floats = NDArray[np.float64]
 
+LARGEST = 1e30
+"""In any unit; squares and sums of such values are still finite."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Signals(Recording):
@@ -63,6 +66,8 @@ class Signals(Recording):
         if values.ndim != 2 or 0 in values.shape:
             raise ParameterError(f"signals are frames x channels, not of shape {values.shape}")
         assign(self, values=frozen(values, "signals"), fps=as_rate(self.fps))
+        if (largest := float(np.abs(values).max())) > LARGEST:
+            raise ParameterError(f"signals reach {largest:.3g}, which no sensor tells")
         names = as_texts(self.names, "names of channels") or tuple(
             str(i) for i in range(1, values.shape[1] + 1)
         )

@@ -7,7 +7,6 @@ all, it is left alone, and ``walk.bvh.segments.json`` or a numbered name serves.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from hashlib import sha256
 from itertools import count
@@ -75,8 +74,6 @@ class TableFile:
         with atomic_write(self.path) as draft:
             with draft.open("wb") as file:
                 file.write(text)
-                file.flush()
-                os.fsync(file.fileno())
             if self.changed():
                 raise ChangedOnDiskError
             stamp = _stamp(draft)  # which stays with it under its name; later it may be another's

@@ -24,10 +24,10 @@ import os
 from collections.abc import Callable
 from dataclasses import asdict, replace
 from hashlib import sha256
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import read_motion
@@ -36,6 +36,8 @@ from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 
 SCHEMA = "kineme.motion-graph/1"
 OPTIONS = ("skeleton", "fps", "unit", "up")
+
+_MOST = 1e9  # metres, seconds, frames per second
 
 Json = dict[str, Any]
 
@@ -88,9 +90,9 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
         Missing, damaged or of another version.
     """
     try:
-        data = json.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ReadError(path, f"cannot be read: {error.strerror}") from error
+        with reading(path):
+            text = Path(path).read_text(encoding="utf-8")
+        data = json.loads(text)
     except (ValueError, RecursionError) as error:
         raise ReadError(path, "is not valid JSON, or is cut short: build it anew") from error
     schema = data.get("schema") if isinstance(data, dict) else None
@@ -100,9 +102,11 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
         raise ReadError(path, f"has schema {schema!r}, but this version reads {SCHEMA!r}")
     try:
         return _graph(data, Path(path).absolute().parent)
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
         what = f"no {error}" if isinstance(error, KeyError) else str(error)
-        raise ReadError(path, f"is damaged ({what}): build it anew with kineme graph") from error
+        raise ReadError(
+            path, f"is damaged ({what:.120}): build it anew with kineme graph"
+        ) from error
 
 
 def load_sources(graph: MotionGraph) -> list[Motion]:
@@ -209,6 +213,6 @@ def _checked(row: Json, name: str, kind: Callable[[Any], Any], fits: Callable[[A
 
 
 def _number(value: Any) -> float:
-    if type(value) not in (int, float) or not isfinite(value):
+    if type(value) not in (int, float) or not -_MOST < value < _MOST:
         raise ValueError(f"{value!r:.40} is no number")
     return float(value)

@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import check_type
-from kineme.errors import ParameterError, ReadError
+from kineme._doors import reading
+from kineme.errors import ParameterError
 from kineme.features.effectors import Names
 from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
@@ -187,10 +188,8 @@ class KnowledgeBase:
         ReadError
             Missing, damaged, no knowledge base, or of another version.
         """
-        try:
+        with reading(path):
             return cls(**knowledge_file.read(path, SETTINGS))
-        except ParameterError as error:
-            raise ReadError(path, f"is damaged: {error}") from error
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write all of it to one ``.npz`` file, or leave what is there as it was.

@@ -1,0 +1,70 @@
+"""Whatever goes wrong inside a reader is one ReadError that names the file and keeps the cause."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from format_samples import BVH
+
+import kineme
+from kineme.errors import MotionError, ParameterError, ReadError
+from kineme.formats import registry
+from kineme.labels import label_format
+from kineme.labels import registry as label_registry
+
+
+class SurprisingError(Exception):
+    pass
+
+
+def surprise(*_: object) -> None:
+    raise SurprisingError("deep inside")
+
+
+def test_surprises_of_a_reader(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "a.odd"
+    path.write_text("anything")
+    odd = registry.Format("odd", (".odd",), lambda _: False, surprise)  # type: ignore[arg-type]
+    monkeypatch.setattr(registry, "_formats", [odd])
+    with pytest.raises(ReadError, match=r"a\.odd: cannot be understood.*deep inside") as caught:
+        kineme.read(path)
+    assert isinstance(caught.value.__cause__, SurprisingError)
+
+
+def test_surprises_of_a_reader_of_labels(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "a.odd"
+    path.write_text("anything")
+    odd = label_format.LabelFormat("odd", "", (".odd",), "all", surprise)  # type: ignore[arg-type]
+    monkeypatch.setattr(label_registry, "_known", lambda: {"odd": odd})
+    with pytest.raises(ReadError, match=r"a\.odd: cannot be understood.*deep inside") as caught:
+        kineme.read_segments(path)
+    assert isinstance(caught.value.__cause__, SurprisingError)
+
+
+@pytest.mark.parametrize("shape", ["()", "(" + "1, " * 70 + ")", "(-1, 3, 3)"])
+def test_headers_of_arrays(tmp_path: Path, shape: str) -> None:
+    text = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}".ljust(501) + "\n"
+    head = b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text.encode()
+    (tmp_path / "a.npy").write_bytes(head + bytes(800))
+    with pytest.raises(ReadError, match=r"a\.npy"):
+        kineme.read(tmp_path / "a.npy", fps=30)
+
+
+def test_values_that_no_body_or_clock_has(tmp_path: Path) -> None:
+    path = tmp_path / "a.bvh"
+    path.write_text(BVH.replace("1 91 1 11", "1 1e28 1 11"))
+    with (
+        warnings.catch_warnings(action="error", category=RuntimeWarning),
+        pytest.raises(ReadError, match="positions reach 1e.* m, where no body is"),
+    ):
+        kineme.read(path, unit="m")
+    with pytest.raises(ReadError, match=r"1e\+300 Hz, which no clock has"):
+        kineme.read(kineme.bundled_recording(), fps=1e300)
+    body = kineme.Skeleton(("a",), (-1,), [[0.0, 0.0, 0.0]])
+    with pytest.raises(MotionError, match="no clock"):
+        kineme.Motion(body, np.zeros((3, 1, 3)), 1e-300)
+    with pytest.raises(ParameterError, match="no sensor"):
+        kineme.Signals([[1e300], [0.0]], 50)

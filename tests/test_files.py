@@ -1,0 +1,74 @@
+"""Writing that breaks off: nothing torn, nothing left behind, one error."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from kineme import _files
+from kineme._files import atomic_write
+from kineme.errors import WriteError
+
+HOUR = 3600
+
+
+def draft(folder: Path, age_s: float) -> Path:
+    path = folder / ".kineme-0123456789ab.csv"
+    path.write_text("half")
+    os.utime(path, (time.time() - age_s,) * 2)
+    return path
+
+
+@pytest.mark.parametrize(("age_s", "kept"), [(2 * HOUR, False), (HOUR / 2, True)])
+def test_drafts_of_killed_writers_are_swept(tmp_path: Path, age_s: float, kept: bool) -> None:
+    left = draft(tmp_path, age_s)
+    with atomic_write(tmp_path / "a.csv") as path:
+        path.write_text("whole")
+    assert left.exists() == kept
+    assert (tmp_path / "a.csv").read_text() == "whole"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="open files are not removed there")
+def test_a_draft_that_is_still_written_is_left_alone(tmp_path: Path) -> None:
+    with atomic_write(tmp_path / "a.csv") as slow:
+        os.utime(slow, (time.time() - 2 * HOUR,) * 2)
+        _files._swept.clear()
+        with atomic_write(tmp_path / "b.csv") as path:
+            path.write_text("b")
+        slow.write_text("a")
+    assert {path.name for path in tmp_path.iterdir()} == {"a.csv", "b.csv"}
+
+
+def test_a_place_that_may_not_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise OSError(30, "Read-only file system")
+
+    monkeypatch.setattr(_files.os, "open", refuse)
+    monkeypatch.setattr(Path, "unlink", refuse)
+    with (
+        pytest.raises(WriteError, match="cannot be written: Read-only file system"),
+        atomic_write(tmp_path / "a.csv"),
+    ):
+        pass
+
+
+def test_file_and_folder_are_on_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[str] = []
+    monkeypatch.setattr(_files, "_synchronise", lambda place: done.append(place.name))
+    with atomic_write(tmp_path / "a.csv") as path:
+        path.write_text("whole")
+    assert done[1:] == [tmp_path.name]
+    assert done[0].startswith(".kineme-")
+
+
+@pytest.mark.parametrize("name", ["a\0b.csv", "x" * 300 + ".csv"])
+def test_names_that_no_file_has(tmp_path: Path, name: str) -> None:
+    with (
+        pytest.raises(WriteError, match="cannot be written"),
+        atomic_write(tmp_path / name) as path,
+    ):
+        path.write_text("whole")
