@@ -10,9 +10,9 @@ from kineme.errors import KinemeError
 from kineme.methods.presets import PRESETS
 
 ODD = (
-    0, -1, 1, 2, 3, 7, 1000, 2**31, 2**63, -(2**63), 10**400, 0.0, -0.0, 1e-300, 1e-9, 0.5, 1.5, 1e3,
-    1e9, 1e300, float("nan"), float("inf"), -float("inf"), True, False, None, "", "odd", (), (1e9,),
-    (0.0, 1e300), [1, 2], {}, object(), np.float64(1e300), np.zeros(3),
+    0, -1, 1, 2, 3, 7, 1000, 2**31, 2**63, -(2**63), 10**400, 0.0, -0.0, 1e-300, 1e-9, 0.5, 1.5,
+    1e3, 1e9, 1e300, float("nan"), float("inf"), -float("inf"), True, False, None, "", "odd", (),
+    (1e9,), (0.0, 1e300), [1, 2], {}, object(), np.float64(1e300), np.zeros(3),
 )  # fmt: skip
 
 
