@@ -27,8 +27,11 @@ def check_rates(old: float, new: float) -> None:
 
 
 def is_number(value: object) -> bool:
-    """Whether it is one finite number."""
-    return isinstance(value, Real) and math.isfinite(value)
+    """Whether it is one finite number, as large as a float can be."""
+    try:
+        return isinstance(value, Real) and math.isfinite(value)
+    except OverflowError:
+        return False
 
 
 def is_one_of(value: object, known: Collection[str]) -> bool:

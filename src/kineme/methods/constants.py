@@ -37,7 +37,10 @@ class Limits(NamedTuple):
         """Whether ``value`` is a number within the limits."""
         if isinstance(value, bool) or not isinstance(value, int | float | np.number):
             return False
-        number = float(value)
+        try:
+            number = float(value)
+        except OverflowError:
+            return False
         if not math.isfinite(number):
             return False
         return self.minimum <= number <= self.maximum and not (
@@ -150,9 +153,11 @@ def constants_of(preset: Any) -> tuple[Constant, ...]:
 
 
 def check(preset: Any) -> None:
-    """ParameterError for the first constant whose value it cannot take."""
+    """ParameterError for the first constant whose value it cannot take; a count of 3.0 is 3."""
     for known in constants_of(preset):
         _check(known.name, known.value, known.hint, known.limits)
+        if known.hint is int and type(known.value) is not int:
+            object.__setattr__(preset, known.name, int(known.value))
 
 
 def _check(name: str, value: Any, hint: Any, limits: Limits | None) -> None:
@@ -163,7 +168,7 @@ def _check(name: str, value: Any, hint: Any, limits: Limits | None) -> None:
         hint = next(member for member in members if member is not NoneType)
         members = get_args(hint)
     if get_origin(hint) is Literal:
-        if value not in members:
+        if not (isinstance(value, str) and value in members):
             raise ParameterError(f"{name} must be {' or '.join(members)}, not {value!r:.60}")
     elif get_origin(hint) is tuple:
         _check_tuple(name, value, hint, limits)

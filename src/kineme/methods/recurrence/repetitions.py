@@ -140,8 +140,8 @@ def repetitions(
     same = [
         each
         for each in candidates
-        if each.cost < best.cost + preset.same_cost
-        and abs(each.number - best.number) < preset.same_count
+        if each.cost <= best.cost + preset.same_cost
+        and abs(each.number - best.number) <= preset.same_count
     ]
     count = int(np.mean([each.number for each in same]) + 0.5)
     divisions = [cuts for each in same if (cuts := each.cuts(count)) is not None]
@@ -150,6 +150,8 @@ def repetitions(
         divisions = [cuts for cuts in [best.cuts(count)] if cuts is not None]
     even = min(divisions, key=lambda cuts: np.diff([0, *cuts, len(rows)]).std())
     weights = np.array([max(best.cost + preset.rival_cost - each.cost, 0) for each in candidates])
+    if not weights.any():  # a cost too small to be told from none
+        weights = np.array([float(each is best) for each in candidates])
     agreeing = np.array([each.whole == count for each in candidates])
     return Repetitions(start + even, float(weights[agreeing].sum() / weights.sum()))
 
