@@ -1,0 +1,73 @@
+"""The constants of the method for sensors: what each does, its unit and its limits.
+
+Lengths are multiples of the median distance of the recording, times seconds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
+
+from kineme.methods.base import RATE, Unit
+from kineme.methods.constants import SHARE, SOME, SOME_TIME, TIME, Limits, constant
+from kineme.methods.recurrence.counting import CountingPreset
+
+
+@dataclass(frozen=True, kw_only=True)
+class HierarchyConstants(CountingPreset):
+    """Of statistics, a tree of segments, and its best level."""
+
+    method: ClassVar[str] = "hierarchy"
+    units: ClassVar[tuple[Unit, ...]] = ("any",)
+
+    unit: Unit = "any"
+    working_fps: float = constant(
+        "samples per second at which the recording is looked at", unit="Hz", limits=RATE,
+        default=50.0,
+    )  # fmt: skip
+    smoothing: float = constant(
+        "channels of signals are averaged over this", unit="s", limits=TIME, default=0.0
+    )
+    rate: float = constant("samples per second that are compared", unit="Hz", limits=RATE)
+    averaging: float = constant(
+        "means and energies of channels are taken over this", unit="s", limits=SOME_TIME
+    )
+    bands: tuple[float, ...] = constant(
+        "edges of the bands of frequency whose energies are compared", unit="Hz",
+        limits=Limits(0.0, 500.0, above=True),
+    )  # fmt: skip
+    fine_cost: float = constant(
+        "what a border of the finest level must gain: time at the median distance", unit="s",
+        limits=TIME, fine=True,
+    )  # fmt: skip
+    max_fine: float = constant(
+        "longest segment of the finest level", unit="s", limits=SOME_TIME, fine=True
+    )
+    min_action: float = constant("shortest action", unit="s", limits=TIME, slider=(0.2, 10.0, 0.1))
+    segment_cost: float = constant(
+        "what a segment must explain: time at the median distance", unit="s", limits=TIME,
+        slider=(0.02, 2.0, 0.02),
+    )  # fmt: skip
+    cluster_cost: float = constant(
+        "what a cluster must explain: time at the median distance", unit="s", limits=TIME,
+        slider=(0.1, 5.0, 0.1),
+    )  # fmt: skip
+    counting_fps: float = constant(
+        "frames per second at which repetitions are counted, at most", unit="Hz", limits=RATE,
+        fine=True,
+    )  # fmt: skip
+    max_clusters: int = constant("clusters at most", limits=SOME, fine=True)
+    unsure_count: float = constant(
+        "score below which a note says to look at the repetitions", limits=SHARE, fine=True
+    )
+
+    def at_most(self, fps: float) -> Self:
+        """The preset for a recording of that rate: energies above it are not there."""
+        if not RATE.minimum <= fps < self.working_fps:
+            return self
+        apart = len({round(offset * fps) for offset in self.offsets}) == len(self.offsets)
+        return replace(self, working_fps=fps, offsets=self.offsets if apart else (0.0,))
+
+    def samples(self, seconds: float) -> float:
+        """Seconds in samples, at `rate`."""
+        return seconds * self.rate
