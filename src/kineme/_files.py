@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import secrets
@@ -130,7 +131,9 @@ def _synchronise(place: Path) -> None:
         return
     file = os.open(place, os.O_RDONLY | getattr(os, "O_CLOEXEC", 0))
     try:
-        with suppress(OSError):  # file systems that cannot
-            os.fsync(file)
+        os.fsync(file)
+    except OSError as error:
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP):  # file systems that cannot
+            raise
     finally:
         os.close(file)
