@@ -81,3 +81,12 @@ def test_few_frames_are_enough(frames: int) -> None:
 def test_a_single_point_is_refused() -> None:
     with pytest.raises(MotionError, match="single point.*signals"):
         distance_features(WALK[:, :1])
+
+
+def test_very_many_points_cost_no_more_than_many() -> None:
+    """Twenty thousand bones of a damaged file: all pairs of them would be gigabytes."""
+    rng = np.random.default_rng(0)
+    swing = np.sin(np.linspace(0, 20, 90))[:, None, None] * rng.normal(size=(20_000, 3))
+    features, points = distance_features(rng.normal(size=(20_000, 3)) + swing)
+    assert features.shape == (90, 15)
+    assert 2 <= len(points) <= 16

@@ -32,6 +32,8 @@ VARIATION, SIZE = 0.52, 1.65
 database. The first is the root of the summed variances of the fifteen numbers, in the mean."""
 
 MOST_POINTS = 16
+CONSIDERED = 1000
+"""Points that may stand for all; of more, so many evenly taken: there are as many distances squared."""
 _FRAMES = 200  # enough to tell how points lie and move
 _ALIKE = 0.01  # of the largest distance: two points nearer than this are one
 _CONSTANT = 0.001  # of the largest distance: by less than this, a distance does not vary
@@ -89,7 +91,9 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     ----------
     positions : ndarray of shape (frames, points, 3)
     """
-    few = positions[:: max(1, len(positions) // _FRAMES)]
+    n = positions.shape[1]
+    taken = np.arange(min(n, CONSIDERED)) * n // min(n, CONSIDERED)
+    few = positions[:: max(1, len(positions) // _FRAMES), taken]
     apart, varying = _mean_and_deviation(few)
     kept = np.flatnonzero(~_of_the_lab(few, varying))
     apart, varying = apart[np.ix_(kept, kept)], varying[np.ix_(kept, kept)]
@@ -98,7 +102,7 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     while len(chosen) < most and nearest.max() > _ALIKE * apart.max():
         chosen.append(int(nearest.argmax()))
         nearest = np.minimum(nearest, apart[chosen[-1]])
-    return np.sort(kept[chosen])
+    return np.sort(taken[kept[chosen]])
 
 
 def _of_the_lab(positions: Floats, varying: Floats) -> NDArray[np.bool_]:
