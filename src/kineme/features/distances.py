@@ -33,7 +33,7 @@ database. The first is the root of the summed variances of the fifteen numbers, 
 
 MOST_POINTS = 16
 CONSIDERED = 1000
-"""Points that may stand for all; of more, so many evenly taken: there are as many distances squared."""
+"""Points of which some are taken; of more, so many: there are as many distances squared."""
 _FRAMES = 200  # enough to tell how points lie and move
 _ALIKE = 0.01  # of the largest distance: two points nearer than this are one
 _CONSTANT = 0.001  # of the largest distance: by less than this, a distance does not vary
