@@ -95,8 +95,6 @@ class Preset(ABC):
 
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "metres", "standard deviations", "any")
     """What its lengths can be in."""
-    for_sensors: ClassVar[str | None] = None
-    """The preset that signals take in place of this one, where it is given by name."""
 
     name: str
     help: str

@@ -21,6 +21,8 @@ from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, Regio
 GROUP = "kineme.presets"
 """The entry points by which other packages name theirs."""
 DEFAULT = KINEME.name
+FOR_SIGNALS = {KINEME.name: SENSORS.name}
+"""What a name stands for where it is given with signals."""
 
 PUBLISHED: Mapping[str, RegionGrowingPreset] = MappingProxyType(
     {preset.name: preset for preset in (VOEGELE2014, KRUEGER2017)}
@@ -103,8 +105,8 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
         if preset not in PRESETS:
             raise ParameterError(f"no preset {preset!r:.60}; there are {', '.join(PRESETS)}")
         chosen = PRESETS[preset]
-        if signals and chosen.for_sensors is not None:
-            chosen = PRESETS[chosen.for_sensors]
+        if signals and preset in FOR_SIGNALS:
+            chosen = PRESETS[FOR_SIGNALS[preset]]
     elif isinstance(preset, Preset):
         chosen = preset
     else:

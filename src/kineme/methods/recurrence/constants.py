@@ -33,7 +33,6 @@ class RecurrenceConstants(CountingPreset):
 
     method: ClassVar[str] = "recurrence"
     units: ClassVar[tuple[Unit, ...]] = ("body sizes",)
-    for_sensors: ClassVar[str | None] = "sensors"
 
     unit: Unit = "body sizes"
     # Recurrence: how similar any two samples are, whatever the phase.
