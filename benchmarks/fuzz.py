@@ -231,8 +231,8 @@ class Worker:
         self.process.wait()
 
 
-def fuzz(seconds: float, seed: int, only: int | None = None) -> Counter[str]:
-    """How often each kind was found in so many seconds, from this seed on."""
+def fuzz(seconds: float, most: int, seed: int, only: int | None = None) -> Counter[str]:
+    """How often each kind was found in so many seconds or files, from this seed on."""
     kinds: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as place:
         sound, damaged = Path(place) / "sound", Path(place) / "damaged"
@@ -246,7 +246,8 @@ def fuzz(seconds: float, seed: int, only: int | None = None) -> Counter[str]:
         number = seed * 1_000_000 if only is None else only
         started = time.monotonic()
         count = 0
-        while time.monotonic() - started < seconds and (only is None or count == 0):
+        most = most if only is None else 1
+        while time.monotonic() - started < seconds and count < most:
             sample = samples[number % len(samples)]
             (damaged / sample.name).write_bytes(mutated(sample.read_bytes(), number))
             kind = worker.read(sample.name)
@@ -264,6 +265,7 @@ def main() -> int:
     """Fuzz as the command line asks; exit code 1 if anything was found."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=1.0)
+    parser.add_argument("--files", type=int, default=10**9, help="at most")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", type=int)
     parser.add_argument("--work", type=Path, help=argparse.SUPPRESS)
@@ -271,7 +273,7 @@ def main() -> int:
     if given.work:
         work(given.work)
         return 0
-    kinds = fuzz(60 * given.minutes, given.seed, given.only)
+    kinds = fuzz(60 * given.minutes, given.files, given.seed, given.only)
     for kind, times in kinds.most_common():
         print(f"{times:6d}  {kind}")
     return 1 if kinds else 0
