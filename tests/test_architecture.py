@@ -53,8 +53,8 @@ ROOMS = {
     ),
     "graph": Room("`NeighborGraph`, `WarpingPaths` from arrays", "errors"),
     "methods": Room(
-        "presets, and what their methods find in arrays: `recurrence`, `region_growing`, "
-        "`baselines`",
+        "presets, and what their methods find in arrays: `recurrence`, `hierarchy`, "
+        "`region_growing`, `baselines`",
         "features.bundling graph",
     ),
     "segmentation": Room(

@@ -1,10 +1,11 @@
 """Segmentation methods on plain arrays (samples × dims), one folder each.
 
-=================== ========================================================
+=================== ================================================================
 ``recurrence``      ``kineme``, the default
+``hierarchy``       ``sensors``, which ``kineme`` stands for where it is given signals
 ``region_growing``  the published methods of 2014 and 2017
 ``baselines``       what results are compared with: ACA, HACA, PCA, GMM, ...
-=================== ========================================================
+=================== ================================================================
 
 A method is used by a preset: its constants with values, and a name.
 `kineme.methods.base` says what a preset and what it finds are made of.

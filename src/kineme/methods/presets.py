@@ -1,7 +1,8 @@
 """The presets there are: ours, and those that other packages register.
 
-``kineme`` is the default; ``voegele2014`` and ``krueger2017`` are the published
-methods; the others are what results are compared with.
+``kineme`` is the default, and stands for ``sensors`` where it is given signals;
+``voegele2014`` and ``krueger2017`` are the published methods; the others are
+what results are compared with.
 """
 
 from __future__ import annotations
