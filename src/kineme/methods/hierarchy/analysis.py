@@ -19,6 +19,7 @@ from kineme.methods.hierarchy.constants import HierarchyConstants
 from kineme.methods.hierarchy.found import HierarchyFound
 from kineme.methods.hierarchy.statistics import channel_statistics
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
+from kineme.methods.samples import unstacked
 from kineme.methods.segments import by_first_appearance
 from kineme.methods.stages import Progress, stopwatch
 
@@ -48,12 +49,13 @@ def analyze_channels(
         Channels of another shape, empty, or not finite.
     """
     rows = as_features(channels)
+    bare = unstacked(rows, preset.offsets)
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
     with stage("statistics"):
         features = np.ascontiguousarray(
             channel_statistics(
-                _channels(rows, preset.offsets),
+                rows if bare is None else bare,
                 preset.working_fps,
                 rate=preset.rate,
                 window=preset.averaging,
@@ -89,15 +91,6 @@ def analyze_channels(
     return HierarchyFound(
         features, preset, unit, frames, labels, confidence, primitives, agreement, timings
     )
-
-
-def _channels(rows: NDArray[np.float64], offsets: tuple[float, ...]) -> NDArray[np.float64]:
-    """The channels without their neighbours in time; all, if they were not stacked."""
-    dims, rest = divmod(rows.shape[1], len(offsets))
-    if rest:
-        return rows
-    first = dims * int(np.argmin(np.abs(offsets)))
-    return rows[:, first : first + dims]
 
 
 def _joined(level: tree.Level, shortest: int) -> tuple[Frames, Frames]:

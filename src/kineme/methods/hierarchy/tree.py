@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from kineme._threads import even_slices, map_threads
 from kineme.methods.hierarchy import _kernels as kernels
 from kineme.methods.recurrence._action_kernels import change_points
+from kineme.methods.samples import spread
 
 Floats = NDArray[np.float64]
 Samples = NDArray[np.int64]
@@ -90,7 +91,7 @@ def between_segments(features: NDArray[np.float32], borders: Samples, unit: floa
     """Summed distances of the samples of each two segments, (segments, segments), in units."""
     k = len(borders) - 1
     most = max(LEAST, min(MOST, COMPARED // k))
-    chosen = [_spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
+    chosen = [spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
     ends = np.concatenate([[0], np.cumsum([len(each) for each in chosen])])
     means = np.zeros((k, k))
 
@@ -196,9 +197,3 @@ def _groupings(inner: Floats, lengths: Floats, most: int) -> list[tuple[Samples,
         own = np.einsum("gc,gh,hc->c", union, sums, union, optimize=True)
         found.append((labels, float((own / (2 * (sizes @ union))).sum())))
     return found
-
-
-def _spread(start: int, stop: int, most: int) -> Samples:
-    """Samples of a segment, evenly spread."""
-    n = min(stop - start, most)
-    return start + (2 * np.arange(n) + 1) * (stop - start) // (2 * n)

@@ -19,6 +19,7 @@ from kineme.methods.recurrence.found import RecurrenceFound
 from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from kineme.methods.recurrence.transitions import activity_ends
+from kineme.methods.samples import unstacked
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
@@ -144,11 +145,10 @@ def _recurrence(
 
 def _poses(features: NDArray[np.float32], offsets: tuple[float, ...]) -> NDArray[np.float32]:
     """The poses without their neighbours in time; all, if they were not stacked at the offsets."""
-    dims, rest = divmod(features.shape[1], len(offsets))
-    if rest:
+    bare = unstacked(features, offsets)
+    if bare is None:
         return features
-    first = dims * int(np.argmin(np.abs(offsets)))
-    poses: NDArray[np.float32] = features[:, first : first + dims] * len(offsets) ** 0.5
+    poses: NDArray[np.float32] = bare * len(offsets) ** 0.5
     return poses
 
 

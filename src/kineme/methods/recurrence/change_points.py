@@ -21,6 +21,7 @@ from kineme._threads import map_threads
 from kineme.methods.recurrence import _action_kernels, _distance_kernels
 from kineme.methods.recurrence import _recurrence_kernels as kernels
 from kineme.methods.recurrence.recurrence import Recurrence
+from kineme.methods.samples import spread
 from kineme.methods.segments import by_first_appearance
 
 Samples = NDArray[np.int64]
@@ -134,7 +135,7 @@ def link(
     step = recurrence.step
     gap = recurrence.phase * step
     reaches = step * np.array(recurrence.phases)
-    chosen = [_spread(start, stop, samples) for start, stop in pairwise(borders.tolist())]
+    chosen = [spread(start, stop, samples) for start, stop in pairwise(borders.tolist())]
     scales = [recurrence.scales[each] for each in chosen]
     frames = [step * each for each in chosen]
     mean = np.zeros((k, k))
@@ -152,12 +153,6 @@ def link(
     np.fill_diagonal(distance, 0)
     tree = linkage(squareform(distance, checks=False), "average")
     return by_first_appearance(fcluster(tree, 1 - similarity, "distance"))
-
-
-def _spread(start: int, stop: int, most: int) -> Samples:
-    """Samples of a segment, evenly spread."""
-    n = min(stop - start, most)
-    return start + (2 * np.arange(n) + 1) * (stop - start) // (2 * n)
 
 
 def repeating(
