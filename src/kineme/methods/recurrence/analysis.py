@@ -6,7 +6,7 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +16,8 @@ from kineme._threads import map_threads
 from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
 from kineme.methods.recurrence.found import RecurrenceFound
+from kineme.methods.recurrence.occurrences import occurrences
+from kineme.methods.recurrence.placing import Segments, of_actions, placed
 from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from kineme.methods.recurrence.transitions import activity_ends
@@ -61,16 +63,29 @@ def analyze_actions(
     with stage("recurrence"):
         recurring = _recurrence(rows, preset, preset.min_scale, preset.max_scale)
     with stage("actions"):
-        found = find_actions(recurring, preset)
-        borders, labels, confidence = _activities(found, recurring, preset, len(rows))
+        actions = find_actions(recurring, preset)
+        borders, labels, confidence = _activities(actions, recurring, preset, len(rows))
     with stage("repetitions"):
-        limits = found.borders * recurring.step
+        limits = actions.borders * recurring.step
         counted = _count(recurring, borders, labels, limits, preset)
     primitives = np.unique(np.concatenate([borders, *(each.cuts for each in counted)]))
     parents = np.searchsorted(borders, primitives[:-1], side="right") - 1
     agreement = np.array([each.agreement for each in counted])[parents]
+    segments = Segments(borders, labels, confidence, primitives, labels[parents], agreement)
+    with stage("occurrences"):
+        explained = np.array([each.explained for each in counted])
+        segments = _with_occurrences(rows, segments, explained, preset)
     return RecurrenceFound(
-        rows, recurring, preset, borders, labels, confidence, primitives, agreement, timings
+        rows,
+        recurring,
+        preset,
+        segments.borders,
+        segments.labels,
+        segments.confidence,
+        segments.primitives,
+        segments.clusters,
+        segments.agreement,
+        timings,
     )
 
 
@@ -143,12 +158,12 @@ def _recurrence(
     )
 
 
-def _poses(features: NDArray[np.float32], offsets: tuple[float, ...]) -> NDArray[np.float32]:
+def _poses(features: NDArray[Any], offsets: tuple[float, ...]) -> NDArray[Any]:
     """The poses without their neighbours in time; all, if they were not stacked at the offsets."""
     bare = unstacked(features, offsets)
     if bare is None:
         return features
-    poses: NDArray[np.float32] = bare * len(offsets) ** 0.5
+    poses: NDArray[Any] = bare * len(offsets) ** 0.5
     return poses
 
 
@@ -173,6 +188,27 @@ def _activities(
     first = np.concatenate([[True], labels[1:] != labels[:-1]])
     confidence = np.where(labels < 0, np.nan, confidence)
     return np.append(borders[first], n), labels[first], confidence[first]
+
+
+def _with_occurrences(
+    features: NDArray[np.float64],
+    segments: Segments,
+    explained: NDArray[np.float64],
+    preset: RecurrenceConstants,
+) -> Segments:
+    """Occurrences for primitives in transitions and where repetitions explain less than they do.
+
+    Transitions that are no more than the ends of two activities are left alone.
+    """
+    borders, labels = segments.borders, segments.labels
+    explained = of_actions(explained, borders, labels)
+    ends = (labels < 0) & (np.diff(borders) <= 2 * preset.frames(preset.max_transition))
+    weak = (explained < preset.min_explained) & ~ends
+    looked_at = np.repeat(weak, np.diff(borders))
+    found = occurrences(_poses(features, preset.offsets), looked_at, preset)
+    recurring = of_actions(found.explained(borders), borders, labels)
+    free = weak & ((explained == 0) | (recurring > explained))
+    return placed(segments, found.within(borders, free), free)
 
 
 def _count(

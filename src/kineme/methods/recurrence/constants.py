@@ -127,6 +127,44 @@ class RecurrenceConstants(CountingPreset):
         "largest share of an activity that a transition takes from one end", limits=Limits(0, 0.5),
         fine=True,
     )  # fmt: skip
+    # Occurrences: what recurs anywhere.
+    min_explained: float = constant(
+        "an activity is periodic where its repetitions explain this share of each other",
+        limits=SHARE, slider=(0.3, 0.9, 0.05),
+    )  # fmt: skip
+    event_scale: float = constant(
+        "distance from which two moments of an event are not similar", unit="body sizes",
+        limits=SOME_LENGTH, slider=(0.2, 0.8, 0.05),
+    )  # fmt: skip
+    event_velocity: float = constant(
+        "velocities count as much as poses that they change in this time", unit="s", limits=TIME,
+        fine=True,
+    )  # fmt: skip
+    event_rest: float = constant(
+        "share at which movement time goes by while nothing moves", limits=SOME_SHARE, fine=True
+    )
+    event_cost: float = constant(
+        "similarity that an event must gain for each moment that it lasts", limits=FACTOR
+    )
+    event_cover: float = constant(
+        "share of an event that each occurrence must match", limits=SOME_SHARE, fine=True
+    )
+    event_window: float = constant(
+        "occurrences are found no farther apart than this, in movement time", unit="s",
+        limits=SOME_TIME, fine=True,
+    )  # fmt: skip
+    min_event: float = constant("shortest event, in movement time", unit="s", limits=SOME_TIME)
+    max_event: float = constant(
+        "longest event, in movement time", unit="s", limits=SOME_TIME, fine=True
+    )
+    min_recurrence: float = constant(
+        "similarity times movement time that is no chance", unit="s", limits=SOME_TIME,
+        slider=(0.2, 2.0, 0.05),
+    )  # fmt: skip
+    event_link: float = constant(
+        "share of that from which an occurrence joins a set in which another reaches it",
+        limits=SOME_SHARE, fine=True,
+    )  # fmt: skip
     # What is said to be looked at.
     unsure_action: float = constant(
         "confidence below which a note says to look at the activity", limits=SHARE, fine=True

@@ -42,8 +42,10 @@ class RecurrenceFound:
         How sure the action of each is, nan for transitions.
     primitives : (primitives + 1,) array
         Borders of the primitives, from 0 to n, those of activities included.
+    clusters : (primitives,) array
+        Cluster of each, -1 where it is neither repetition nor occurrence.
     agreement : (primitives,) array
-        How certain the count is, 0 to 1, nan in transitions.
+        How certain the count is, or how similar an occurrence to others, 0 to 1; else nan.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -55,17 +57,18 @@ class RecurrenceFound:
     labels: Frames
     confidence: NDArray[np.float64]
     primitives: Frames
+    clusters: Frames
     agreement: NDArray[np.float64]
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
         """Activities with their confidence, primitives with the certainty of their count."""
-        parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
         return columns_of(
             self.borders,
             self.primitives,
             is_activity=self.labels >= 0,
-            clusters=(self.labels, self.labels[parents]),
+            is_primitive=self.clusters >= 0,
+            clusters=(self.labels, self.clusters),
             scores=(self.confidence, self.agreement),
         )
 

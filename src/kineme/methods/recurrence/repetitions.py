@@ -44,10 +44,14 @@ class Repetitions:
         Frames at which the second, third, ... repetition begins.
     agreement : float
         How certain their number is, 0 to 1.
+    explained : float
+        Share of the activity that each repetition's likeness to the others explains; 0 of a
+        single one.
     """
 
     cuts: Frames
     agreement: float
+    explained: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +157,8 @@ def repetitions(
     if not weights.any():  # a cost too small to be told from none
         weights = np.array([float(each is best) for each in candidates])
     agreeing = np.array([each.whole == count for each in candidates])
-    return Repetitions(start + even, float(weights[agreeing].sum() / weights.sum()))
+    agreement = float(weights[agreeing].sum() / weights.sum())
+    return Repetitions(start + even, agreement, 1 - best.unexplained)
 
 
 def _movement(rows: NDArray[np.float32], smoothing: int) -> _Movement:
