@@ -36,7 +36,7 @@ def local_paths(samples, costs, begins, gap, width, scale, worst, least):
     Pairs are ``gap`` to ``width`` samples apart. A path steps by one sample on
     both sides or by two on one of them, never into a sample that ``begins`` a
     stretch, and goes on for as long as its score is above 0. Of those that score
-    ``least`` or more the best of each first pair stays.
+    ``least`` or more, one for each branch of each first pair is kept, at its best.
     """
     n = len(samples)
     scores = np.zeros((3, n))
@@ -178,8 +178,8 @@ def recurrences(
 def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, cover):
     """Spans, gains and set of each occurrence: of all stretches the one that gains most, and so on.
 
-    Gains only fall as samples are taken, so that of all but the best old ones do
-    (lazy greedy, after Minoux 1978). Changes ``free``.
+    Gains hardly ever rise as samples are taken, so that old ones do for all but the
+    best (lazy greedy, after Minoux 1978). Changes ``free``.
     """
     n = len(free)
     spans, gains = np.empty((n, 2), np.int64), np.empty(n)

@@ -71,7 +71,8 @@ def analyze_actions(
     primitives = np.unique(np.concatenate([borders, *(each.cuts for each in counted)]))
     parents = np.searchsorted(borders, primitives[:-1], side="right") - 1
     agreement = np.array([each.agreement for each in counted])[parents]
-    segments = Segments(borders, labels, confidence, primitives, labels[parents], agreement)
+    none = np.empty(0, np.int64)
+    segments = Segments(borders, labels, confidence, primitives, labels[parents], agreement, none)
     with stage("occurrences"):
         explained = np.array([each.explained for each in counted])
         segments = _with_occurrences(rows, segments, explained, preset)
@@ -85,6 +86,7 @@ def analyze_actions(
         segments.primitives,
         segments.clusters,
         segments.agreement,
+        segments.not_periodic,
         timings,
     )
 

@@ -21,6 +21,8 @@ Frames = NDArray[np.int64]
 
 # For pictures: neighbours per frame at most.
 PICTURED = 256
+# Activities that a note lists at most.
+LISTED = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +48,8 @@ class RecurrenceFound:
         Cluster of each, -1 where it is neither repetition nor occurrence.
     agreement : (primitives,) array
         How certain the count is, or how similar an occurrence to others, 0 to 1; else nan.
+    not_periodic : array of int
+        Actions that do not repeat themselves back to back.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -59,6 +63,7 @@ class RecurrenceFound:
     primitives: Frames
     clusters: Frames
     agreement: NDArray[np.float64]
+    not_periodic: Frames
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
@@ -85,7 +90,10 @@ class RecurrenceFound:
         )
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """A sentence for each activity that is nearly another, or whose count is not sure."""
+        """A sentence for each activity that is nearly another, or whose count is not sure.
+
+        And one for those that are not periodic.
+        """
         activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
         sentences = []
         for row in np.flatnonzero(activity):
@@ -98,9 +106,19 @@ class RecurrenceFound:
                 )
             inside = (columns["level"] == "primitive") & (columns["start_frame"] == start)
             agreement = columns["score"][inside][0]
-            if agreement < self.preset.unsure_count:
+            counted = columns["cluster"][row] not in self.not_periodic
+            if counted and agreement < self.preset.unsure_count:
                 sentences.append(
                     f"look at the repetitions {where}: another number of them fits nearly as well "
                     f"(score {agreement:.2f})"
                 )
+        loose = np.flatnonzero(activity & np.isin(columns["cluster"], self.not_periodic))
+        if len(loose):
+            spans = zip(columns["start_frame"][loose], columns["stop_frame"][loose], strict=True)
+            listed = [f"{start / fps:.2f} to {stop / fps:.2f} s" for start, stop in spans]
+            more = f" and {len(listed) - LISTED} more" if len(listed) > LISTED else ""
+            sentences.append(
+                f"not periodic: {', '.join(listed[:LISTED])}{more}; "
+                "their primitives are what recurs anywhere"
+            )
         return sentences

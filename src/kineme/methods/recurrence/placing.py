@@ -32,6 +32,8 @@ class Segments:
         Borders of the primitives, those of activities among them.
     clusters, agreement : (primitives,) array
         Cluster of each and how sure it is; -1 and nan for what is part of none.
+    not_periodic : array of int
+        Actions that do not repeat themselves back to back.
     """
 
     borders: Frames
@@ -40,6 +42,7 @@ class Segments:
     primitives: Frames
     clusters: Frames
     agreement: NDArray[np.float64]
+    not_periodic: Frames
 
 
 def of_actions(shares: NDArray[np.float64], borders: Frames, labels: Frames) -> NDArray[np.float64]:
@@ -86,7 +89,15 @@ def placed(segments: Segments, found: Occurrences, free: NDArray[np.bool_]) -> S
         inside = (found.starts[which] <= begin) & (begin < found.stops[which])
         clusters[inside] = labels.max() + 1 + found.clusters[which[inside]]
         agreement[inside] = found.similarity[which[inside]]
-    return Segments(borders, labels, segments.confidence[old], primitives, clusters, agreement)
+    return Segments(
+        borders,
+        labels,
+        segments.confidence[old],
+        primitives,
+        clusters,
+        agreement,
+        np.unique(labels[free & (labels >= 0)]),
+    )
 
 
 def _place(borders: Frames, frames: Frames) -> Frames:
