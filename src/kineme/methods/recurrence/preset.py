@@ -75,6 +75,7 @@ KINEME = RecurrencePreset(
     usual_quantile=0.9,
     max_transition=0.4,
     max_transition_share=0.25,
+    max_unexplained=0.66,
     min_explained=0.5,
     event_scale=0.45,
     event_velocity=0.2,
