@@ -20,7 +20,7 @@ def segments() -> Segments:
         np.array([0, 50, 100, 130, 300, 400]),
         np.array([0, 0, -1, 1, 0]),
         np.array([1.0, 1.0, np.nan, 1.0, 0.6]),
-        np.empty(0, np.int64),
+        np.array([1]),
     )
 
 
@@ -41,7 +41,7 @@ def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
     assert found.not_periodic.tolist() == [1]
 
 
-def test_without_occurrences_an_activity_claims_no_repetition() -> None:
+def test_without_occurrences_a_free_activity_has_no_primitive() -> None:
     found = placed(segments(), occurring(), FREE)
     assert found.clusters.tolist() == [0, 0, -1, -1, 0]
     assert np.isnan(found.agreement[3])

@@ -200,7 +200,8 @@ def _with_occurrences(
 ) -> Segments:
     """Occurrences for primitives in transitions and where repetitions explain less than they do.
 
-    Transitions that are no more than the ends of two activities are left alone.
+    Transitions that are no more than the ends of two activities are left alone. An activity
+    that neither repeats itself nor recurs stays one primitive, of which nothing is sure.
     """
     borders, labels = segments.borders, segments.labels
     explained = of_actions(explained, borders, labels)
@@ -209,8 +210,15 @@ def _with_occurrences(
     looked_at = np.repeat(weak, np.diff(borders))
     found = occurrences(_poses(features, preset.offsets), looked_at, preset)
     recurring = of_actions(found.explained(borders), borders, labels)
-    free = weak & ((explained == 0) | (recurring > explained))
-    return placed(segments, found.within(borders, free), free)
+    free = weak & ((labels < 0) | (recurring > explained))
+    alone = (labels >= 0) & (explained == 0)
+    parents = np.searchsorted(borders, segments.primitives[:-1], side="right") - 1
+    unsure = replace(
+        segments,
+        agreement=np.where(alone[parents], np.nan, segments.agreement),
+        not_periodic=np.unique(labels[alone | (free & (labels >= 0))]),
+    )
+    return placed(unsure, found.within(borders, free), free)
 
 
 def _count(

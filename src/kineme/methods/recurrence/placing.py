@@ -96,7 +96,7 @@ def placed(segments: Segments, found: Occurrences, free: NDArray[np.bool_]) -> S
         primitives,
         clusters,
         agreement,
-        np.unique(labels[free & (labels >= 0)]),
+        np.unique(numbers[segments.not_periodic + 1]),
     )
 
 
