@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,8 @@ from kineme.errors import ParameterError
 from kineme.features import Names
 from kineme.labels.json_table import SCHEMA
 from kineme.recordings import Motion, Signals
+from kineme.segments.editing import cluster_names
+from kineme.segments.editing.marks import Mark, marked, span_of
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import Matrix
@@ -146,13 +149,18 @@ def segments_message(segmentation: Segmentation) -> Segments:
     -------
     Segments
     """
+    rows = list(segmentation)
+    spans = {mark: marked(segmentation, mark) for mark in get_args(Mark)}
     return Segments(
         schema=SCHEMA,
         n_frames=segmentation.n_frames,
         fps=segmentation.fps,
         provenance=dict(segmentation.provenance),
         timings=dict(segmentation.timings),
-        segments=list(segmentation),
+        segments=rows,
+        cluster_names={str(cluster): name for cluster, name in cluster_names(segmentation).items()},
+        checked=[i for i, row in enumerate(rows) if span_of(row) in spans["checked"]],
+        by_hand=[i for i, row in enumerate(rows) if span_of(row) in spans["by_hand"]],
     )
 
 
