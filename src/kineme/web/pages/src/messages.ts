@@ -16,6 +16,8 @@ export interface Segment {
   activity: number;
   label: string;
   score: number | null;
+  action: number;
+  border_confidence: number | null;
 }
 
 export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
