@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import get_args
 
 import numpy as np
@@ -39,6 +39,8 @@ class PageData:
         The poses, see `kineme.web.display`; empty for signals.
     matrix : Matrix
         The self-similarity of the recording.
+    warnings : list of str
+        What there was to warn of when it was read.
     """
 
     n_frames: int
@@ -46,6 +48,7 @@ class PageData:
     motion: MotionHead | None
     binary: bytes
     matrix: Matrix
+    warnings: list[str] = field(default_factory=list)
 
 
 def page_data(
@@ -79,12 +82,14 @@ def page_data(
     if isinstance(recording, Motion):
         head, binary = display_motion(recording, effectors=effectors)
         matrix = matrix_of_motion(recording, effectors=effectors)
-        return PageData(recording.n_frames, recording.fps, head, binary, matrix)
+        warned = [str(note) for note in recording.provenance.warnings]
+        return PageData(recording.n_frames, recording.fps, head, binary, matrix, warned)
     if isinstance(recording, Signals):
         values, fps = np.array(recording.values), recording.fps
         for start, stop in recording.gaps:
             values[start:stop] = np.nan
-        return PageData(len(values), fps, None, b"", matrix_of_signal(values, fps))
+        warned = [str(note) for note in recording.provenance.warnings]
+        return PageData(len(values), fps, None, b"", matrix_of_signal(values, fps), warned)
     if fps is None:
         raise ParameterError("an array does not tell its frame rate: give fps")
     matrix = matrix_of_signal(recording, fps)
@@ -167,6 +172,7 @@ def segments_message(segmentation: Segmentation) -> Segments:
 def _warnings(data: PageData) -> list[str]:
     motion = data.motion
     if motion is None or motion.sample_fps >= min(RATE, data.fps):
-        return []
+        return data.warnings
     rate = motion.sample_fps
-    return [f"so that the page stays small, the figure moves {rate:.3g} times a second"]
+    slow = f"so that the page stays small, the figure moves {rate:.3g} times a second"
+    return [*data.warnings, slow]

@@ -9,6 +9,7 @@ shares more than half of both their frames with. What finds no place is told.
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections import Counter
 from dataclasses import dataclass, replace
@@ -178,7 +179,7 @@ def _shortened(
 ) -> Rows:
     """A row with the frames that it keeps; they go to the row beside it if they are few."""
     row, rows = rows[at], list(rows)
-    rows[at] = replace(row, start_frame=span[0], stop_frame=span[1])
+    rows[at] = _spanning(row, *span)
     few = 2 * length(rows[at]) < length(row) and len(rows) > 1
     if few and _edges(rows[beside]) not in held:
         i, j, k = (k % len(rows) for k in (min(at, beside), max(at, beside), beside))
@@ -252,4 +253,6 @@ def _edges(row: Segment) -> tuple[int, int]:
 
 
 def _spanning(row: Segment, start: int, stop: int) -> Segment:
-    return row if (start, stop) == _edges(row) else replace(row, start_frame=start, stop_frame=stop)
+    """The row with other frames; where it starts anew nobody says how sure that is."""
+    sure = row.border_confidence if start == row.start_frame else math.nan
+    return replace(row, start_frame=start, stop_frame=stop, border_confidence=sure)
