@@ -107,7 +107,7 @@ class OpenRecording:
                 can_undo=self._journal.can_undo,
                 can_redo=self._journal.can_redo,
                 saved=self._saved,
-                warnings=[*self._notes, *shown.warnings],
+                warnings=[*shown.warnings, *self._notes],
             )
             return message, anew
 
