@@ -48,17 +48,18 @@ export function watchFocus(): () => void {
   };
 }
 
-/** Whether a key is the player's; a control that was clicked then gives up the focus. */
+/** Whether a key is the player's, if it has a use for it. */
 export function isForPlayer(event: KeyboardEvent): boolean {
   const target = event.target instanceof HTMLElement ? event.target : null;
   if (event.defaultPrevented || target?.closest("dialog")) return false;
   if (!target || target === document.body) return true;
   if (isTyped(target)) return false;
-  if (target === clicked) {
-    target.blur();
-    return true;
-  }
-  return !keysOf(target).includes(event.key);
+  return target === clicked || !keysOf(target).includes(event.key);
+}
+
+/** The control that was clicked has the focus no longer: a key was meant for the player. */
+export function leaveClicked(): void {
+  if (clicked instanceof HTMLElement && clicked === document.activeElement) clicked.blur();
 }
 
 function isTyped(element: HTMLElement): boolean {

@@ -1,5 +1,5 @@
 /** The keys of every page. */
-import { isForPlayer, watchFocus } from "./focus";
+import { isForPlayer, leaveClicked, watchFocus } from "./focus";
 import { togglePlay } from "./player";
 import type { Store } from "./store";
 
@@ -54,6 +54,7 @@ export function startKeys(
     const command = pageCommandOf(event, store) ?? more(event);
     if (!command) return;
     event.preventDefault();
+    leaveClicked();
     command();
   };
   addEventListener("keydown", onKey);
