@@ -35,11 +35,12 @@ CONDITIONS = ("as it is", "speed", "size", "noise", "one hand", "all")
 
 @dataclass(frozen=True)
 class Case:
-    """A recording and its truth."""
+    """A recording and its truth; where the maker knows them, every repetition, too."""
 
     name: str
     motion: Motion
     truth: Annotation
+    segments: Segmentation | None = None
 
 
 def subject_86() -> list[Case]:
@@ -53,7 +54,7 @@ def hdm05(seeds: int) -> Iterator[Case]:
     for seed in range(seeds):
         actor = ACTORS[seed % len(ACTORS)]
         made = exercise_sequence(_exercises(actor), seed)
-        yield Case(f"{actor} {seed}", made.motion, annotation(made.truth))
+        yield Case(f"{actor} {seed}", made.motion, annotation(made.truth), made.truth)
 
 
 @cache
@@ -96,7 +97,7 @@ def synthetic(condition: str, seeds: int) -> Iterator[Case]:
         size = _factor(rng) if varied["size"] else 1.0
         noise = float(rng.uniform(0, 0.02)) if varied["noise"] else 0
         made = synthesize(sequence, fps=60, size=1.75 * size, noise=noise, seed=seed)
-        yield Case(f"{condition} {seed}", made.motion, annotation(made.truth))
+        yield Case(f"{condition} {seed}", made.motion, annotation(made.truth), made.truth)
 
 
 def _factor(rng: np.random.Generator) -> float:

@@ -127,6 +127,10 @@ class RecurrenceConstants(CountingPreset):
         "largest share of an activity that a transition takes from one end", limits=Limits(0, 0.5),
         fine=True,
     )  # fmt: skip
+    end_factor: float = constant(
+        "what lies beyond the first and the last repetition is transition where it is farther from "
+        "the mean repetition than this times the usual distance of repetitions", limits=SOME_FACTOR,
+    )  # fmt: skip
     # What is said to be looked at.
     unsure_action: float = constant(
         "confidence below which a note says to look at the activity", limits=SHARE, fine=True

@@ -42,8 +42,10 @@ class RecurrenceFound:
         How sure the action of each is, nan for transitions.
     primitives : (primitives + 1,) array
         Borders of the primitives, from 0 to n, those of activities included.
+    clusters : (primitives,) array
+        Cluster of each, -1 where it is no repetition.
     agreement : (primitives,) array
-        How certain the count is, 0 to 1, nan in transitions.
+        How certain the count is, 0 to 1, nan where it is no repetition.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -55,17 +57,18 @@ class RecurrenceFound:
     labels: Frames
     confidence: NDArray[np.float64]
     primitives: Frames
+    clusters: Frames
     agreement: NDArray[np.float64]
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
         """Activities with their confidence, primitives with the certainty of their count."""
-        parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
         return columns_of(
             self.borders,
             self.primitives,
             is_activity=self.labels >= 0,
-            clusters=(self.labels, self.labels[parents]),
+            is_primitive=self.clusters >= 0,
+            clusters=(self.labels, self.clusters),
             scores=(self.confidence, self.agreement),
         )
 
@@ -84,6 +87,7 @@ class RecurrenceFound:
     def doubts(self, columns: Columns, fps: float) -> list[str]:
         """A sentence for each activity that is nearly another, or whose count is not sure."""
         activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
+        repetition = (columns["level"] == "primitive") & (columns["kind"] == "activity")
         sentences = []
         for row in np.flatnonzero(activity):
             start, stop = columns["start_frame"][row], columns["stop_frame"][row]
@@ -93,7 +97,7 @@ class RecurrenceFound:
                     f"look at the activity {where}: it is nearly as similar to another "
                     f"(confidence {columns['score'][row]:.2f})"
                 )
-            inside = (columns["level"] == "primitive") & (columns["start_frame"] == start)
+            inside = repetition & (start <= columns["start_frame"])
             agreement = columns["score"][inside][0]
             if agreement < self.preset.unsure_count:
                 sentences.append(

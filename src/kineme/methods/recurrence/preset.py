@@ -75,6 +75,7 @@ KINEME = RecurrencePreset(
     usual_quantile=0.9,
     max_transition=0.4,
     max_transition_share=0.25,
+    end_factor=2.0,
     unsure_action=0.25,
     unsure_count=0.5,
     recurs_at=0.2,
