@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kineme.methods.base import Preset
+from kineme.methods.confidence import ConfidencePreset
 from kineme.methods.constants import FACTOR, SHARE, SOME, SOME_FACTOR, TIME, Limits, constant
 
 
 @dataclass(frozen=True, kw_only=True)
-class CountingPreset(Preset):
+class CountingPreset(ConfidencePreset):
     """A preset whose method counts repetitions; see `kineme.methods.recurrence.repetitions`."""
 
     repetition_smoothing: float = constant(
