@@ -49,7 +49,7 @@ MOST_BRIER, SURE = 0.07, 0.9
 TOLERANCE, SENSOR_TOLERANCE = 0.25, 0.5  # of borders, s
 CUT_TOLERANCE = 0.25  # of the longer repetition next to it
 STILL = ("standing", "sitting", "laying")  # where there is nothing to count
-RIDGE = 1.0
+RIDGE = 30.0
 
 SETS = {"barbell": 41, "ipolgait": 30, "utkinect": 20, "hugadb": 40, "hapt": 12}
 
@@ -251,20 +251,23 @@ def right_borders(truth: Truth, found: Segments, tolerance: float) -> Iterator[t
 
 
 def right_counts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
-    """A count is right where as many repetitions as are true have their middle in an action."""
+    """A count is right where an activity has as many repetitions in an action as are true.
+
+    Where nothing is repeated a count of 1 says nothing, and is left out.
+    """
     counts, activity = found.counts, found.labels >= 0
     if truth.strides is not None:
         for g in np.flatnonzero(activity):
             start, stop = found.edges[g : g + 2]
-            feet = [((start <= foot) & (foot < stop)).sum() for foot in truth.strides]
-            if max(feet) > 0 or counts[g] > 1:
+            feet = [int(((start <= foot) & (foot < stop)).sum()) for foot in truth.strides]
+            if counts[g] > 1 or min(feet) > 1:
                 yield g, min(feet) <= counts[g] <= max(feet)
         return
     middles = (found.cuts[:-1] + found.cuts[1:]) / 2
     shared = found.overlaps(truth) * activity[:, None]
     for action, (span, count) in enumerate(zip(truth.actions, truth.counts, strict=True)):
         g = int(shared[:, action].argmax())
-        inside = (span[0] <= middles) & (middles < span[1]) & activity[found.parents]
+        inside = (span[0] <= middles) & (middles < span[1]) & (found.parents == g)
         if count is None or not shared[g, action] or (count == 0 and counts[g] == 1):
             continue
         yield g, int(inside.sum()) == count
@@ -359,10 +362,10 @@ def show(title: str, row: dict[str, float]) -> None:
 
 def write(table: Table) -> None:
     """The weights learnt from all sources, as a module."""
-    lines = [
-        f"{kind.upper()} = ({', '.join(f'{w:.4g}' for w in fitted(table, kind, lambda s: s != ''))})"
-        for kind in KINDS
-    ]
+    lines = []
+    for kind in KINDS:
+        weights = fitted(table, kind, lambda sources: sources != "")
+        lines.append(f"{kind.upper()} = ({', '.join(f'{weight:.4g}' for weight in weights)})")
     head = WEIGHTS.read_text(encoding="utf-8").split("\nLINK")[0]
     WEIGHTS.write_text("\n".join([head, *lines, ""]), encoding="utf-8")
     print("\n".join(lines))

@@ -21,12 +21,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods import weights
-from kineme.methods.base import Columns, Preset
+from kineme.methods.base import Preset
 from kineme.methods.constants import SHARE, Limits, constant
 from kineme.methods.evidence import Evidence
 
 Floats = NDArray[np.float64]
-Weights = tuple[float, float, float, float]
+OfTwo = tuple[float, float, float]
+OfThree = tuple[float, float, float, float]
+OfFour = tuple[float, float, float, float, float]
 
 WEIGHT = Limits(-100.0, 100.0)
 NOTES = 5
@@ -37,20 +39,20 @@ NOTES = 5
 class ConfidencePreset(Preset):
     """A preset whose method says how probable it is that what it finds is right."""
 
-    link_weights: Weights = constant(
+    link_weights: OfTwo = constant(
         "how sure a cluster is: a constant, and weights of the similarity to the nearest other "
-        "one, of that within, and of how much samples prefer their own", limits=WEIGHT, fine=True,
+        "one, and of how much samples prefer their own", limits=WEIGHT, fine=True,
     )  # fmt: skip
-    border_weights: Weights = constant(
+    border_weights: OfTwo = constant(
         "how sure a border is: a constant, and weights of how sharply similarity changes there, "
-        "of that across it, and of activities that touch", limits=WEIGHT, fine=True,
+        "and of that across it", limits=WEIGHT, fine=True,
     )  # fmt: skip
-    count_weights: Weights = constant(
-        "how sure a count is: a constant, and weights of the similarity of the least similar "
-        "repetition, of that one repetition later, and of the longest end", limits=WEIGHT,
-        fine=True, default=weights.COUNT,
+    count_weights: OfFour = constant(
+        "how sure a count is: a constant, and weights of the similarity of the repetitions, of "
+        "the shortest one, of the shorter end, and of how much samples prefer their own cluster",
+        limits=WEIGHT, fine=True, default=weights.COUNT,
     )  # fmt: skip
-    cut_weights: Weights = constant(
+    cut_weights: OfThree = constant(
         "how sure a border between repetitions is: a constant, and weights of how similar and how "
         "unequal the two are, and of the logarithm of the odds of the count", limits=WEIGHT,
         fine=True, default=weights.CUT,

@@ -30,20 +30,18 @@ CLEAREST = 0.995
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """A row of statistics for each segment, nan where there is nothing to be sure of.
+    """A row of statistics for each thing that may be wrong, nan where nothing can be.
 
     Attributes
     ----------
-    links : (segments, 3) array
-        Similarity to the nearest other cluster, relative to that within; similarity within;
-        how much more similar its samples are to their own.
-    borders : (segments, 3) array
-        Of the start of each: how sharply similarity changes there; similarity across it,
-        relative to that within; whether two activities touch.
-    counts : (segments, 3) array
+    links : (segments, 2) array
+        See `link_statistics`.
+    borders : (segments, 2) array
+        Of the start of each segment, see `border_statistics`.
+    counts : (segments, 4) array
         See `count_statistics`.
     cuts : (primitives, 2) array
-        Of the start of each inside an activity, see `count_statistics`.
+        Of the start of each primitive inside a segment, see `cut_statistics`.
     parents : (primitives,) array
         The segment that each lies in.
     """
@@ -56,7 +54,7 @@ class Evidence:
 
 
 def link_statistics(labels: Samples, alike: Floats, own: Floats) -> Floats:
-    """What tells how sure the cluster of each segment is, (segments, 3).
+    """What tells how sure the cluster of each segment is.
 
     Parameters
     ----------
@@ -66,18 +64,23 @@ def link_statistics(labels: Samples, alike: Floats, own: Floats) -> Floats:
         Mean similarity of the samples of each two segments; nan where they are not compared.
     own : (segments,) array
         How much more similar the samples of each are to their own cluster than to others.
+
+    Returns
+    -------
+    (segments, 2) array
+        Similarity to the most similar segment of another cluster, relative to that within; `own`.
     """
-    within = np.nan_to_num(alike.diagonal())
     foreign = np.not_equal.outer(labels, labels) & (labels >= 0) & np.isfinite(alike)
-    relative = np.where(foreign, alike, 0) / np.maximum(np.sqrt(np.outer(within, within)), LEAST)
-    found = np.column_stack([np.minimum(relative.max(axis=1), 1), within, own])
-    return np.where(labels[:, None] >= 0, found, np.nan)
+    nearest = np.where(foreign, relative(alike), 0).max(axis=1, initial=0)
+    return np.where(labels[:, None] >= 0, np.column_stack([nearest, own]), np.nan)
 
 
 def border_statistics(
     borders: Samples, labels: Samples, alike: Floats, similar: Similar, near: int
 ) -> Floats:
-    """What tells how sure the start of each segment is, (segments, 3); nan for the first.
+    """What tells how sure the start of each segment is.
+
+    A transition is passed over: it is the activities on either side of a border that differ.
 
     Parameters
     ----------
@@ -86,17 +89,21 @@ def border_statistics(
     alike : (segments, segments) array
         See `link_statistics`.
     similar : callable
-        Similarities of samples.
     near : int
         Samples on either side of a border that are compared with both segments.
+
+    Returns
+    -------
+    (segments, 2) array
+        By how much samples before and after the border are more similar to their own side; and
+        the similarity of both sides, relative to that within. Nan for the first segment.
     """
-    found = np.full((len(labels), 3), np.nan)
+    found = np.full((len(labels), 2), np.nan)
     spans = [spread(start, stop, COMPARED) for start, stop in pairwise(borders.tolist())]
-    within = np.maximum(np.nan_to_num(alike.diagonal()), 0)
-    last = len(labels) - 1
+    across = np.nan_to_num(relative(alike))
     for g in range(1, len(labels)):
         left = max(g - 1 - int(labels[g - 1] < 0), 0)
-        right = min(g + int(labels[g] < 0), last)
+        right = min(g + int(labels[g] < 0), len(labels) - 1)
         at = int(borders[g])
         before = np.arange(max(at - near, 0), at)
         after = np.arange(at, min(at + near, int(borders[-1])))
@@ -104,62 +111,81 @@ def border_statistics(
             mean(similar(side, spans[its])) - mean(similar(side, spans[other]))
             for side, its, other in ((before, left, right), (after, right, left))
         ]
-        across = np.nan_to_num(alike[left, right]) / max(
-            float(np.sqrt(within[left] * within[right])), LEAST
-        )
-        touch = labels[g - 1] >= 0 and labels[g] >= 0
-        found[g] = sum(sharpness), min(across, 1.0), touch
+        found[g] = sum(sharpness), across[left, right]
     return found
 
 
-def count_statistics(repetitions: Floats, poses: Floats, lengths: Samples) -> tuple[Floats, Floats]:
-    """What tells how sure the count of an activity is, (3,), and each cut in it, (count - 1, 2).
-
-    Of the count: the similarity of the repetition that is least similar to the others, that of
-    the whole to itself one repetition later, and how much longer than usual the longer end is.
-    Similarities are correlations, as Fisher's z; all are 0 where nothing is repeated. Of a cut:
-    the similarity of the two repetitions that it parts, and how unequal their lengths are.
+def count_statistics(repetitions: Floats, lengths: Samples, own: float) -> Floats:
+    """What tells how sure the count of an activity is.
 
     Parameters
     ----------
     repetitions : (count, places, dims) array
         Poses along the path of each.
-    poses : (frames, dims) array
-        Of the activity.
     lengths : (count,) array
-        Frames of each repetition.
+        Frames of each.
+    own : float
+        How much more similar the activity is to its own cluster than to others.
+
+    Returns
+    -------
+    (4,) array
+        Mean correlation of any two repetitions, as Fisher's z; the shortest repetition, and the
+        shorter end, as logarithms of their share of the usual one; `own`. All are 0 where
+        nothing is repeated: one repetition has nothing that speaks for it.
+    """
+    if len(repetitions) < 2:
+        return np.zeros(4)
+    similar = correlations(repetitions)
+    shares = np.log(np.maximum(lengths, 1) / max(float(np.median(lengths)), 1.0))
+    pairs = similar[np.triu_indices(len(similar), 1)]
+    return np.array([clear(pairs.mean()), shares.min(), min(shares[0], shares[-1]), own])
+
+
+def cut_statistics(repetitions: Floats, lengths: Samples, repeats: NDArray[np.bool_]) -> Floats:
+    """What tells how sure the start of each primitive of an activity but the first is.
+
+    Parameters
+    ----------
+    repetitions, lengths : array
+        As for `count_statistics`.
+    repeats : (primitives,) array of bool
+        Which primitives are the repetitions.
+
+    Returns
+    -------
+    (primitives - 1, 2) array
+        Of the repetitions on either side: the lesser mean correlation with the others, as
+        Fisher's z, and how much the longer or shorter one differs from the usual length.
     """
     count = len(repetitions)
-    if count < 2:
-        return np.zeros(3), np.empty((0, 2))
-    rows = (repetitions - repetitions.mean(axis=1, keepdims=True)).reshape(count, -1)
-    rows = rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12)
-    similar = rows @ rows.T
-    others = (similar.sum(axis=1) - similar.diagonal()) / (count - 1)
+    others = (correlations(repetitions).sum(axis=1) - 1) / max(count - 1, 1)
     usual = max(float(np.median(lengths)), 1.0)
-    counts = np.array(
-        [
-            _clear(others.min()),
-            _clear(_later(poses, round(usual))),
-            np.log(max(lengths[0], lengths[-1], 1) / usual),
-        ]
-    )
-    unequal = np.abs(np.diff(np.log(np.maximum(lengths, 1))))
-    cuts = np.column_stack([_clear(similar.diagonal(1)), unequal])
-    return counts, cuts
+    found = np.column_stack([clear(others), -np.abs(np.log(np.maximum(lengths, 1) / usual))])
+    rows = np.full((len(repeats), 2), np.inf)
+    rows[repeats] = found
+    both: Floats = np.minimum(rows[:-1], rows[1:])
+    return np.where(np.isfinite(both), both, 0)
 
 
-def _later(poses: Floats, lag: int) -> float:
-    """Correlation of poses with those so many frames later."""
-    if lag >= len(poses):
-        return 0.0
-    centred = poses - poses.mean(axis=0)
-    early, late = centred[:-lag], centred[lag:]
-    size = np.sqrt(np.square(early).sum() * np.square(late).sum())
-    return float((early * late).sum() / max(size, 1e-12))
+def correlations(repetitions: Floats) -> Floats:
+    """Of each two repetitions, (count, count)."""
+    rows = repetitions - repetitions.mean(axis=1, keepdims=True)
+    rows = rows.reshape(len(rows), -1)
+    rows = rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12)
+    found: Floats = rows @ rows.T
+    return found
 
 
-def _clear(correlation: Floats | float) -> Floats:
+def relative(alike: Floats) -> Floats:
+    """Similarity of each two segments relative to that within them, to 1; nan where unknown."""
+    within = np.maximum(np.nan_to_num(alike.diagonal()), 0)
+    scale = np.sqrt(np.outer(within, within))
+    found: Floats = np.minimum(alike / np.maximum(scale, LEAST), 1)
+    return found
+
+
+def clear(correlation: Floats | float) -> Floats:
     """Fisher's z of correlations."""
     return np.asarray(np.arctanh(np.clip(correlation, -CLEAREST, CLEAREST)), np.float64)
 

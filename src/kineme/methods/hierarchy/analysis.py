@@ -89,11 +89,11 @@ def analyze_channels(
         frames = _in_frames(borders, preset, len(rows))
         repeated = _count(rows, frames, preset)
     primitives = np.unique(np.concatenate([frames, *(each.cuts for each in repeated)]))
+    parents = np.searchsorted(frames, primitives[:-1], side="right") - 1
     with stage("confidence"):
-        shown = Evidence(
-            *evidence(features, unit, borders, labels, own, preset),
-            *_counted(rows, frames, primitives, preset),
-        )
+        links, starts = evidence(features, unit, borders, labels, own, preset)
+        counts, cuts = _counted(rows, primitives, parents, own, preset)
+        shown = Evidence(links, starts, counts, cuts, parents)
     return HierarchyFound(features, preset, unit, frames, labels, primitives, shown, timings)
 
 
@@ -157,13 +157,17 @@ def _count(
 
 
 def _counted(
-    channels: NDArray[np.float64], borders: Frames, primitives: Frames, preset: HierarchyConstants
-) -> tuple[NDArray[np.float64], NDArray[np.float64], Frames]:
-    """Statistics of counts and of the starts of repetitions, and the segment of each of these."""
+    channels: NDArray[np.float64],
+    primitives: Frames,
+    parents: Frames,
+    own: NDArray[np.float64],
+    preset: HierarchyConstants,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Statistics of counts and of the starts of repetitions."""
     rows, slower, step = _thinned(channels, preset)
-    parents = np.searchsorted(borders, primitives[:-1], side="right") - 1
-    edges = np.minimum(primitives // step, len(rows))
-    return *counted(rows, edges, parents, np.full(len(borders) - 1, True), slower), parents
+    edges = np.minimum(primitives // step, len(rows) - 1)
+    repeats = np.full(len(parents), True)
+    return counted(rows, np.append(edges[:-1], len(rows)), parents, repeats, own, slower)
 
 
 def _thinned(

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.evidence import Evidence, border_statistics, link_statistics
+from kineme.methods.evidence import border_statistics, link_statistics
 from kineme.methods.hierarchy.tree import between_segments
-from kineme.methods.recurrence.evidence import counted
 
 if TYPE_CHECKING:
     from kineme.methods.hierarchy.constants import HierarchyConstants

@@ -69,7 +69,8 @@ def analyze_actions(
         counted = _count(recurring, borders, labels, limits, preset)
     primitives = np.unique(np.concatenate([borders, *(each.cuts for each in counted)]))
     with stage("confidence"):
-        shown = evidence(recurring, preset, borders, labels, own, primitives)
+        repeats = labels[np.searchsorted(borders, primitives[:-1], side="right") - 1] >= 0
+        shown = evidence(recurring, preset, borders, labels, own, primitives, repeats)
     return RecurrenceFound(rows, recurring, preset, borders, labels, primitives, shown, timings)
 
 
@@ -191,7 +192,7 @@ def _count(
     def count(segment: int) -> Repetitions:
         start, stop = int(borders[segment]), int(borders[segment + 1])
         if labels[segment] < 0:
-            return Repetitions(np.empty(0, np.int64), np.nan)
+            return Repetitions(np.empty(0, np.int64))
         action = int(np.searchsorted(limits, (start + stop) // 2, side="right")) - 1
         first = (start + min(start, int(limits[action]))) // 2
         last = (stop + max(stop, int(limits[action + 1]))) // 2

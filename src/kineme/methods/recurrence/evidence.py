@@ -14,6 +14,7 @@ from kineme.methods.evidence import (
     Evidence,
     border_statistics,
     count_statistics,
+    cut_statistics,
     link_statistics,
     mean,
 )
@@ -39,6 +40,7 @@ def evidence(
     labels: Frames,
     own: Floats,
     primitives: Frames,
+    repeats: NDArray[np.bool_],
 ) -> Evidence:
     """Statistics of activities, their borders and their repetitions.
 
@@ -52,6 +54,8 @@ def evidence(
         How much more similar the samples of each are to their own action than to others.
     primitives : array of int
         Borders of primitives, frames.
+    repeats : (primitives,) array of bool
+        Which of them are repetitions.
     """
     samples, width = recurring.similarity.shape
 
@@ -61,8 +65,7 @@ def evidence(
         compared = (recurring.phase < lags) & (lags < width)
         return np.where(compared, recurring.similarity[first, np.where(compared, lags, 0)], np.nan)
 
-    at = np.minimum(borders // recurring.step, samples)
-    at[-1] = samples
+    at = np.append(borders[:-1] // recurring.step, samples)
     spans = [spread(start, stop, COMPARED) for start, stop in pairwise(at.tolist())]
     alike = np.full((len(labels), len(labels)), np.nan)
     within_reach = np.searchsorted(at[:-1], at[1:] + width)
@@ -74,7 +77,7 @@ def evidence(
     return Evidence(
         link_statistics(labels, alike, own),
         border_statistics(at, labels, alike, similar, near),
-        *counted(recurring.features, primitives, parents, labels >= 0, preset),
+        *counted(recurring.features, primitives, parents, repeats, own, preset),
         parents,
     )
 
@@ -83,7 +86,8 @@ def counted(
     features: NDArray[np.float32],
     primitives: Frames,
     parents: Frames,
-    is_activity: NDArray[np.bool_],
+    repeats: NDArray[np.bool_],
+    own: Floats,
     preset: CountingPreset,
 ) -> tuple[Floats, Floats]:
     """Statistics of the count of each segment, and of the start of each primitive.
@@ -95,24 +99,28 @@ def counted(
         Borders, frames.
     parents : (primitives,) array
         The segment that each lies in.
-    is_activity : (segments,) array of bool
+    repeats : (primitives,) array of bool
+        Which primitives are repetitions.
+    own : (segments,) array
+        How much more similar each segment is to its own cluster than to others.
     preset : CountingPreset
     """
-    ends = np.searchsorted(parents, np.arange(len(is_activity) + 1))
-    counts = np.full((len(is_activity), 3), np.nan)
+    ends = np.searchsorted(parents, np.arange(len(own) + 1))
+    counts = np.full((len(own), 4), np.nan)
     cuts = np.full((len(parents), 2), np.nan)
     smoothing = preset.frames(preset.repetition_smoothing)
 
     def judge(segment: int) -> None:
         first, last = ends[segment], ends[segment + 1]
         edges = primitives[first : last + 1]
-        along = movement(features[edges[0] : edges[-1]], smoothing)
+        along = movement(features[edges[0] : max(edges[-1], edges[0] + 1)], smoothing)
+        are = repeats[first:last]
         repetitions = kernels.repetitions_between(
             along.poses, along.path, edges - edges[0], preset.path_points
-        )
-        counts[segment], cuts[first + 1 : last] = count_statistics(
-            repetitions, along.poses, np.diff(edges)
-        )
+        )[are]
+        lengths = np.diff(edges)[are]
+        counts[segment] = count_statistics(repetitions, lengths, own[segment])
+        cuts[first + 1 : last] = cut_statistics(repetitions, lengths, are)
 
-    map_threads(judge, np.flatnonzero(is_activity).tolist())
+    map_threads(judge, np.unique(parents[repeats]).tolist())
     return counts, cuts

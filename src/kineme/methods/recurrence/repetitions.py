@@ -42,12 +42,9 @@ class Repetitions:
     ----------
     cuts : array of int
         Frames at which the second, third, ... repetition begins.
-    agreement : float
-        How certain their number is, 0 to 1.
     """
 
     cuts: Frames
-    agreement: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +132,7 @@ def repetitions(
     along = movement(rows, preset.frames(preset.repetition_smoothing))
     candidates = _candidates(rows, along, preset)
     if not candidates:
-        return Repetitions(np.empty(0, np.int64), 1.0)
+        return Repetitions(np.empty(0, np.int64))
     best = min(candidates, key=lambda each: each.cost)
     same = [
         each
@@ -149,11 +146,7 @@ def repetitions(
         count = best.whole
         divisions = [cuts for cuts in [best.cuts(count)] if cuts is not None]
     even = min(divisions, key=lambda cuts: np.diff([0, *cuts, len(rows)]).std())
-    weights = np.array([max(best.cost + preset.rival_cost - each.cost, 0) for each in candidates])
-    if not weights.any():  # a cost too small to be told from none
-        weights = np.array([float(each is best) for each in candidates])
-    agreeing = np.array([each.whole == count for each in candidates])
-    return Repetitions(start + even, float(weights[agreeing].sum() / weights.sum()))
+    return Repetitions(start + even)
 
 
 def movement(rows: NDArray[np.float32], smoothing: int) -> Movement:
