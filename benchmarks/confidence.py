@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 import kineme
 from _figures import add_option, record
 from _recordings import ACTORS, CONDITIONS, DATA, Case, exercises, hdm05, subject_86, synthetic
+from kineme.methods.base import Columns
 from kineme.methods.confidence import log_odds, probability
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.segmenter import segment_and_found
@@ -49,7 +50,7 @@ MOST_BRIER, SURE = 0.07, 0.9
 TOLERANCE, SENSOR_TOLERANCE = 0.25, 0.5  # of borders, s
 CUT_TOLERANCE = 0.25  # of the longer repetition next to it
 STILL = ("standing", "sitting", "laying")  # where there is nothing to count
-RIDGE = 30.0
+RIDGE = 20.0
 
 SETS = {"barbell": 41, "ipolgait": 30, "utkinect": 20, "hugadb": 40, "hapt": 12}
 
@@ -79,16 +80,30 @@ class Truth:
 
 @dataclass(frozen=True)
 class Segments:
-    """What was found, in seconds."""
+    """What was found, in seconds.
+
+    Attributes
+    ----------
+    edges, cuts : array
+        Borders of activities and transitions, and of primitives.
+    labels : (segments,) array
+        Clusters, -1 for transitions.
+    repeats : (primitives,) array of bool
+        Whether each is a repetition.
+    parents : (primitives,) array
+        The segment that it lies in.
+    """
 
     edges: Floats
     labels: NDArray[np.int64]
     cuts: Floats
+    repeats: Bools
     parents: NDArray[np.int64]
 
     @property
     def counts(self) -> NDArray[np.int64]:
-        return np.bincount(self.parents, minlength=len(self.labels))
+        """Repetitions of each segment."""
+        return np.bincount(self.parents[self.repeats], minlength=len(self.labels))
 
     def overlaps(self, truth: Truth) -> Floats:
         """Seconds that each segment (rows) and each true action share."""
@@ -201,15 +216,8 @@ def judge(
 ) -> None:
     """Segment a recording, and say of each thing found whether it is right."""
     _, found = segment_and_found(recording)
-    per_frame = recording.fps / found.preset.working_fps
-
-    def seconds(frames: NDArray[np.int64]) -> Floats:
-        return np.interp(frames * per_frame, np.arange(len(times)), times)
-
+    segments = in_seconds(found.columns(), recording.fps / found.preset.working_fps, times)
     shown = found.evidence
-    segments = Segments(
-        seconds(found.borders), found.labels, seconds(found.primitives), shown.parents
-    )
     of_sensors = "sensor_" if isinstance(recording, Signals) else ""
     for g, right in right_links(truth, segments):
         table.add(f"{of_sensors}link", source, shown.links[g], right)
@@ -221,6 +229,20 @@ def judge(
     for p, right in right_cuts(truth, segments):
         statistics = np.append(shown.cuts[p], shown.counts[segments.parents[p]])
         table.add("cut", source, statistics, right)
+
+
+def in_seconds(columns: Columns, per_frame: float, times: Floats) -> Segments:
+    """The segments of a table whose frames are so many of the recording."""
+    borders = []
+    for level in ("activity", "primitive"):
+        rows = columns["level"] == level
+        frames = np.append(columns["start_frame"][rows], columns["stop_frame"][rows][-1])
+        borders.append(np.interp(frames * per_frame, np.arange(len(times)), times))
+    counted = columns["kind"] == "activity"
+    of_activities = columns["level"] == "activity"
+    labels = np.where(counted, columns["cluster"], -1)[of_activities]
+    parents = np.searchsorted(borders[0], borders[1][:-1], side="right") - 1
+    return Segments(borders[0], labels, borders[1], counted[~of_activities], parents)
 
 
 def right_links(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
@@ -267,7 +289,7 @@ def right_counts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
     shared = found.overlaps(truth) * activity[:, None]
     for action, (span, count) in enumerate(zip(truth.actions, truth.counts, strict=True)):
         g = int(shared[:, action].argmax())
-        inside = (span[0] <= middles) & (middles < span[1]) & (found.parents == g)
+        inside = (span[0] <= middles) & (middles < span[1]) & found.repeats & (found.parents == g)
         if count is None or not shared[g, action] or (count == 0 and counts[g] == 1):
             continue
         yield g, int(inside.sum()) == count

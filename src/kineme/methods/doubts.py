@@ -40,7 +40,8 @@ def doubts(columns: Columns, fps: float, preset: ConfidencePreset) -> list[str]:
         span = f"at {start:.2f} to {stop:.2f} s"
         link = float(columns["score"][row])
         doubt(link, preset.unsure_action, f"look at the cluster of the activity {span}")
-        inside = ~is_activity & (columns["start_frame"] >= columns["start_frame"][row])
+        inside = ~is_activity & (columns["kind"] == "activity")
+        inside &= columns["start_frame"] >= columns["start_frame"][row]
         inside &= columns["stop_frame"] <= columns["stop_frame"][row]
         if np.count_nonzero(inside) > 1:
             count = float(columns["score"][inside][0])
