@@ -377,6 +377,30 @@ def scores(found: Floats, right: Bools) -> dict[str, float]:
     }
 
 
+def report(table: Table) -> None:
+    """Scores of each kind, over all sources and of each, learnt from the others."""
+    names = ("right", "AUC", "Brier", "(none)", "sure", "of it ok")
+    print(f"{'source left out':28}{'n':>7}" + "".join(f"{name:>9}" for name in names))
+    for kind in KINDS:
+        sources, found, right = left_out(table, kind)
+        whole = scores(found, right)
+        show(kind, whole)
+        for source in np.unique(sources):
+            show(f"  {source}", scores(found[sources == source], right[sources == source]))
+        for name, value in whole.items():
+            if name != "n" and np.isfinite(value):
+                record(f"confidence.{kind}.{name}", float(value))
+    for kind, least in PROMISED.items():
+        whole = scores(*left_out(table, kind)[1:])
+        print(
+            f"{kind}: AUC {whole['auc']:.3f}, {least:.2f} promised; Brier {whole['brier']:.3f}, "
+            f"{MOST_BRIER:.2f} promised; of what is sure {whole['sure_right']:.3f}, {SURE} promised"
+        )
+    once = probability(np.zeros((1, 4)), fitted(table, "count", lambda sources: sources != ""))
+    record("confidence.once", float(once[0]))
+    print(f"a single repetition: {once[0]:.2f}")
+
+
 def show(title: str, row: dict[str, float]) -> None:
     cells = "".join(f"{value:9.3f}" for name, value in row.items() if name != "n")
     print(f"{title:28}{row['n']:7.0f}{cells}")
@@ -405,16 +429,7 @@ def main() -> None:
         judge(table, source, motion, truth, np.arange(motion.n_frames) / motion.fps)
     for source, signals, times, truth in sensors(few):
         judge(table, source, signals, truth, times)
-    names = ("right", "AUC", "Brier", "(none)", "sure", "of it ok")
-    print(f"{'source left out':28}{'n':>7}" + "".join(f"{name:>9}" for name in names))
-    for kind in KINDS:
-        sources, found, right = left_out(table, kind)
-        whole = scores(found, right)
-        show(kind, whole)
-        for source in np.unique(sources):
-            show(f"  {source}", scores(found[sources == source], right[sources == source]))
-        for name in ("auc", "brier", "sure_right"):
-            record(f"confidence.{kind}.{name}", float(whole[name]))
+    report(table)
     if options.fit:
         write(table)
 
