@@ -14,7 +14,7 @@ from kineme.datasets import random_recording
 from kineme.methods import weights
 from kineme.methods.confidence import probability
 from kineme.methods.doubts import doubts
-from kineme.methods.evidence import count_statistics
+from kineme.methods.evidence import correlations, count_statistics
 from kineme.methods.recurrence.analysis import analyze_actions
 from kineme.methods.recurrence.preset import KINEME
 from loops import swing
@@ -52,7 +52,7 @@ def test_what_happens_once_is_never_a_sure_repetition(seed: int) -> None:
 
 
 def test_one_repetition_has_nothing_that_speaks_for_it() -> None:
-    alone = count_statistics(np.ones((1, 16, 6)), np.array([90]), 0.9)
+    alone = count_statistics(np.ones((1, 1)), np.array([90]), 0.9)
     assert probability(alone[None], weights.COUNT)[0] < 0.5
 
 
@@ -63,8 +63,8 @@ def test_more_similar_repetitions_are_surer(count: int, noise: float, seed: int)
     shaken = rng.standard_normal((count, 16, 6))
     lengths = np.full(count, 30)
     clear, less = (
-        probability(count_statistics(shape + more * shaken, lengths, 0.8)[None], weights.COUNT)[0]
-        for more in (noise, noise + 3)
+        probability(count_statistics(similar, lengths, 0.8)[None], weights.COUNT)[0]
+        for similar in (correlations(shape + more * shaken) for more in (noise, noise + 3))
     )
     assert less <= clear
 

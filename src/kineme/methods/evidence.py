@@ -115,13 +115,13 @@ def border_statistics(
     return found
 
 
-def count_statistics(repetitions: Floats, lengths: Samples, own: float) -> Floats:
+def count_statistics(similar: Floats, lengths: Samples, own: float) -> Floats:
     """What tells how sure the count of an activity is.
 
     Parameters
     ----------
-    repetitions : (count, places, dims) array
-        Poses along the path of each.
+    similar : (count, count) array
+        Correlations of its repetitions.
     lengths : (count,) array
         Frames of each.
     own : float
@@ -134,20 +134,20 @@ def count_statistics(repetitions: Floats, lengths: Samples, own: float) -> Float
         shorter end, as logarithms of their share of the usual one; `own`. All are 0 where
         nothing is repeated: one repetition has nothing that speaks for it.
     """
-    if len(repetitions) < 2:
+    if len(similar) < 2:
         return np.zeros(4)
-    similar = correlations(repetitions)
     shares = np.log(np.maximum(lengths, 1) / max(float(np.median(lengths)), 1.0))
-    pairs = similar[np.triu_indices(len(similar), 1)]
-    return np.array([clear(pairs.mean()), shares.min(), min(shares[0], shares[-1]), own])
+    count = len(similar)
+    pairs = (similar.sum() - count) / (count * (count - 1))
+    return np.array([clear(pairs), shares.min(), min(shares[0], shares[-1]), own])
 
 
-def cut_statistics(repetitions: Floats, lengths: Samples, repeats: NDArray[np.bool_]) -> Floats:
+def cut_statistics(similar: Floats, lengths: Samples, repeats: NDArray[np.bool_]) -> Floats:
     """What tells how sure the start of each primitive of an activity but the first is.
 
     Parameters
     ----------
-    repetitions, lengths : array
+    similar, lengths : array
         As for `count_statistics`.
     repeats : (primitives,) array of bool
         Which primitives are the repetitions.
@@ -158,8 +158,7 @@ def cut_statistics(repetitions: Floats, lengths: Samples, repeats: NDArray[np.bo
         Of the repetitions on either side: the lesser mean correlation with the others, as
         Fisher's z, and how much the longer or shorter one differs from the usual length.
     """
-    count = len(repetitions)
-    others = (correlations(repetitions).sum(axis=1) - 1) / max(count - 1, 1)
+    others = (similar.sum(axis=1) - 1) / max(len(similar) - 1, 1)
     usual = max(float(np.median(lengths)), 1.0)
     found = np.column_stack([clear(others), -np.abs(np.log(np.maximum(lengths, 1) / usual))])
     rows = np.full((len(repeats), 2), np.inf)
@@ -169,7 +168,12 @@ def cut_statistics(repetitions: Floats, lengths: Samples, repeats: NDArray[np.bo
 
 
 def correlations(repetitions: Floats) -> Floats:
-    """Of each two repetitions, (count, count)."""
+    """Of each two repetitions, (count, count), from poses along the path of each.
+
+    Parameters
+    ----------
+    repetitions : (count, places, dims) array
+    """
     rows = repetitions - repetitions.mean(axis=1, keepdims=True)
     rows = rows.reshape(len(rows), -1)
     rows = rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12)

@@ -13,6 +13,7 @@ from kineme.methods.evidence import (
     COMPARED,
     Evidence,
     border_statistics,
+    correlations,
     count_statistics,
     cut_statistics,
     link_statistics,
@@ -118,9 +119,9 @@ def counted(
         repetitions = kernels.repetitions_between(
             along.poses, along.path, edges - edges[0], preset.path_points
         )[are]
-        lengths = np.diff(edges)[are]
-        counts[segment] = count_statistics(repetitions, lengths, own[segment])
-        cuts[first + 1 : last] = cut_statistics(repetitions, lengths, are)
+        similar, lengths = correlations(repetitions), np.diff(edges)[are]
+        counts[segment] = count_statistics(similar, lengths, own[segment])
+        cuts[first + 1 : last] = cut_statistics(similar, lengths, are)
 
     map_threads(judge, np.unique(parents[repeats]).tolist())
     return counts, cuts
