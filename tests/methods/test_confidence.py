@@ -142,3 +142,25 @@ def test_notes_say_what_to_look_at_and_where() -> None:
     assert doubts(known, 10.0, KINEME.replace(unsure_count=0.1, unsure_border=0.1)) == [
         "look at the cluster of the activity at 1.00 to 2.00 s (40 % sure)"
     ]
+
+
+def test_activities_that_repeat_nothing_are_told_in_one_note() -> None:
+    known = {
+        "level": np.array(["activity"] * 3 + ["primitive"] * 4),
+        "kind": np.full(7, "activity"),
+        "start_frame": np.array([0, 10, 40, 0, 10, 40, 45]),
+        "stop_frame": np.array([10, 40, 50, 10, 40, 45, 50]),
+        "cluster": np.zeros(7, np.int64),
+        "score": np.array([0.9] * 3 + [0.1, 0.1, 0.9, 0.9]),
+        "border_confidence": np.full(7, 0.9),
+    }
+    assert doubts(known, 10.0, KINEME) == [
+        "nothing repeats at 1.00 to 4.00 s and in 1 other activity (10 % sure)"
+    ]
+
+
+def test_what_happens_once_is_in_the_notes() -> None:
+    segments = kineme.segment(kineme.Signals(once(40, 1), 30))
+    notes = segments.provenance["notes"]
+    assert any(note.endswith("% sure)") for note in notes)
+    assert sum(note.endswith("% sure)") for note in notes) <= 5
