@@ -23,16 +23,14 @@ The folder appears whole or not at all, and nothing that was there is touched.
 from __future__ import annotations
 
 import csv
-import secrets
-import shutil
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from math import degrees
 from os import PathLike
 from pathlib import Path
 
+from kineme._files import atomic_folder
 from kineme.clips.loops import loop
-from kineme.errors import MotionError, ParameterError, WriteError
+from kineme.errors import MotionError, ParameterError
 from kineme.formats import write
 from kineme.formats.channels.writing import rows_of
 from kineme.labels.spans import text_of
@@ -97,7 +95,7 @@ def split(
     target = Path(folder)
     stem = _plain(Path(recording.provenance.path or "recording").stem)
     names = [f"{stem}_{i:04d}_{_plain(text_of(row))}{suffix}" for i, row in enumerate(rows)]
-    with _new_folder(target) as draft:
+    with atomic_folder(target) as draft:
         carries = [write_clip(row, draft / name) for row, name in zip(rows, names, strict=True)]
         _write_manifest(draft / MANIFEST, recording, rows, names, carries)
     return [target / name for name in names]
@@ -132,28 +130,6 @@ def _plain(text: str) -> str:
     """Letters, digits and ``_`` and ``-``; short enough for any file system."""
     kept = "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in text)
     return kept.encode(errors="replace")[:80].decode(errors="ignore")
-
-
-@contextmanager
-def _new_folder(target: Path) -> Iterator[Path]:
-    """A folder beside ``target`` that takes its place when the block ends without an error."""
-    if target.exists() and not (target.is_dir() and not any(target.iterdir())):
-        raise WriteError(target, "is there already: name a new folder, or empty this one")
-    draft = target.parent / f".{secrets.token_hex(6)}"
-    try:
-        draft.mkdir()
-    except OSError as error:
-        reason = f"cannot be made: {target.parent}: {error.strerror or error}"
-        raise WriteError(target, reason) from error
-    try:
-        yield draft
-        if target.is_dir():
-            target.rmdir()
-        draft.rename(target)
-    except OSError as error:
-        raise WriteError(target, f"cannot be written: {error.strerror or error}") from error
-    finally:
-        shutil.rmtree(draft, ignore_errors=True)
 
 
 def _write_manifest(
