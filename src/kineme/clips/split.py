@@ -33,6 +33,7 @@ from kineme.clips.loops import loop
 from kineme.errors import MotionError, ParameterError
 from kineme.formats import write
 from kineme.formats.channels.writing import rows_of
+from kineme.labels.delimited import as_text
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import cut
@@ -144,4 +145,6 @@ def _write_manifest(
         lines = csv.writer(file, lineterminator="\n")
         lines.writerow(["file", "source", *SPANS, *(CARRY if carries[0] else ())])
         for row, name, carry in zip(rows, names, carries, strict=True):
-            lines.writerow([name, source, *(getattr(row, span) for span in SPANS), *carry])
+            cells = [name, source, *(getattr(row, span) for span in SPANS)]
+            safe = [as_text(cell) if isinstance(cell, str) else cell for cell in cells]
+            lines.writerow([*safe, *carry])
