@@ -93,9 +93,10 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="a quarter of the seeds")
     seeds = 6 if parser.parse_args().quick else 24
     for condition in CONDITIONS:
-        rows = []
-        for case in cases(condition, seeds):
-            rows.append(evaluate_segmentation(case.truth, kineme.segment(case.motion)))
+        rows = [
+            evaluate_segmentation(case.truth, kineme.segment(case.motion))
+            for case in cases(condition, seeds)
+        ]
         show(condition, {"kineme": mean(rows)}, PROMISED)
 
 

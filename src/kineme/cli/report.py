@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.preset_options import PresetName
+from kineme.cli.preset_options import Detail, PresetName
 from kineme.cli.reading import Effectors, Quiet
 from kineme.cli.request import Request
 from kineme.cli.targets import check_writable
@@ -33,6 +33,7 @@ def report(
         ),
     ] = None,
     preset: PresetName = DEFAULT,
+    detail: Detail = 1.0,
     recursive: Recursive = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
@@ -43,7 +44,7 @@ def report(
 
     One file with everything in it: it needs neither a server nor a network.
     """
-    request = Request.of(preset, constants, reading, effectors)
+    request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     pages = batch.files("--output", output, ".html")
     tables = batch.tables("--segments", segments)
