@@ -52,12 +52,12 @@ def hdm05(seeds: int) -> Iterator[Case]:
     """Sequences of HDM05 exercises, actors in turn."""
     for seed in range(seeds):
         actor = ACTORS[seed % len(ACTORS)]
-        made = exercise_sequence(_exercises(actor), seed)
+        made = exercise_sequence(exercises(actor), seed)
         yield Case(f"{actor} {seed}", made.motion, annotation(made.truth))
 
 
 @cache
-def _exercises(actor: str) -> list[Exercise]:
+def exercises(actor: str) -> list[Exercise]:
     """The cuts ``HDM_<actor>_<class>_<number>_120.amc`` of one actor."""
     skeleton = DATA / "hdm05" / "asf" / f"HDM_{actor}.asf"
     exercises = []

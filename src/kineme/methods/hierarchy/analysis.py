@@ -89,7 +89,7 @@ def analyze_channels(
     parents = np.searchsorted(frames, primitives[:-1], side="right") - 1
     agreement = np.array([each.agreement for each in counted])[parents]
     return HierarchyFound(
-        features, preset, unit, frames, labels, confidence, primitives, agreement, timings
+        features, preset, unit, frames, labels, confidence, primitives, agreement, fine, timings
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -43,6 +44,8 @@ class HierarchyFound:
         Borders of the repetitions, those of segments included.
     agreement : (primitives,) array
         How certain their number is, 0 to 1.
+    fine : (pieces + 1,) array
+        Borders of the finest segments, samples of `features`.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -55,6 +58,7 @@ class HierarchyFound:
     confidence: NDArray[np.float64]
     primitives: Frames
     agreement: NDArray[np.float64]
+    fine: Frames
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
@@ -67,6 +71,12 @@ class HierarchyFound:
             clusters=(self.labels, self.labels[parents]),
             scores=(self.confidence, self.agreement),
         )
+
+    def levels(self, columns: Columns) -> Mapping[float, Columns]:
+        """The table at coarser and finer details; see `kineme.methods.hierarchy.levels`."""
+        from kineme.methods.hierarchy.levels import levels_of
+
+        return levels_of(self, columns)
 
     @cached_property
     def graph(self) -> NeighborGraph:
