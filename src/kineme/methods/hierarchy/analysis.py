@@ -94,7 +94,7 @@ def analyze_channels(
         links, starts = evidence(features, unit, borders, labels, own, preset)
         counts, cuts = _counted(rows, primitives, parents, own, preset)
         shown = Evidence(links, starts, counts, cuts, parents)
-    return HierarchyFound(features, preset, unit, frames, labels, primitives, shown, timings)
+    return HierarchyFound(features, preset, unit, frames, labels, primitives, shown, fine, timings)
 
 
 def _joined(level: tree.Level, shortest: int) -> tuple[Frames, Frames]:

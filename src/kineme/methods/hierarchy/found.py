@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -44,6 +45,8 @@ class HierarchyFound:
         Borders of the repetitions, those of segments included.
     evidence : Evidence
         By which it is told how sure all that is.
+    fine : (pieces + 1,) array
+        Borders of the finest segments, samples of `features`.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -55,6 +58,7 @@ class HierarchyFound:
     labels: Frames
     primitives: Frames
     evidence: Evidence
+    fine: Frames
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
@@ -74,6 +78,12 @@ class HierarchyFound:
     def confidence(self) -> Confidence:
         """How probable it is that each thing found is right."""
         return confidence(self.evidence, self.preset)
+
+    def levels(self, columns: Columns) -> Mapping[float, Columns]:
+        """The table at coarser and finer details; see `kineme.methods.hierarchy.levels`."""
+        from kineme.methods.hierarchy.levels import levels_of
+
+        return levels_of(self, columns)
 
     @cached_property
     def graph(self) -> NeighborGraph:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -75,6 +76,12 @@ class RecurrenceFound:
     def confidence(self) -> Confidence:
         """How probable it is that each thing found is right."""
         return confidence(self.evidence, self.preset)
+
+    def levels(self, columns: Columns) -> Mapping[float, Columns]:
+        """The table at coarser and finer details; see `kineme.methods.recurrence.levels`."""
+        from kineme.methods.recurrence.levels import levels_of
+
+        return levels_of(self, columns)
 
     @cached_property
     def graph(self) -> NeighborGraph:
