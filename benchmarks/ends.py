@@ -63,7 +63,7 @@ def main() -> int:
     for condition in SHOWN:
         found: dict[str, list[float]] = defaultdict(list)
         for case in synthetic(condition, seeds):
-            for place, values in excesses(case.segments, kineme.segment(case.motion)).items():
+            for place, values in excesses(case.made, kineme.segment(case.motion)).items():
                 found[place] += values
         found = {"ends": found["first"] + found["last"], **found}
         for place in ("ends", "first", "last", "inner"):

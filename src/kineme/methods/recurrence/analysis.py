@@ -18,6 +18,7 @@ from kineme._threads import map_threads
 from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
 from kineme.methods.recurrence.ends import fitted_ends
+from kineme.methods.recurrence.evidence import evidence
 from kineme.methods.recurrence.found import RecurrenceFound
 from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
@@ -65,7 +66,7 @@ def analyze_actions(
         recurring = _recurrence(rows, preset, preset.min_scale, preset.max_scale)
     with stage("actions"):
         found = find_actions(recurring, preset)
-        borders, labels, confidence = _activities(found, recurring, preset, len(rows))
+        borders, labels, own = _activities(found, recurring, preset, len(rows))
     with stage("repetitions"):
         limits = found.borders * recurring.step
         counted = _count(recurring, borders, labels, limits, preset)
@@ -78,21 +79,17 @@ def analyze_actions(
             [each.cuts for each in compress(counted, known)],
             preset,
         )
-    borders, activity = _tiled(len(rows), ends.starts, ends.stops)
-    primitives, repeated = _tiled(
-        len(rows), ends.firsts, ends.lasts, [borders, *(each.cuts for each in counted)]
-    )
+        borders, activity = _tiled(len(rows), ends.starts, ends.stops)
+        primitives, repeated = _tiled(
+            len(rows), ends.firsts, ends.lasts, [borders, *(each.cuts for each in counted)]
+        )
+        own = np.append(own[known], np.nan)[activity]
+        clusters = np.append(labels[known], -1)[repeated]
+        labels = np.append(labels[known], -1)[activity]
+    with stage("confidence"):
+        shown = evidence(recurring, preset, borders, labels, own, primitives, clusters >= 0)
     return RecurrenceFound(
-        rows,
-        recurring,
-        preset,
-        borders,
-        np.append(labels[known], -1)[activity],
-        np.append(confidence[known], np.nan)[activity],
-        primitives,
-        np.append(labels[known], -1)[repeated],
-        np.append([each.agreement for each in compress(counted, known)], np.nan)[repeated],
-        timings,
+        rows, recurring, preset, borders, labels, primitives, clusters, shown, timings
     )
 
 
@@ -227,7 +224,7 @@ def _count(
     def count(segment: int) -> Repetitions:
         start, stop = int(borders[segment]), int(borders[segment + 1])
         if labels[segment] < 0:
-            return Repetitions(np.empty(0, np.int64), np.nan)
+            return Repetitions(np.empty(0, np.int64))
         action = int(np.searchsorted(limits, (start + stop) // 2, side="right")) - 1
         first = (start + min(start, int(limits[action]))) // 2
         last = (stop + max(stop, int(limits[action + 1]))) // 2

@@ -131,13 +131,6 @@ class RecurrenceConstants(CountingPreset):
         "what lies beyond the first and the last repetition is transition where it is farther from "
         "the mean repetition than this times the usual distance of repetitions", limits=SOME_FACTOR,
     )  # fmt: skip
-    # What is said to be looked at.
-    unsure_action: float = constant(
-        "confidence below which a note says to look at the activity", limits=SHARE, fine=True
-    )
-    unsure_count: float = constant(
-        "score below which a note says to look at the repetitions", limits=SHARE, fine=True
-    )
     # Signals, which have no size of their own.
     recurs_at: float = constant(
         "distance at which the median sample of signals recurs: their unit of length", fine=True,
