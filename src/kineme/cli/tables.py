@@ -66,7 +66,8 @@ def _activity_rows(segmentation: Segmentation) -> Table:
     table = _table("#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label")
     primitives = segmentation.primitives
     for number, row in enumerate(segmentation.activities):
-        inside = primitives.cluster[primitives.activity == number].tolist()
+        repeated = (primitives.activity == number) & (primitives.kind == "activity")
+        inside = primitives.cluster[repeated].tolist()
         count = _repetitions(inside, row.cluster) if row.kind == "activity" else ""
         table.add_row(
             *_span(number, row), count, _cluster(row.cluster), row.label, style=_style(row)
