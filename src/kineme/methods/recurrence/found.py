@@ -45,6 +45,8 @@ class RecurrenceFound:
         Borders of the primitives, from 0 to n, those of activities included.
     agreement : (primitives,) array
         How certain the count is, 0 to 1, nan in transitions.
+    narrow : Recurrence
+        The same for short actions.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -57,6 +59,7 @@ class RecurrenceFound:
     confidence: NDArray[np.float64]
     primitives: Frames
     agreement: NDArray[np.float64]
+    narrow: Recurrence
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
