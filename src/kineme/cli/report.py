@@ -8,13 +8,15 @@ from typing import Annotated, Any
 import typer
 
 from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.preset_options import Detail, PresetName
-from kineme.cli.reading import Effectors, Quiet
+from kineme.cli.preset_options import Detail, PresetName, with_preset_options
+from kineme.cli.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.request import Request
 from kineme.cli.targets import check_writable
 from kineme.methods.presets import DEFAULT
 
 
+@with_preset_options
+@with_reading_options
 def report(
     files: Files,
     output: Annotated[

@@ -10,8 +10,8 @@ import typer
 
 from kineme.cli.help import TABLES
 from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.preset_options import Detail, PresetName
-from kineme.cli.reading import Effectors, Json, Quiet
+from kineme.cli.preset_options import Detail, PresetName, with_preset_options
+from kineme.cli.reading import Effectors, Json, Quiet, with_reading_options
 from kineme.cli.request import Request
 from kineme.cli.targets import check_writable
 from kineme.methods.presets import DEFAULT
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation
 
 
+@with_preset_options
+@with_reading_options
 def segment(
     files: Files,
     preset: PresetName = DEFAULT,

@@ -61,11 +61,12 @@ class Found(Protocol):
     def columns(self) -> Columns:
         """Columns of a segment table: ``level``, ``kind``, ``start_frame``, ``stop_frame``.
 
-        Frames count samples. ``cluster`` and ``score`` go with them.
+        Frames count samples. ``cluster`` and ``score`` go with them, and
+        ``border_confidence`` where the method knows how sure borders are.
         """
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """A sentence for each segment that the method is not sure of.
+        """A sentence for each thing that the method is not sure of, the worst first.
 
         Parameters
         ----------
