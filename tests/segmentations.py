@@ -53,6 +53,7 @@ def segmentations(draw: st.DrawFn) -> Segmentation:
             "cluster": column(st.integers(-1, 5)),
             "label": column(LABELS),
             "score": column(scores),
+            "border_confidence": column(scores),
         },
         n_frames=n_frames,
         fps=draw(RATES),

@@ -26,6 +26,7 @@ import _figures
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.labels import read_segments, write_segments
+from kineme.segments.table import DESCRIBED
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -78,6 +79,13 @@ def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
     del written["segments"][0]["stop_frame"]
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate(written, schema)
+
+
+def test_columns_of_the_docs_are_those_of_the_table() -> None:
+    text = (ROOT / "docs" / "segments.md").read_text(encoding="utf-8")
+    types = {str: "text", int: "whole number", float: "number"}
+    for name, column in DESCRIBED.items():
+        assert f"| `{name}` | {types[column.type]} | {column.meaning} |\n" in text
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

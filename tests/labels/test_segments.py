@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pyarrow import parquet
 
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.labels import read_segments, write_segments
@@ -57,7 +58,7 @@ def test_a_csv_alone_keeps_the_whole_table(folder: Path, result: Segmentation) -
     alone = read_segments(path)
     assert alone.n_frames == result.n_frames
     assert alone.fps == pytest.approx(result.fps, rel=1e-15)
-    for name in set(COLUMNS) - {"score", "start_s", "stop_s"}:
+    for name in set(COLUMNS) - {"score", "border_confidence", "start_s", "stop_s"}:
         assert alone.table.columns()[name].tolist() == result.table.columns()[name].tolist()
     assert "computed from frames and seconds" in alone.provenance["notes"][0]
 
@@ -110,7 +111,41 @@ def test_json_follows_its_documented_schema(tmp_path: Path, small: Segmentation)
         "activity": 0,
         "label": 'a "long", step',
         "score": None,
+        "action": -1,
+        "border_confidence": None,
     }
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".json", ".parquet"])
+def test_tables_older_than_the_last_columns_are_read(
+    tmp_path: Path, small: Segmentation, suffix: str
+) -> None:
+    path = tmp_path / f"cuts{suffix}"
+    write_segments(small, path)
+    younger = ["action", "border_confidence"]
+    if suffix == ".json":
+        data = json.loads(path.read_text())
+        for row in data["segments"]:
+            del row["action"], row["border_confidence"]
+        path.write_text(json.dumps(data))
+    elif suffix == ".csv":
+        pd.read_csv(path).drop(columns=younger).to_csv(path, index=False)
+    else:
+        parquet.write_table(parquet.read_table(path).drop_columns(younger), path)
+    assert read_segments(path) == small
+
+
+def test_the_action_of_a_row_is_the_cluster_of_its_activity() -> None:
+    columns = {
+        "level": ["activity", "primitive", "activity", "primitive", "primitive"],
+        "kind": ["activity", "activity", "transition", "transition", "activity"],
+        "start_frame": [0, 0, 50, 50, 20],
+        "stop_frame": [50, 20, 120, 120, 50],
+        "cluster": [3, 7, -1, -1, 8],
+        "action": [9, 9, 9, 9, 9],  # computed, whatever is given
+    }
+    table = Segmentation.from_columns(columns, n_frames=120, fps=30).table
+    assert table.action.tolist() == [3, -1, 3, 3, -1]
 
 
 def test_names_a_reader_does_not_know_are_ignored(tmp_path: Path, small: Segmentation) -> None:
@@ -184,7 +219,7 @@ def test_bad_json_says_what_is_wrong(
             "activity,0,12o",
             "line 2: stop_frame must be a whole number, not '12o'",
         ),
-        ("score\n", "points\n", "it has no column 'score'"),
+        ("score,", "points,", "it has no column 'score'"),
         ("activity,50,120,", "activity,50\n#", "line 4: the line ends before column"),
         (",120,", ",121,", "ends at frame 121, but cuts.provenance.json speaks of 120 frames"),
     ],

@@ -1,8 +1,8 @@
 """BIDS ``events.tsv`` with its JSON sidecar: both levels, clusters and scores.
 
 Columns ``onset``, ``duration`` (seconds) and ``trial_type`` are those of the
-standard; ``level``, ``cluster``, ``score``, ``start_frame`` and ``stop_frame``
-are described in the sidecar, which also has ``SamplingFrequency`` and
+standard; ``level``, ``cluster``, ``score``, ``start_frame``, ``stop_frame``, ``action`` and
+``border_confidence`` are described in the sidecar, which also has ``SamplingFrequency`` and
 ``RecordingDuration`` as in Motion-BIDS, and a digest of the cuts. A missing
 value is ``n/a``. What a sidecar already says about columns is kept.
 
@@ -44,6 +44,8 @@ COLUMNS = {
     "score": {"Description": "How sure the producer was"},
     "start_frame": {"Description": "First frame, counted from 0"},
     "stop_frame": {"Description": "One past the last frame"},
+    "action": {"Description": "Cluster of the activity that it lies in; n/a: in no cluster"},
+    "border_confidence": {"Description": "How sure it is that a segment of its level starts there"},
 }
 MISSING = "n/a"
 
@@ -89,10 +91,13 @@ def sidecar_path(path: Path) -> Path:
 
 
 def _cells(row: Segment) -> list[Any]:
-    cluster = row.cluster if row.cluster >= 0 else MISSING
-    score = MISSING if math.isnan(row.score) else row.score
+    cluster, action = (MISSING if each < 0 else each for each in (row.cluster, row.action))
+    score, border = (
+        MISSING if math.isnan(each) else each for each in (row.score, row.border_confidence)
+    )
+    time = [row.start_s, row.stop_s - row.start_s]
     frames = [row.start_frame, row.stop_frame]
-    return [row.start_s, row.stop_s - row.start_s, text_of(row), row.level, cluster, score, *frames]
+    return [*time, text_of(row), row.level, cluster, score, *frames, action, border]
 
 
 def _span(cells: dict[str, str], path: Path, line: int) -> Span:

@@ -5,7 +5,7 @@ What does not fit into a table (frame rate, provenance, timings) goes into
 ``NAME.provenance.json`` beside ``NAME.csv``, with a digest of the cuts: a table whose
 cuts were moved since says so in its notes. Without that file the frame rate is found again from the
 last row, and the table keeps all it says.
-An empty score is nan. Columns are found by name; others are ignored.
+An empty number is nan. Columns are found by name; others are ignored.
 
 A table of intervals that people keep by hand is read as well: ``label`` with ``start_s``
 and ``stop_s``, or with ``start_frame`` and ``stop_frame``, in any order, with ``level``,
@@ -34,17 +34,8 @@ from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Level, Segment
+from kineme.segments.table import COLUMNS, DESCRIBED, Level, Segment, lacking
 
-NUMBERS: dict[str, type[int | float]] = {
-    "start_frame": int,
-    "stop_frame": int,
-    "start_s": float,
-    "stop_s": float,
-    "cluster": int,
-    "activity": int,
-    "score": float,
-}
 Unit = Literal["seconds", "frames"]
 SPANS: dict[Unit, tuple[str, str]] = {
     "seconds": ("start_s", "stop_s"),
@@ -147,9 +138,10 @@ def _count(row: dict[str, str], path: Path, line: int) -> int | None:
 
 
 def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
-    columns: dict[str, list[Any]] = {name: [] for name in COLUMNS}
+    there = rows.fieldnames or ()
+    columns: dict[str, list[Any]] = {name: [] for name in COLUMNS if name in there}
     try:
-        missing = [name for name in COLUMNS if name not in (rows.fieldnames or ())]
+        missing = lacking(there)
         if missing:
             raise ReadError(path, f"is not a segment table: it has no column {missing[0]!r}")
         for row in rows:
@@ -165,12 +157,13 @@ def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
 def _cell(text: str | None, name: str, path: Path, line: int) -> str | float:
     if text is None:
         raise ReadError(path, f"the line ends before column {name!r}", line=line)
-    if name == "score" and not text.strip():
+    kind = DESCRIBED[name].type
+    if kind is float and not text.strip():
         return math.nan
     try:
-        return NUMBERS[name](text) if name in NUMBERS else text
+        return kind(text)
     except ValueError as error:
-        wanted = "a whole number" if NUMBERS[name] is int else "a number"
+        wanted = "a whole number" if kind is int else "a number"
         raise ReadError(path, f"{name} must be {wanted}, not {text!r}", line=line) from error
 
 
@@ -200,8 +193,7 @@ def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
 
 
 def _cells(row: Segment) -> list[Any]:
-    *cells, score = astuple(row)
-    return [*cells, "" if math.isnan(score) else score]
+    return ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in astuple(row)]
 
 
 def _recognises(path: Path) -> bool:

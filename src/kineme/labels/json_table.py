@@ -10,11 +10,12 @@ One object:
       "timings": {"graph": 0.02},  seconds per stage
       "segments": [                one object per row, ordered by level, then time
         {"level": "activity", "kind": "activity", "start_frame": 0, "stop_frame": 600,
-         "start_s": 0.0, "stop_s": 5.0, "cluster": -1, "activity": 0, "label": "", "score": null}
+         "start_s": 0.0, "stop_s": 5.0, "cluster": -1, "activity": 0, "label": "", "score": null,
+         "action": -1, "border_confidence": null}
       ]
     }
 
-The columns are those of `kineme.segments.table`; a missing score is
+The columns are those of `kineme.segments.table`; a number that nobody knows is
 ``null``. A reader must ignore names it does not know; a change that old
 readers would misunderstand gets the next number.
 """
@@ -33,7 +34,7 @@ from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment
+from kineme.segments.table import COLUMNS, DESCRIBED, Segment, lacking
 
 SCHEMA = "kineme.segments/1"
 
@@ -63,11 +64,10 @@ def read(path: Path) -> Segmentation:
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise ReadError(path, '"segments" must be a list of objects')
     for number, row in enumerate(rows):
-        missing = [name for name in COLUMNS if name not in row]
+        missing = lacking(row)
         if missing:
             raise ReadError(path, f"segment {number} has no {missing[0]!r}")
-    columns = {name: [row[name] for row in rows] for name in COLUMNS}
-    columns["score"] = [math.nan if score is None else score for score in columns["score"]]
+    columns = {name: [_value(row, name) for row in rows] for name in COLUMNS}
     return with_head(columns, data, path)
 
 
@@ -113,9 +113,17 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     return Segmentation.from_columns(columns, n_frames=n_frames, fps=fps, **notes)
 
 
+def _value(row: dict[str, Any], name: str) -> Any:
+    """A cell; a number that is null, or that older files do not have, is nan."""
+    value = row[name] if DESCRIBED[name].since_first else row.get(name)
+    return math.nan if value is None and DESCRIBED[name].type is float else value
+
+
 def _cells(row: Segment) -> dict[str, Any]:
-    cells = asdict(row)
-    return cells | {"score": None if math.isnan(row.score) else row.score}
+    return {
+        name: None if isinstance(value, float) and math.isnan(value) else value
+        for name, value in asdict(row).items()
+    }
 
 
 FORMAT = LabelFormat(

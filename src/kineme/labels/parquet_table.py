@@ -19,7 +19,7 @@ from kineme.labels.heads import tail
 from kineme.labels.json_table import head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment
+from kineme.segments.table import COLUMNS, Segment, lacking
 
 KEY = b"kineme.segments"
 
@@ -38,12 +38,13 @@ def read(path: Path) -> Segmentation:
     content = load(path)
     file = parquet_file(content)
     metadata = file.schema_arrow.metadata or {}
-    missing = [name for name in COLUMNS if name not in file.schema_arrow.names]
-    if KEY not in metadata or missing:
+    there = file.schema_arrow.names
+    if KEY not in metadata or lacking(there):
         raise ReadError(path, "is a Parquet file, but not a segment table written by kineme")
     head = parse(metadata[KEY].decode(errors="replace"), path)
-    table = parquet_columns(content, file, COLUMNS)
-    columns = {name: table.column(name).to_numpy() for name in COLUMNS}
+    names = [name for name in COLUMNS if name in there]
+    table = parquet_columns(content, file, names)
+    columns = {name: table.column(name).to_numpy() for name in names}
     return with_head(columns, head, path)
 
 

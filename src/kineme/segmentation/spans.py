@@ -131,6 +131,8 @@ def _with_gaps(columns: Columns, gaps: Spans) -> Columns:
         "start_frame": np.array(starts, np.int64),
         "stop_frame": np.array(stops, np.int64),
         "cluster": np.full(n, -1, np.int64),
-        "score": np.full(n, np.nan),
     }
-    return {name: np.concatenate([column, more[name]]) for name, column in columns.items()}
+    unknown = np.full(n, np.nan)
+    return {
+        name: np.concatenate([column, more.get(name, unknown)]) for name, column in columns.items()
+    }

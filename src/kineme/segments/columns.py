@@ -49,7 +49,11 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
         "cluster": _integers(columns.get("cluster", np.full(n, -1)), "cluster"),
         "activity": np.zeros(n, np.int64),
         "label": _texts(columns.get("label", np.full(n, "")), "label"),
-        "score": _scores(columns.get("score", np.full(n, np.nan))),
+        "score": _shares(columns.get("score", np.full(n, np.nan)), "score"),
+        "action": np.full(n, -1),
+        "border_confidence": _shares(
+            columns.get("border_confidence", np.full(n, np.nan)), "border_confidence"
+        ),
     }
     if "activity" in columns:
         arrays["activity"] = _integers(columns["activity"], "activity")
@@ -59,8 +63,20 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
     if "activity" not in columns:
         parents = np.sort(start[level == "activity"])
         arrays["activity"] = np.searchsorted(parents, start, side="right") - 1
+    arrays["action"] = _actions(arrays)
     order = np.lexsort((stop, start, level))
     return SegmentTable(**{name: array[order] for name, array in arrays.items()})
+
+
+def _actions(arrays: Mapping[str, NDArray[Any]]) -> NDArray[np.int64]:
+    """The cluster of the activity that each row lies in, -1 where there is none."""
+    activities = np.flatnonzero(arrays["level"] == "activity")
+    activities = activities[np.argsort(arrays["start_frame"][activities], kind="stable")]
+    clusters = np.append(arrays["cluster"][activities], -1)
+    starts = arrays["start_frame"][activities]
+    enclosing = np.searchsorted(starts, arrays["start_frame"], side="right") - 1
+    actions: NDArray[np.int64] = clusters[enclosing]
+    return actions
 
 
 def _integers(values: ArrayLike, name: str) -> NDArray[np.int64]:
@@ -70,10 +86,10 @@ def _integers(values: ArrayLike, name: str) -> NDArray[np.int64]:
     return array.astype(np.int64)
 
 
-def _scores(values: ArrayLike) -> NDArray[np.float64]:
-    scores = _array(values, "score")
+def _shares(values: ArrayLike, name: str) -> NDArray[np.float64]:
+    scores = _array(values, name)
     if scores.dtype.kind not in "iuf" or np.isinf(scores).any():
-        raise ParameterError("column 'score' must be finite, or nan where there is no score")
+        raise ParameterError(f"column {name!r} must be finite, or nan where nothing is known")
     return scores.astype(np.float64)
 
 

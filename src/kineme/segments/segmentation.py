@@ -92,9 +92,10 @@ class Segmentation:
         """A segmentation from columns in any row order.
 
         ``level``, ``kind``, ``start_frame`` and ``stop_frame`` are needed.
-        ``cluster`` is -1, ``label`` empty and ``score`` nan where not given;
-        ``activity`` then follows from the frames. ``start_s`` and ``stop_s``
-        are always computed, whatever is given.
+        ``cluster`` is -1, ``label`` empty, ``score`` and ``border_confidence``
+        nan where not given; ``activity`` then follows from the frames.
+        ``start_s``, ``stop_s`` and ``action`` are always computed, whatever
+        is given.
 
         Parameters
         ----------

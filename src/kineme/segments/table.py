@@ -1,29 +1,15 @@
 """The segment table: the package's common tongue.
 
-It has one row per segment and these columns:
-
-=============  ======  =====================================================
-``level``      str     ``activity`` or ``primitive``
-``kind``       str     ``activity``, or ``transition`` between two of them
-``start_frame``  int   first frame, from 0, at the rate of the source file
-``stop_frame``   int   one past the last frame
-``start_s``    float   ``start_frame / fps``
-``stop_s``     float   ``stop_frame / fps``
-``cluster``    int     equal numbers are equal movements; -1: in no cluster
-``activity``   int     the activity-level segment it lies in (or is), from 0
-``label``      str     a name given by a person or a knowledge base, or empty
-``score``      float   how sure the producer was; nan where it does not say
-=============  ======  =====================================================
-
-Rows are ordered by level, then by time. The activity level tiles the
-recording, and so does the primitive level where there is one: the first
-segment starts at 0, each starts where the one before it stops, the last stops
-at ``n_frames``. Frames are the truth; seconds are always derived from them.
+It has one row per segment and the columns of `DESCRIBED`. Rows are ordered by
+level, then by time. The activity level tiles the recording, and so does the
+primitive level where there is one: the first segment starts at 0, each starts
+where the one before it stops, the last stops at ``n_frames``. Frames are the
+truth; seconds are always derived from them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, get_args, overload
 
@@ -38,18 +24,49 @@ if TYPE_CHECKING:
 Level = Literal["activity", "primitive"]
 Kind = Literal["activity", "transition"]
 
-COLUMNS = (
-    "level",
-    "kind",
-    "start_frame",
-    "stop_frame",
-    "start_s",
-    "stop_s",
-    "cluster",
-    "activity",
-    "label",
-    "score",
-)
+
+@dataclass(frozen=True)
+class Column:
+    """One column of the table: what files, pages and docs need to know of it.
+
+    Attributes
+    ----------
+    type : type
+        Of its cells; a float is nan where nothing is known.
+    meaning : str
+        In a sentence.
+    since_first : bool
+        Whether every file that kineme wrote has it; else it may be missing.
+    """
+
+    type: type[str | int | float]
+    meaning: str
+    since_first: bool = True
+
+
+DESCRIBED: Mapping[str, Column] = {
+    "level": Column(str, "`activity` or `primitive`"),
+    "kind": Column(str, "`activity`, or `transition` between two of them"),
+    "start_frame": Column(int, "first frame, from 0, at the rate of the source file"),
+    "stop_frame": Column(int, "one past the last frame"),
+    "start_s": Column(float, "`start_frame / fps`"),
+    "stop_s": Column(float, "`stop_frame / fps`"),
+    "cluster": Column(int, "equal numbers are equal movements; -1: in no cluster"),
+    "activity": Column(int, "the segment of the activity level that it lies in (or is), from 0"),
+    "label": Column(str, "a name given by a person or a knowledge base, or empty"),
+    "score": Column(float, "how sure the producer was; none where it does not say"),
+    "action": Column(int, "`cluster` of the activity that it lies in (or is)", since_first=False),
+    "border_confidence": Column(
+        float, "how sure it is that a segment of its level starts there; none where nobody says",
+        since_first=False,
+    ),
+}  # fmt: skip
+COLUMNS = tuple(DESCRIBED)
+
+
+def lacking(names: Container[str]) -> list[str]:
+    """The columns that every segment table in a file has, and these names have not."""
+    return [name for name, known in DESCRIBED.items() if known.since_first and name not in names]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +83,8 @@ class Segment:
     activity: int
     label: str
     score: float
+    action: int
+    border_confidence: float
 
     @property
     def duration_s(self) -> float:
@@ -99,6 +118,8 @@ class SegmentTable:
     activity: NDArray[np.int64]
     label: NDArray[np.str_]
     score: NDArray[np.float64]
+    action: NDArray[np.int64]
+    border_confidence: NDArray[np.float64]
 
     @property
     def duration_s(self) -> NDArray[np.float64]:

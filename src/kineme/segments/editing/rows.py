@@ -18,7 +18,7 @@ def moved(rows: Rows, frame: int, to: int) -> Rows:
     return [
         replace(row, stop_frame=to, score=math.nan)
         if row.stop_frame == frame
-        else replace(row, start_frame=to, score=math.nan)
+        else replace(row, start_frame=to, score=math.nan, border_confidence=math.nan)
         if row.start_frame == frame
         else row
         for row in rows
@@ -31,7 +31,9 @@ def cut(rows: Rows, frame: int) -> Rows:
     for row in rows:
         if row.start_frame < frame < row.stop_frame:
             parts.append(replace(row, stop_frame=frame, score=math.nan))
-            row = replace(row, start_frame=frame, score=math.nan)  # noqa: PLW2901
+            row = replace(  # noqa: PLW2901
+                row, start_frame=frame, score=math.nan, border_confidence=math.nan
+            )
         parts.append(row)
     return parts
 
@@ -40,8 +42,13 @@ def joined(rows: Rows, first: int, last: int, like: int) -> Rows:
     """Rows ``first`` to ``last`` as one that is like one of them."""
     if first == last:
         return rows
-    span = rows[first].start_frame, rows[last].stop_frame
-    one = replace(rows[like], start_frame=span[0], stop_frame=span[1], score=math.nan)
+    one = replace(
+        rows[like],
+        start_frame=rows[first].start_frame,
+        stop_frame=rows[last].stop_frame,
+        score=math.nan,
+        border_confidence=rows[first].border_confidence,
+    )
     return [*rows[:first], one, *rows[last + 1 :]]
 
 

@@ -26,7 +26,7 @@ TARGET = Path(__file__).parent / "src" / "messages.ts"
 HEAD = (
     "// Made from kineme/web/messages.py and requests.py by make_messages.py; change them there.\n"
 )
-NULL_FOR_NAN = {(Segment, "score")}  # JSON has no nan
+NULL_FOR_NAN = {(Segment, "score"), (Segment, "border_confidence")}  # JSON has no nan
 PLAIN: dict[Any, str] = {
     inspect.StrType: "string",
     inspect.IntType: "number",

@@ -16,6 +16,8 @@ export interface Segment {
   activity: number;
   label: string;
   score: number | null;
+  action: number;
+  border_confidence: number | null;
 }
 
 /** A segment table as its JSON file has it (`kineme.segments/1`). */

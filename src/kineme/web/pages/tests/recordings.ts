@@ -14,6 +14,8 @@ export function segment(start: number, stop: number, more: Partial<Segment> = {}
     activity: 0,
     label: "",
     score: null,
+    action: -1,
+    border_confidence: null,
     ...more,
   };
 }

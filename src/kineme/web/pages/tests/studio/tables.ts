@@ -16,6 +16,8 @@ export function row(level: Level, start: number, stop: number, cluster = 0, labe
     activity: 0,
     label,
     score: null,
+    action: -1,
+    border_confidence: null,
   };
 }
 
