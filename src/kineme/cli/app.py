@@ -2,48 +2,77 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Iterator, Mapping
+from functools import cache
+from importlib import import_module
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from kineme._version import __version__
-from kineme.cli.convert import convert
-from kineme.cli.data import data
-from kineme.cli.demo import demo
-from kineme.cli.evaluate import evaluate
-from kineme.cli.graph import graph
 from kineme.cli.help import Command
-from kineme.cli.info import info
-from kineme.cli.label import label
-from kineme.cli.preset_options import with_preset_options
-from kineme.cli.reading import BODY, with_reading_options
-from kineme.cli.report import report
-from kineme.cli.segment import segment
-from kineme.cli.split import split
-from kineme.cli.studio import studio
-from kineme.cli.synthesize import synthesize
-from kineme.cli.transfer import transfer
+
+if TYPE_CHECKING:
+    from typer import _click
+
+COMMANDS = (
+    "segment",
+    "split",
+    "report",
+    "convert",
+    "info",
+    "demo",
+    "evaluate",
+    "data",
+    "label",
+    "transfer",
+    "graph",
+    "synthesize",
+    "studio",
+)
+"""Each the function of its name in the module of its name, in the order of the help."""
+
+
+class _OnDemand(Mapping[str, "_click.Command"]):
+    """The commands by name, each imported when it is asked for: a start is as short as can be."""
+
+    def __getitem__(self, name: str) -> _click.Command:
+        if name not in COMMANDS:
+            raise KeyError(name)
+        return _command(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(COMMANDS)
+
+    def __len__(self) -> int:
+        return len(COMMANDS)
+
+
+class _Commands(TyperGroup):
+    """The group of `COMMANDS`."""
+
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**{**attributes, "commands": _OnDemand()})
+
+
+@cache
+def _command(name: str) -> _click.Command:
+    alone = typer.Typer(
+        add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich"
+    )
+    alone.command(name, cls=Command)(getattr(import_module(f"kineme.cli.{name}"), name))
+    return typer.main.get_command(alone)
+
 
 app = typer.Typer(
     name="kineme",
+    cls=_Commands,
     help="Cut recordings of human motion into activities, transitions and repeated primitives.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
-app.command(cls=Command)(with_preset_options(with_reading_options(segment)))
-app.command(cls=Command)(with_preset_options(with_reading_options(split)))
-app.command(cls=Command)(with_preset_options(with_reading_options(report)))
-app.command(cls=Command)(with_reading_options(convert))
-app.command(cls=Command)(with_reading_options(info))
-app.command(cls=Command)(demo)
-app.command(cls=Command)(evaluate)
-app.command(cls=Command)(data)
-app.command(cls=Command)(with_reading_options(label, BODY))
-app.command(cls=Command)(with_reading_options(transfer, BODY))
-app.command(cls=Command)(with_reading_options(graph, BODY))
-app.command(cls=Command)(synthesize)
-app.command(cls=Command)(with_reading_options(studio, BODY))
 
 
 def _show_version(wanted: bool) -> None:

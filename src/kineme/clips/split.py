@@ -23,18 +23,17 @@ The folder appears whole or not at all, and nothing that was there is touched.
 from __future__ import annotations
 
 import csv
-import secrets
-import shutil
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from math import degrees
 from os import PathLike
 from pathlib import Path
 
+from kineme._files import atomic_folder
 from kineme.clips.loops import loop
-from kineme.errors import MotionError, ParameterError, WriteError
+from kineme.errors import MotionError, ParameterError
 from kineme.formats import write
 from kineme.formats.channels.writing import rows_of
+from kineme.labels.delimited import as_text
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import cut
@@ -97,7 +96,7 @@ def split(
     target = Path(folder)
     stem = _plain(Path(recording.provenance.path or "recording").stem)
     names = [f"{stem}_{i:04d}_{_plain(text_of(row))}{suffix}" for i, row in enumerate(rows)]
-    with _new_folder(target) as draft:
+    with atomic_folder(target) as draft:
         carries = [write_clip(row, draft / name) for row, name in zip(rows, names, strict=True)]
         _write_manifest(draft / MANIFEST, recording, rows, names, carries)
     return [target / name for name in names]
@@ -134,28 +133,6 @@ def _plain(text: str) -> str:
     return kept.encode(errors="replace")[:80].decode(errors="ignore")
 
 
-@contextmanager
-def _new_folder(target: Path) -> Iterator[Path]:
-    """A folder beside ``target`` that takes its place when the block ends without an error."""
-    if target.exists() and not (target.is_dir() and not any(target.iterdir())):
-        raise WriteError(target, "is there already: name a new folder, or empty this one")
-    draft = target.parent / f".{secrets.token_hex(6)}"
-    try:
-        draft.mkdir()
-    except OSError as error:
-        reason = f"cannot be made: {target.parent}: {error.strerror or error}"
-        raise WriteError(target, reason) from error
-    try:
-        yield draft
-        if target.is_dir():
-            target.rmdir()
-        draft.rename(target)
-    except OSError as error:
-        raise WriteError(target, f"cannot be written: {error.strerror or error}") from error
-    finally:
-        shutil.rmtree(draft, ignore_errors=True)
-
-
 def _write_manifest(
     path: Path,
     recording: Motion | Signals,
@@ -168,4 +145,6 @@ def _write_manifest(
         lines = csv.writer(file, lineterminator="\n")
         lines.writerow(["file", "source", *SPANS, *(CARRY if carries[0] else ())])
         for row, name, carry in zip(rows, names, carries, strict=True):
-            lines.writerow([name, source, *(getattr(row, span) for span in SPANS), *carry])
+            cells = [name, source, *(getattr(row, span) for span in SPANS)]
+            safe = [as_text(cell) if isinstance(cell, str) else cell for cell in cells]
+            lines.writerow([*safe, *carry])
