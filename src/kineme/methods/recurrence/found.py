@@ -48,6 +48,8 @@ class RecurrenceFound:
         Cluster of each, -1 where it is no repetition.
     evidence : Evidence
         By which it is told how sure all that is.
+    narrow : Recurrence
+        How similar the samples are for short actions.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -60,6 +62,7 @@ class RecurrenceFound:
     primitives: Frames
     clusters: Frames
     evidence: Evidence
+    narrow: Recurrence
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
