@@ -79,7 +79,9 @@ def _activity_rows(segmentation: Segmentation) -> Table:
 
 
 def _repetitions(clusters: list[int], main: int) -> str:
-    """How many primitives are in the activity's cluster, and how many are not."""
+    """How many primitives are in the activity's cluster, else in the largest; how many are not."""
+    if main not in clusters:
+        main = max(clusters, key=clusters.count, default=-1)
     count = clusters.count(main) if main >= 0 else 0
     others = len(clusters) - count
     return f"{count} (+{others})" if others else str(count)

@@ -20,6 +20,7 @@ from kineme.methods.recurrence.actions import Actions, refine
 from kineme.methods.recurrence.ends import fitted_ends
 from kineme.methods.recurrence.evidence import evidence
 from kineme.methods.recurrence.found import RecurrenceFound
+from kineme.methods.recurrence.parts import clusters_of_repetitions
 from kineme.methods.recurrence.recurrence import (
     Recurrence,
     narrower,
@@ -90,7 +91,13 @@ def analyze_actions(
             len(rows), ends.firsts, ends.lasts, [borders, *(each.cuts for each in counted)]
         )
         own = np.append(own[known], np.nan)[activity]
-        clusters = np.append(labels[known], -1)[repeated]
+        clusters = clusters_of_repetitions(
+            _poses(recurring.features, preset.offsets),
+            primitives,
+            np.append(labels[known], -1)[repeated],
+            repeated,
+            preset,
+        )
         labels = np.append(labels[known], -1)[activity]
     with stage("confidence"):
         shown = evidence(recurring, preset, borders, labels, own, primitives, clusters >= 0)

@@ -140,6 +140,11 @@ class RecurrenceConstants(CountingPreset):
         "what lies beyond the first and the last repetition is transition where it is farther from "
         "the mean repetition than this times the usual distance of repetitions", limits=SOME_FACTOR,
     )  # fmt: skip
+    # Parts: repetitions of one action that are two movements.
+    part_gap: float = constant(
+        "repetitions are in two clusters where these are so many times as far apart as those in "
+        "them", limits=Limits(1.0, 1000.0),
+    )  # fmt: skip
     # Signals, which have no size of their own.
     recurs_at: float = constant(
         "distance at which the median sample of signals recurs: their unit of length", fine=True,

@@ -105,13 +105,23 @@ def fitted_ends(
     return Ends(begins, ends, firsts, lasts)
 
 
+def evenly_in_time(rows: Features, starts: Frames, lengths: Frames, places: int) -> Floats:
+    """(stretches, places, dims): rows evenly in time from each start on, over each length."""
+    at = starts[:, None] + lengths[:, None] * ((np.arange(places) + 0.5) / places) - 0.5
+    before = np.clip(np.floor(at).astype(np.int64), 0, len(rows) - 1)
+    after = np.minimum(before + 1, len(rows) - 1)
+    share = np.clip(at - before, 0, 1)[..., None]
+    found: Floats = rows[before] * (1 - share) + rows[after] * share
+    return found
+
+
 def _begin(
     rows: Features, start: int, cuts: Frames, preset: RecurrenceConstants
 ) -> tuple[int, int]:
     """Where the activity that was found from ``start`` on begins, and its first repetition."""
     if len(cuts) < 2:  # nothing lies between two cuts
         return start, start
-    inner = _stretches(rows, cuts[:-1], np.diff(cuts), preset.path_points)
+    inner = evenly_in_time(rows, cuts[:-1], np.diff(cuts), preset.path_points)
     mean = inner.mean(axis=0)
     first = _first(rows, cuts, mean)
     if first == start:
@@ -133,18 +143,8 @@ def _first(rows: Features, cuts: Frames, mean: Floats) -> int:
     lengths = np.arange(max(1, ceil(SHORTEST * usual)), longest + 1)
     if not len(lengths):
         return 0
-    misfits = (_stretches(rows, cuts[0] - lengths, lengths, len(mean)) - mean) ** 2
+    misfits = (evenly_in_time(rows, cuts[0] - lengths, lengths, len(mean)) - mean) ** 2
     return int(cuts[0] - lengths[misfits.sum(axis=(1, 2)).argmin()])
-
-
-def _stretches(rows: Features, starts: Frames, lengths: Frames, places: int) -> Floats:
-    """(stretches, places, dims): rows evenly in time from each start on, over each length."""
-    at = starts[:, None] + lengths[:, None] * ((np.arange(places) + 0.5) / places) - 0.5
-    before = np.clip(np.floor(at).astype(np.int64), 0, len(rows) - 1)
-    after = np.minimum(before + 1, len(rows) - 1)
-    share = np.clip(at - before, 0, 1)[..., None]
-    found: Floats = rows[before] * (1 - share) + rows[after] * share
-    return found
 
 
 def _usual_distance(rows: Features, cuts: Frames, repetitions: Floats, quantile: float) -> float:

@@ -79,6 +79,7 @@ KINEME = RecurrencePreset(
     max_transition=0.4,
     max_transition_share=0.25,
     end_factor=2.0,
+    part_gap=1.75,
     link_weights=weights.LINK,
     border_weights=weights.BORDER,
     recurs_at=0.2,
