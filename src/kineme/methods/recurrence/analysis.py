@@ -5,7 +5,9 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import compress
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +17,7 @@ from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
+from kineme.methods.recurrence.ends import fitted_ends
 from kineme.methods.recurrence.evidence import evidence
 from kineme.methods.recurrence.found import RecurrenceFound
 from kineme.methods.recurrence.recurrence import (
@@ -73,12 +76,26 @@ def analyze_actions(
     with stage("repetitions"):
         limits = found.borders * recurring.step
         counted = _count(recurring, borders, labels, limits, preset)
-    primitives = np.unique(np.concatenate([borders, *(each.cuts for each in counted)]))
+        known = labels >= 0
+        ends = fitted_ends(
+            recurring.features,
+            borders[:-1][known],
+            borders[1:][known],
+            labels[known],
+            [each.cuts for each in compress(counted, known)],
+            preset,
+        )
+        borders, activity = _tiled(len(rows), ends.starts, ends.stops)
+        primitives, repeated = _tiled(
+            len(rows), ends.firsts, ends.lasts, [borders, *(each.cuts for each in counted)]
+        )
+        own = np.append(own[known], np.nan)[activity]
+        clusters = np.append(labels[known], -1)[repeated]
+        labels = np.append(labels[known], -1)[activity]
     with stage("confidence"):
-        repeats = labels[np.searchsorted(borders, primitives[:-1], side="right") - 1] >= 0
-        shown = evidence(recurring, preset, borders, labels, own, primitives, repeats)
+        shown = evidence(recurring, preset, borders, labels, own, primitives, clusters >= 0)
     return RecurrenceFound(
-        rows, recurring, preset, borders, labels, primitives, shown, narrow, timings
+        rows, recurring, preset, borders, labels, primitives, clusters, shown, narrow, timings
     )
 
 
@@ -213,6 +230,19 @@ def _activities(
     first = np.concatenate([[True], labels[1:] != labels[:-1]])
     confidence = np.where(labels < 0, np.nan, confidence)
     return np.append(borders[first], n), labels[first], confidence[first]
+
+
+def _tiled(
+    n: int, starts: Frames, stops: Frames, cuts: Sequence[Frames] = ()
+) -> tuple[Frames, Frames]:
+    """Borders from 0 to n with these spans and cuts among them, and the span of each segment.
+
+    What lies in no span is in span -1.
+    """
+    borders: Frames = np.unique(np.concatenate([[0, n], starts, stops, *cuts]))
+    spans = np.searchsorted(starts, borders[:-1], side="right") - 1
+    inside = (spans >= 0) & (borders[:-1] < np.append(stops, 0)[spans])
+    return borders, np.where(inside, spans, -1)
 
 
 def _count(

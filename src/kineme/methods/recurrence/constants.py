@@ -136,6 +136,10 @@ class RecurrenceConstants(CountingPreset):
         "largest share of an activity that a transition takes from one end", limits=Limits(0, 0.5),
         fine=True,
     )  # fmt: skip
+    end_factor: float = constant(
+        "what lies beyond the first and the last repetition is transition where it is farther from "
+        "the mean repetition than this times the usual distance of repetitions", limits=SOME_FACTOR,
+    )  # fmt: skip
     # Signals, which have no size of their own.
     recurs_at: float = constant(
         "distance at which the median sample of signals recurs: their unit of length", fine=True,

@@ -78,6 +78,7 @@ KINEME = RecurrencePreset(
     usual_quantile=0.9,
     max_transition=0.4,
     max_transition_share=0.25,
+    end_factor=2.0,
     link_weights=weights.LINK,
     border_weights=weights.BORDER,
     recurs_at=0.2,
