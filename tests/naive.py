@@ -870,3 +870,34 @@ def mean_distances(features, segments, unit):
         ]
         for g in segments
     ]
+
+
+# --- matching: every warping of an example onto a recording, one by one ------------------------
+
+
+def warpings(distances):
+    """For each sample the least mean distance of a warping of the example that ends there.
+
+    ``distances`` (samples, m) of a recording from the example. A warping goes on by one and one,
+    or by two of one and one of the other; two samples on one of the example count half each.
+    """
+    n, m = distances.shape
+
+    def cheapest(j, i):
+        """Sum and beginning of the cheapest warping of the first i + 1 samples that ends at j."""
+        if i == 0:
+            return distances[j, 0], j
+        found = []
+        if j >= 1:
+            total, begin = cheapest(j - 1, i - 1)
+            found.append((total + distances[j, i], begin))
+        if j >= 2:
+            total, begin = cheapest(j - 2, i - 1)
+            found.append((total + (distances[j - 1, i] + distances[j, i]) / 2, begin))
+        if j >= 1 and i >= 2:
+            total, begin = cheapest(j - 1, i - 2)
+            found.append((total + distances[j, i - 1] + distances[j, i], begin))
+        return min(found, default=(np.inf, -1))
+
+    ends = [cheapest(j, m - 1) for j in range(n)]
+    return [total / m for total, _ in ends], [begin for _, begin in ends]

@@ -49,7 +49,7 @@ def levels_of(found: RecurrenceFound, columns: Columns) -> Mapping[float, Column
 
 def _pieces(found: RecurrenceFound) -> tuple[levels.Pieces, Samples]:
     """Activities cut where finer change points are, and transitions; with their frames."""
-    preset, recurrence = found.preset, found.recurrence
+    preset, recurrence = found.preset.narrowed(), found.narrow
     n, step = len(recurrence), recurrence.step
     frames = found.borders
     for finest in sorted(levels.FINER, reverse=True):
