@@ -15,6 +15,7 @@ from kineme.cli.graph import graph
 from kineme.cli.help import Command
 from kineme.cli.info import info
 from kineme.cli.label import label
+from kineme.cli.library import library
 from kineme.cli.preset_options import with_preset_options
 from kineme.cli.reading import BODY, with_reading_options
 from kineme.cli.report import report
@@ -41,6 +42,7 @@ app.command(cls=Command)(evaluate)
 app.command(cls=Command)(data)
 app.command(cls=Command)(with_reading_options(label, BODY))
 app.command(cls=Command)(with_reading_options(transfer, BODY))
+app.add_typer(library, name="library")
 app.command(cls=Command)(with_reading_options(graph, BODY))
 app.command(cls=Command)(synthesize)
 app.command(cls=Command)(with_reading_options(studio, BODY))
