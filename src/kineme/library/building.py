@@ -145,7 +145,7 @@ def build(
             bool(head.get("recursive")) if recursive is None else recursive,
             settings or (Settings.from_json(head["settings"]) if head else Settings()),
         )
-        if not known:
+        if not known and not head:
             raise ParameterError(f"{into}: nothing to build from: name recordings or folders")
         return _built(plan, head, int(jobs), progress or _silent)
 

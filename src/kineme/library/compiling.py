@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from kineme.library.descriptions import EMBEDDED
 from kineme.library.layout import PIECES, arrow
 from kineme.library.numbering import Spans, lasting_numbers
 from kineme.library.pieces import Piece, read_piece
-from kineme.library.tables import read_table
+from kineme.library.tables import read_table, table_of
 from kineme.library.vocabulary import joined
 from kineme.library.words import Place, places_in, word_at
 from kineme.segments.table import COLUMNS
@@ -58,7 +58,6 @@ def compiled(
     following : int
         The first number that was not given now either.
     """
-    pa, _ = arrow()
     pieces = [read_piece(folder / PIECES, key) for _, _, key in entries]
     words = _joined_words(folder, entries, pieces)
     shared = _shared(pieces, words)
@@ -74,7 +73,7 @@ def compiled(
         "words": _word_table(entries, words, renumbered),
         "embeddings": _embeddings(entries, pieces),
     }
-    return {name: pa.table(columns) for name, columns in tables.items()}, max(
+    return {name: table_of(name, columns) for name, columns in tables.items()}, max(
         [following, *(number + 1 for number in numbers.values())]
     )
 
@@ -162,9 +161,7 @@ def _segments(
     entries: Sequence[Entry], pieces: Sequence[Piece], clusters: Sequence[Ints]
 ) -> Columns:
     tables = [piece.table for piece in pieces]
-    columns: Columns = {
-        name: np.concatenate([getattr(table, name) for table in tables]) for name in COLUMNS
-    }
+    columns: Columns = {name: _all(getattr(table, name) for table in tables) for name in COLUMNS}
     actions = [
         own[np.flatnonzero(table.level == "activity")][table.activity]
         for own, table in zip(clusters, tables, strict=True)
@@ -172,8 +169,8 @@ def _segments(
     return {
         **_rows(entries, pieces),
         **columns,
-        "cluster": np.concatenate(clusters),
-        "action": np.concatenate(actions),
+        "cluster": _all(clusters),
+        "action": _all(actions),
         "own_cluster": columns["cluster"],
     }
 
@@ -194,16 +191,25 @@ def _word_table(entries: Sequence[Entry], words: _Words, numbers: Ints) -> Colum
 
 def _embeddings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
     pa, _ = arrow()
-    values = np.concatenate([piece.embeddings for piece in pieces])
+    values = _all(piece.embeddings for piece in pieces).reshape(-1, EMBEDDED)
     embedded = np.flatnonzero(values.any(axis=1))
-    rows = {name: np.asarray(column)[embedded] for name, column in _rows(entries, pieces).items()}
-    flat = pa.array(values[embedded].ravel())
+    rows = {
+        name: np.asarray(column)[embedded] if len(column) else column
+        for name, column in _rows(entries, pieces).items()
+    }
+    flat = pa.array(values[embedded].ravel().astype(np.float32))
     return {**rows, "embedding": pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)}
 
 
 def _rows(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
     counts = [len(piece.table) for piece in pieces]
     return {
-        "recording": np.repeat([name for name, _, _ in entries], counts),
-        "segment": np.concatenate([np.arange(count) for count in counts]),
+        "recording": [n for (n, _, _), k in zip(entries, counts, strict=True) for _ in range(k)],
+        "segment": _all(np.arange(count) for count in counts),
     }
+
+
+def _all(parts: Iterable[NDArray[Any]]) -> NDArray[Any]:
+    """The parts one after the other, of which there may be none."""
+    given = list(parts)
+    return np.concatenate(given) if given else np.empty(0)

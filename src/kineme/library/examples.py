@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, Protocol
@@ -45,10 +45,12 @@ def as_examples(
         return []
     if isinstance(like, str | PathLike | Motion | Signals):
         return [Example(like, start_s, stop_s)]
-    given = [like] if isinstance(like, Example) else list(like)
+    given = list(like) if isinstance(like, Iterable) else [like]
     for example in given:
         if not isinstance(example, Example):
-            raise ParameterError(f"several examples are a list of Example, not of {example!r:.60}")
+            raise ParameterError(
+                f"an example is a file, a name, a recording or an Example, not {example!r:.60}"
+            )
     return given
 
 

@@ -19,46 +19,60 @@ from kineme.errors import WriteError
 from kineme.library.descriptions import EMBEDDED
 from kineme.library.layout import TABLES, arrow
 from kineme.segments.table import DESCRIBED as SEGMENTS
+from kineme.segments.table import Column
 
-DESCRIBED: Mapping[str, Mapping[str, str]] = {
+DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     "recordings": {
-        "recording": "its name in the library: the path in the folder that was given",
-        "path": "where it was read from",
-        "vocabulary": "`bodies`, or which channels; empty where it cannot be searched",
-        "format": "of its file",
-        "n_frames": "frames of its file",
-        "fps": "frames per second",
-        "duration_s": "seconds",
-        "piece": "name of the files in `pieces/` that hold what is kept of it",
-        "features_fps": "samples of its features per second",
-        "notes": "what had to be inferred, and what is unsure, one a line",
+        "recording": Column(str, "its name in the library: the path in the folder that was given"),
+        "path": Column(str, "where it was read from"),
+        "vocabulary": Column(str, "`bodies`, or which channels; empty where it is not searched"),
+        "format": Column(str, "of its file"),
+        "n_frames": Column(int, "frames of its file"),
+        "fps": Column(float, "frames per second"),
+        "duration_s": Column(float, "seconds"),
+        "piece": Column(str, "name of the files in `pieces/` that hold what is kept of it"),
+        "features_fps": Column(float, "samples of its features per second"),
+        "notes": Column(str, "what had to be inferred and what is unsure, one a line"),
     },
     "segments": {
-        "recording": "the recording it is of",
-        "segment": "its row among those of the recording, from 0",
-        **{name: column.meaning for name, column in SEGMENTS.items()},
-        "own_cluster": "its cluster in the recording alone",
-        "action_label": "the name of `action`",
+        "recording": Column(str, "the recording it is of"),
+        "segment": Column(int, "its row among those of the recording, from 0"),
+        **SEGMENTS,
+        "own_cluster": Column(int, "its cluster in the recording alone"),
+        "action_label": Column(str, "the name of `action`"),
     },
     "words": {
-        "recording": "the recording it is of",
-        "own_cluster": "the cluster in that recording",
-        "cluster": "the cluster of the library",
-        "label": "the name of that, or empty",
-        "following": "the cluster that it would be in if there were not this one; -1: none",
-        "confidence": "how much nearer it is to its cluster than to the next, 0 to 1",
-        "spread": "mean distance to the other words of its cluster",
-        "start_s": "where its typical segment starts",
-        "stop_s": "where that stops",
-        "seconds": "of all its segments",
+        "recording": Column(str, "the recording it is of"),
+        "own_cluster": Column(int, "the cluster in that recording"),
+        "cluster": Column(int, "the cluster of the library"),
+        "label": Column(str, "the name of that, or empty"),
+        "following": Column(int, "the cluster it is next to but for its own; -1: none"),
+        "confidence": Column(float, "how much nearer it is to its own cluster, 0 to 1"),
+        "spread": Column(float, "mean distance to the other words of its cluster"),
+        "start_s": Column(float, "where its typical segment starts"),
+        "stop_s": Column(float, "where that stops"),
+        "seconds": Column(float, "of all its segments"),
     },
     "embeddings": {
-        "recording": "the recording it is of",
-        "segment": "its row among those of the recording, from 0",
-        "embedding": f"{EMBEDDED} numbers: what is near is alike",
+        "recording": Column(str, "the recording it is of"),
+        "segment": Column(int, "its row among those of the recording, from 0"),
+        "embedding": Column(float, f"{EMBEDDED} numbers: what is near is alike"),
     },
 }
-"""The columns of each table, and what is in them."""
+"""The columns of each table, edits applied, and what is in them."""
+
+
+def table_of(name: str, columns: Mapping[str, Any]) -> Any:
+    """A table of computed columns, a pyarrow.Table; of any number of rows, with none, too."""
+    pa, _ = arrow()
+    types = {str: pa.string(), int: pa.int64(), float: pa.float64()}
+    schema = [
+        (column, pa.list_(pa.float32(), EMBEDDED) if column == "embedding" else types[known.type])
+        for column, known in DESCRIBED[name].items()
+        if column in columns
+    ]
+    held = {column: columns[column] if len(columns[column]) else [] for column, _ in schema}
+    return pa.table(held, schema=pa.schema(schema))
 
 
 def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
