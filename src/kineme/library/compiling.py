@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -134,9 +135,9 @@ def _before(folder: Path, before: str | None) -> dict[str, Spans]:
     names = ("recording", "level", "kind", "start_s", "stop_s", "cluster")
     columns = {name: np.asarray(table.column(name).to_numpy()) for name in names}
     first = np.unique(columns["recording"], return_index=True)[1]
-    order = np.sort(first).tolist()
+    edges = [*np.sort(first).tolist(), len(table)]
     found = {}
-    for start, stop in zip(order, [*order[1:], len(table)], strict=True):
+    for start, stop in pairwise(edges):
         own = {name: column[start:stop] for name, column in columns.items()}
         found[str(own["recording"][0])] = _spans(own, own["cluster"])
     return found

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from kineme.matching import THRESHOLD
 from kineme.methods.constants import (
-    SOME_FACTOR,
+    SHARE,
     SOME_LENGTH,
     SOME_TIME,
     check,
@@ -20,13 +21,14 @@ from kineme.methods.constants import (
 class VocabularyConstants:
     """How the clusters of single recordings are joined; distances are those of a search."""
 
-    cluster_cost: float = constant(
-        "what a cluster must explain: the distance of its words from each other",
-        limits=SOME_FACTOR, default=0.6,
+    join: float = constant(
+        "words are joined up to this mean distance, that of a search", limits=SOME_LENGTH,
+        default=THRESHOLD,
     )  # fmt: skip
     farthest: float = constant(
-        "no two words are farther apart than this", limits=SOME_LENGTH, default=1.41, fine=True
-    )
+        "no two words are farther apart; those of one recording are as far", limits=SOME_LENGTH,
+        default=2.0, fine=True,
+    )  # fmt: skip
     longest_example: float = constant(
         "an example is cut to this", unit="s", limits=SOME_TIME, default=4.0, fine=True
     )
@@ -34,7 +36,7 @@ class VocabularyConstants:
         "and what it is looked for in to this", unit="s", limits=SOME_TIME, default=12.0, fine=True
     )
     unsure: float = constant(
-        "confidence below which a word is shown as unsure", limits=SOME_FACTOR, default=0.1,
+        "confidence below which a word is shown as unsure", limits=SHARE, default=0.1,
         fine=True,
     )  # fmt: skip
 

@@ -5,8 +5,9 @@ at by an example, its typical segment, and by a context, the activity around it:
 movement, the example of one recording may be cut at another phase than that of the next.
 
 The distance of two words is the larger of what it costs to find the example of each in the context
-of the other. Words are joined by average linkage. How many clusters there are is told by the
-shortest description: what the members of clusters differ, and a price for each cluster.
+of the other. Words of one recording were found to differ there: they are as far apart as can be,
+so that they are one only where those of many others lie between them. Words are joined by average
+linkage, as long as a search would find them by each other.
 """
 
 from __future__ import annotations
@@ -38,12 +39,15 @@ class Word:
     ----------
     example, context : (samples, dims) array
         Features of its typical segment, and of the activity that this lies in.
+    recording : int
+        Number of the recording that it is of.
     seconds : float
         Of all its segments.
     """
 
     example: Float32s
     context: Float32s
+    recording: int
     seconds: float
 
 
@@ -86,9 +90,16 @@ def joined(words: Sequence[Word], constants: VocabularyConstants) -> Joined:
     if len(words) < 2:
         alone = np.zeros(len(words), np.int64)
         return Joined(alone, alone - 1, np.full(len(words), np.nan), np.zeros(len(words)))
+    from scipy.cluster.hierarchy import fcluster, linkage
+    from scipy.spatial.distance import squareform
+
     distances = np.minimum(two_way_distances(words), constants.farthest)
+    recording = np.array([word.recording for word in words])
+    distances[recording[:, None] == recording] = constants.farthest
+    np.fill_diagonal(distances, 0.0)
     seconds = np.array([word.seconds for word in words])
-    labels = _shortest(distances, constants)
+    tree = linkage(squareform(distances, checks=False), "average")
+    labels = fcluster(tree, constants.join, "distance").astype(np.int64) - 1
     order = np.argsort(-np.bincount(labels, seconds), kind="stable")
     labels = np.argsort(order)[labels]
     return _fitted(distances, labels)
@@ -112,24 +123,6 @@ def two_way_distances(words: Sequence[Word]) -> Floats:
     both: Floats = np.maximum(one_way, one_way.T)
     np.fill_diagonal(both, 0.0)
     return both
-
-
-def _shortest(distances: Floats, constants: VocabularyConstants) -> Ints:
-    """The labels by which the words are described at the least cost."""
-    from scipy.cluster.hierarchy import fcluster, linkage
-    from scipy.spatial.distance import squareform
-
-    tree = linkage(squareform(distances, checks=False), "average")
-    best, cheapest = np.zeros(len(distances), np.int64), np.inf
-    for count in range(1, len(distances) + 1):
-        labels = fcluster(tree, count, "maxclust").astype(np.int64) - 1
-        members = np.eye(int(labels.max()) + 1)[labels]
-        within = np.einsum("ac,ab,bc->c", members, distances, members, optimize=True)
-        cost = float((within / members.sum(axis=0)).sum())
-        cost += constants.cluster_cost * members.shape[1]
-        if cost < cheapest - 1e-9:
-            best, cheapest = labels, cost
-    return best
 
 
 def _fitted(distances: Floats, labels: Ints) -> Joined:

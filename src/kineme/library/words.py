@@ -79,6 +79,7 @@ def word_at(
             max(min(start_s, middle - half), middle - reach),
             min(max(stop_s, middle + half), middle + reach),
         ),
+        place.recording,
         place.seconds,
     )
 
