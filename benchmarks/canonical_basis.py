@@ -29,8 +29,8 @@ SHRINKING = 0.3
 
 def poses_of(take: Take) -> Floats:
     """The stacked poses of a take, 15 a second."""
-    motion = resample(take.motion, 2 * matching.MATCHING_FPS)
-    return matching.stacked_poses(motion)[::2]
+    motion = resample(take.motion, matching.POSE_FPS)
+    return matching.stacked_poses(matching.poses_of(motion))
 
 
 def make_basis(parts: Sequence[Floats]) -> tuple[Floats, Floats]:
@@ -57,9 +57,11 @@ def main() -> None:
     if "--leave-out" in sys.argv:
         from likeness import show
 
-        show("all", mean, axes)
+        works = ("exercises", "strides")
+        show("all", works, (mean, axes))
         for left in parts:
-            show(f"without {left}", *make_basis([p for n, p in parts.items() if n != left]))
+            kept = [part for name, part in parts.items() if name != left]
+            show(f"without {left}", works, make_basis(kept))
 
 
 if __name__ == "__main__":

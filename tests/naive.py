@@ -740,6 +740,17 @@ def class_affinities(similarity, width, labels, classes, gap, min_count):
     return affinity
 
 
+def sum_similarities(similarity, width, labels, classes):
+    """Sums and numbers of pairs of each two classes."""
+    sums, counts = np.zeros((classes, classes)), np.zeros((classes, classes))
+    for i, own in enumerate(labels):
+        for j, other in enumerate(labels):
+            if own >= 0 and other >= 0 and abs(i - j) <= width:
+                sums[own, other] += similarity[i, j]
+                counts[own, other] += 1
+    return sums, counts
+
+
 def labels_cost(costs, labels, switch_cost):
     changes = sum(a != b for a, b in pairwise(labels))
     return sum(costs[t][label] for t, label in enumerate(labels)) + switch_cost * changes

@@ -80,7 +80,7 @@ ROOMS = {
     ),
     "library": Room(
         "collections of recordings, segmented once, with clusters in common, searched by example",
-        "clips features formats matching methods recordings segmentation segments",
+        "clips features formats labels matching methods recordings segmentation segments",
     ),
     "datasets": Room(
         "recordings with known truth, the bundled one among them; CMU's, fetched",

@@ -11,7 +11,13 @@ import pytest
 import kineme
 from kineme.datasets import Action, synthesize
 from kineme.errors import EndEffectorError, MotionError
-from kineme.features.canonical import MATCHING_FPS, matching_features
+from kineme.features import mirror
+from kineme.features.canonical import (
+    MATCHING_FPS,
+    matching_features,
+    matching_poses,
+    mirror_poses,
+)
 from kineme.features.canonical.joints import JOINTS, canonical_joints
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
@@ -131,3 +137,12 @@ def test_legs_without_hips_are_refused() -> None:
     motion = Motion(Skeleton(names, (-1,) * 5, points[0]), points, 30)
     with pytest.raises(MotionError, match="left leg has no hip"):
         matching_features(motion)
+
+
+def test_mirrored_features_are_those_of_the_mirrored_motion() -> None:
+    motion = performed("kick")
+    mirrored = matching_features(mirror(motion))
+    assert chords(matching_features(motion, mirrored=True), mirrored).max() < 1e-3
+    poses = matching_poses(motion)
+    np.testing.assert_allclose(mirror_poses(mirror_poses(poses)), poses)
+    np.testing.assert_allclose(mirror_poses(poses), matching_poses(mirror(motion)), atol=1e-6)

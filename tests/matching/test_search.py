@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import naive
 from kineme.errors import ParameterError
 from kineme.matching import search, two_way_distance
-from kineme.matching.search import BLOCK, distances_between, warped
+from kineme.matching.subsequences import BLOCK, distances_between, warped
 
 
 def directions(n: int, seed: int, dims: int = 6) -> np.ndarray:

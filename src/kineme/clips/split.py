@@ -23,18 +23,17 @@ The folder appears whole or not at all, and nothing that was there is touched.
 from __future__ import annotations
 
 import csv
-import secrets
-import shutil
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
 from math import degrees
 from os import PathLike
 from pathlib import Path
 
+from kineme._files import atomic_folder
 from kineme.clips.loops import loop
-from kineme.errors import MotionError, ParameterError, WriteError
+from kineme.errors import MotionError, ParameterError
 from kineme.formats import write
 from kineme.formats.channels.writing import rows_of
+from kineme.labels.delimited import as_text
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import cut
@@ -122,7 +121,7 @@ def write_clips(
     """
     target = Path(folder)
     lines: list[list[object]] = []
-    with _new_folder(target) as draft:
+    with atomic_folder(target) as draft:
         for recording, rows in wanted:
             suffix, write_clip = _writer(recording, loops=loops)
             path = str(recording.provenance.path or "")
@@ -167,30 +166,9 @@ def _plain(text: str) -> str:
     return kept.encode(errors="replace")[:80].decode(errors="ignore")
 
 
-@contextmanager
-def _new_folder(target: Path) -> Iterator[Path]:
-    """A folder beside ``target`` that takes its place when the block ends without an error."""
-    if target.exists() and not (target.is_dir() and not any(target.iterdir())):
-        raise WriteError(target, "is there already: name a new folder, or empty this one")
-    draft = target.parent / f".{secrets.token_hex(6)}"
-    try:
-        draft.mkdir()
-    except OSError as error:
-        reason = f"cannot be made: {target.parent}: {error.strerror or error}"
-        raise WriteError(target, reason) from error
-    try:
-        yield draft
-        if target.is_dir():
-            target.rmdir()
-        draft.rename(target)
-    except OSError as error:
-        raise WriteError(target, f"cannot be written: {error.strerror or error}") from error
-    finally:
-        shutil.rmtree(draft, ignore_errors=True)
-
-
 def _write_manifest(path: Path, more: Sequence[str], lines: Sequence[Sequence[object]]) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["file", "source", *SPANS, *more])
-        table.writerows(lines)
+        for line in lines:
+            table.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in line])

@@ -15,17 +15,18 @@ from hashlib import sha256
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.errors import MotionError
-from kineme.features import mirror
-from kineme.features.canonical import MATCHING_FPS, matching_features
+from kineme.errors import MotionError, ParameterError
+from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
+from kineme.matching.whole_segments import course, embedding
 from kineme.methods.hierarchy.preset import SENSORS
 from kineme.methods.hierarchy.statistics import channel_statistics
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.channels import at_rate, standardized
 
 Float32s = NDArray[np.float32]
+Floats = NDArray[np.float64]
 
 BODIES = "bodies"
 """The vocabulary of everything that has a body."""
@@ -48,17 +49,34 @@ class Description:
         Samples per second.
     reason : str
         Why there are none.
+    poses : (samples, 17) array, optional
+        Of a body, for embeddings.
     """
 
     vocabulary: str
     features: Float32s
     fps: float
     reason: str = ""
+    poses: Floats | None = None
 
     def between(self, start_s: float, stop_s: float) -> Float32s:
         """The samples from one second to another, one at least."""
+        return self.features[self._samples(start_s, stop_s)]
+
+    def embedding(self, start_s: float, stop_s: float) -> Float32s:
+        """A segment in `EMBEDDED` numbers; all 0 where there are no features."""
+        samples = self._samples(start_s, stop_s)
+        if self.poses is not None:
+            return embedding(self.poses[samples])
+        found = np.zeros(EMBEDDED, np.float32)
+        if len(self.features):
+            told = course(self.features[samples].astype(np.float64))
+            found[: min(EMBEDDED, len(told))] = told[:EMBEDDED]
+        return found
+
+    def _samples(self, start_s: float, stop_s: float) -> slice:
         first = min(round(start_s * self.fps), max(len(self.features) - 1, 0))
-        return self.features[first : max(round(stop_s * self.fps), first + 1)]
+        return slice(first, max(round(stop_s * self.fps), first + 1))
 
 
 def describe(
@@ -86,21 +104,22 @@ def describe(
 
     Raises
     ------
-    MotionError
-        Mirrored, where nothing tells left from right.
+    ParameterError
+        Mirrored signals.
     """
     if isinstance(recording, Signals):
         if mirrored:
-            raise MotionError("signals have no left and right to exchange: leave out mirroring")
+            raise ParameterError("signals have no left and right to exchange: leave out mirroring")
         vocabulary = sha256("\0".join(recording.names).encode()).hexdigest()[:8]
         features = signal_features(recording, emg=emg)
         named = f"{recording.n_channels} channels, {vocabulary}"
         return Description(named, features, SENSORS.rate)
-    seen = mirror(recording) if mirrored else recording
     try:
-        return Description(BODIES, matching_features(seen, effectors=effectors), MATCHING_FPS)
+        features = matching_features(recording, effectors=effectors, mirrored=mirrored)
+        poses = matching_poses(recording, effectors=effectors)
     except MotionError as error:
         return Description("", np.empty((0, 0), np.float32), MATCHING_FPS, str(error))
+    return Description(BODIES, features, MATCHING_FPS, poses=poses)
 
 
 def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
@@ -139,17 +158,3 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
         laid[at] = found[np.minimum(seen.astype(np.int64), len(found) - 1)]
         first += (stop - start) / signals.fps
     return laid
-
-
-def embedding(features: Float32s) -> Float32s:
-    """A segment as 32 numbers: the course of its first features, by three cosines."""
-    from scipy.fft import dct
-
-    n = min(features.shape[1], EMBEDDED // 3)
-    at = np.linspace(0, len(features) - 1, 16)
-    course = np.stack(
-        [np.interp(at, np.arange(len(features)), each) for each in features[:, :n].T], axis=1
-    )
-    found = np.zeros(EMBEDDED, np.float32)
-    found[: 3 * n] = dct(course, axis=0, norm="ortho")[:3].ravel() / 4
-    return found

@@ -16,6 +16,7 @@ from kineme._files import atomic_write
 from kineme._threads import map_threads
 from kineme.errors import MissingDependencyError, ParameterError, WriteError
 from kineme.formats import read
+from kineme.labels.delimited import as_text, write_rows
 from kineme.library.clusters import Cluster, Word, cluster_table, clusters_of, unsure_words
 from kineme.library.examples import as_examples, features_of, one_vocabulary
 from kineme.library.layout import EXTRA, PIECES, arrow
@@ -24,7 +25,7 @@ from kineme.library.pieces import read_features
 from kineme.library.searching import Example, Hit, best, cover_of, spans_like
 from kineme.library.settings import Settings
 from kineme.library.tables import DESCRIBED
-from kineme.matching.search import THRESHOLD
+from kineme.matching import THRESHOLD
 from kineme.recordings import Motion, Signals
 from kineme.segments.table import Segment
 
@@ -319,12 +320,10 @@ class Library:
             with atomic_write(path) as draft:
                 parquet.write_table(found, draft)
         elif suffix in (".csv", ".tsv"):
-            from pyarrow import csv
-
-            plain = found.drop_columns([c for c in found.column_names if c == "embedding"])
-            options = csv.WriteOptions(delimiter="," if suffix == ".csv" else "\t")
-            with atomic_write(path) as draft:
-                csv.write_csv(plain, draft, options)
+            names = [name for name in found.column_names if name != "embedding"]
+            rows = zip(*(map(_cell, found.column(name).to_pylist()) for name in names), strict=True)
+            with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
+                write_rows(file, names, rows, delimiter="," if suffix == ".csv" else "\t")
         else:
             raise WriteError(path, "the suffix must be one of .parquet, .csv, .tsv")
 
@@ -461,6 +460,13 @@ class Library:
             label = self._tables.edits.name(cluster) if cluster >= 0 else ""
             hits.append(Hit(recording, start_s, stop_s, round(float(distance), 4), cluster, label))
         return hits
+
+
+def _cell(value: object) -> object:
+    """What stands in a table of text: nothing where nothing is known, and nothing that runs."""
+    if isinstance(value, str):
+        return as_text(value)
+    return "" if value is None or value != value else value  # noqa: PLR0124 (nan)
 
 
 def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.library.descriptions import EMBEDDED, Description, describe, embedding
+from kineme.library.descriptions import EMBEDDED, Description, describe
 from kineme.library.layout import arrow
 from kineme.library.settings import Settings
 from kineme.recordings import Motion, Signals
@@ -71,8 +71,8 @@ def make_piece(recording: Motion | Signals, settings: Settings) -> tuple[Piece, 
     described = describe(recording, effectors=settings.effectors, emg=emg)
     embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
     for row, each in enumerate(found.table):
-        if each.kind == "activity" and len(described.features):
-            embeddings[row] = embedding(described.between(each.start_s, each.stop_s))
+        if each.kind == "activity":
+            embeddings[row] = described.embedding(each.start_s, each.stop_s)
     reason = f"not searched: {described.reason}" if described.reason else ""
     facts = {
         "format": recording.provenance.format or "",

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from kineme._checks import is_number
 from kineme.errors import ParameterError
-from kineme.matching.search import Matches, search
+from kineme.matching import Matches, search
 from kineme.recordings import Motion, Signals
 
 Float32s = NDArray[np.float32]

@@ -21,7 +21,7 @@ from threadpoolctl import threadpool_limits
 
 from kineme._threads import map_threads
 from kineme.library.constants import VocabularyConstants
-from kineme.matching.search import warped
+from kineme.matching.subsequences import warped
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -60,6 +60,18 @@ def test_affinities_are_those_of_the_naive_version(similarity, width, gap, min_c
     np.testing.assert_allclose(found, expected, atol=1e-6)
 
 
+@given(similarities(max_bins=12), st.integers(0, 12), st.data())
+@seconds
+def test_summed_similarities_are_those_of_the_naive_version(similarity, width, data) -> None:
+    n = len(similarity)
+    labels = np.array(data.draw(st.lists(st.integers(-1, 2), min_size=n, max_size=n)), np.int64)
+    sums, counts = np.zeros((3, 3)), np.zeros((3, 3))
+    kernels.sum_similarities(one_sided(similarity, width), labels, sums, counts)
+    expected = naive.sum_similarities(similarity, min(width, n - 1), labels, 3)
+    np.testing.assert_allclose(sums, expected[0], atol=1e-5)
+    np.testing.assert_array_equal(counts, expected[1])
+
+
 @given(st.integers(1, 6), st.integers(1, 3), st.sampled_from([0.0, 0.2, 1.0]), st.integers(0, 99))
 @seconds
 def test_no_labels_are_cheaper(n, classes, switch_cost, seed) -> None:

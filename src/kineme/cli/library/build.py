@@ -10,8 +10,8 @@ import typer
 from kineme.cli.help import RECORDINGS
 from kineme.cli.inputs import Batch
 from kineme.cli.messages import Failures, progress
-from kineme.cli.preset_options import PRESET
-from kineme.cli.reading import Effectors, Quiet
+from kineme.cli.preset_options import PRESET, with_preset_options
+from kineme.cli.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.request import Request
 from kineme.methods.presets import DEFAULT
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from kineme.library import Built, Settings
 
 
+@with_preset_options
+@with_reading_options
 def build(
     into: Annotated[
         Path, typer.Option("--into", help="Folder of the library, new or to be brought up to date.")

@@ -69,7 +69,7 @@ def search(
     if not examples and cluster is None:
         raise typer.BadParameter("nothing to search for: give --like or --cluster")
     with opened(folder) as library:
-        from kineme.matching.search import THRESHOLD
+        from kineme.matching import THRESHOLD
 
         if export is not None:
             make_folder_of(export)

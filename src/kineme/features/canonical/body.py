@@ -16,6 +16,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.features.mirroring import EXCHANGED, FLIP
+
 Floats = NDArray[np.float64]
 Joints = Mapping[str, Floats]
 
@@ -75,6 +77,12 @@ def canonical_poses(joints: Joints, fps: float) -> Floats:
     rise = RISE * fps * np.gradient(pelvis[:, 1]) if len(pelvis) > 1 else np.zeros(1)
     vertical = np.stack([pelvis[:, 1] - ground, rise], axis=1) / leg
     return np.hstack([_facing_ahead(ends, hips + shoulders).reshape(len(ends), -1), vertical])
+
+
+def mirror_poses(poses: Floats) -> Floats:
+    """Poses (frames, 17) of the body in a mirror: left and right exchanged."""
+    ends = poses[:, :15].reshape(len(poses), len(EXCHANGED), 3)[:, EXCHANGED] * FLIP
+    return np.hstack([ends.reshape(len(poses), -1), poses[:, 15:]])
 
 
 _SIDES = (("left", 1.0), ("right", -1.0))

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.features.canonical.body import canonical_poses
+from kineme.features.canonical.body import canonical_poses, mirror_poses
 from kineme.features.canonical.joints import canonical_joints
 from kineme.features.effectors import Names
 from kineme.features.pose import offsets_in_frames, stack
@@ -32,12 +32,15 @@ OFFSETS_S = (-0.2, -0.1, 0.0, 0.1, 0.2)
 """Seconds between a frame and those it is stacked with."""
 DIMS = 40
 """Numbers in a feature."""
+POSE_FPS = 30.0
+"""Poses per second, of which every second one becomes a feature."""
 
-_FPS = 30.0  # of the poses; every second one is kept
 _SMOOTHING = np.array([0.25, 0.75, 1.0, 0.75, 0.25]) / 3.0  # of positions, over 0.17 s
 
 
-def matching_features(motion: Motion, *, effectors: Names | None = None) -> NDArray[np.float32]:
+def matching_features(
+    motion: Motion, *, effectors: Names | None = None, mirrored: bool = False
+) -> NDArray[np.float32]:
     """Unit vectors (n, 40), 15 a second; zero where the body is not seen.
 
     Parameters
@@ -45,6 +48,8 @@ def matching_features(motion: Motion, *, effectors: Names | None = None) -> NDAr
     motion : Motion
     effectors : joints, optional
         To take for head, hands and feet where names do not tell.
+    mirrored : bool
+        Of the motion in a mirror, left and right exchanged.
 
     Returns
     -------
@@ -64,21 +69,49 @@ def matching_features(motion: Motion, *, effectors: Names | None = None) -> NDAr
     >>> matching_features(kineme.read(kineme.bundled_recording())).shape
     (725, 40)
     """
-    at_rate = resample(motion, _FPS)
-    features = directions(stacked_poses(at_rate, effectors=effectors)[::2], *basis())
+    at_rate = resample(motion, POSE_FPS)
+    poses = poses_of(at_rate, effectors=effectors)
+    stacked = stacked_poses(mirror_poses(poses) if mirrored else poses)
+    features = directions(stacked, *basis())
     for start, stop in at_rate.gaps:
         features[(start + 1) // 2 : (stop + 1) // 2] = 0.0
     return features
 
 
-def stacked_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
-    """Poses of the canonical body (frames, 85) at the rate of the motion, stacked."""
+def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
+    """Poses of the canonical body (n, 17), 15 a second: what a whole segment is described by.
+
+    Parameters
+    ----------
+    motion : Motion
+    effectors : joints, optional
+        To take for head, hands and feet where names do not tell.
+
+    Returns
+    -------
+    ndarray
+        See `kineme.features.canonical.body.canonical_poses`.
+
+    Raises
+    ------
+    EndEffectorError, MotionError
+        As `matching_features`.
+    """
+    return poses_of(resample(motion, POSE_FPS), effectors=effectors)[::2]
+
+
+def poses_of(motion: Motion, *, effectors: Names | None = None) -> Floats:
+    """Poses of the canonical body (frames, 17) at the rate of the motion, which is smoothed."""
     joints = {
         joint: _smoothed(motion.positions[:, list(points)].mean(axis=1))
         for joint, points in canonical_joints(motion, effectors=effectors).items()
     }
-    poses = canonical_poses(joints, motion.fps)
-    return stack(poses, offsets_in_frames(OFFSETS_S, motion.fps))
+    return canonical_poses(joints, motion.fps)
+
+
+def stacked_poses(poses: Floats) -> Floats:
+    """(n, 85): every second one of poses at 30 Hz, stacked with its neighbours."""
+    return stack(poses, offsets_in_frames(OFFSETS_S, POSE_FPS))[::2]
 
 
 def directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:

@@ -14,10 +14,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_features
 from kineme._threads import map_threads
+from kineme.methods.evidence import Evidence
 from kineme.methods.hierarchy import tree
 from kineme.methods.hierarchy.constants import HierarchyConstants
+from kineme.methods.hierarchy.evidence import evidence
 from kineme.methods.hierarchy.found import HierarchyFound
 from kineme.methods.hierarchy.statistics import channel_statistics
+from kineme.methods.recurrence.evidence import counted
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from kineme.methods.samples import unstacked
 from kineme.methods.segments import by_first_appearance
@@ -81,16 +84,17 @@ def analyze_channels(
             most_clusters=preset.max_clusters,
         )
         borders, labels = _joined(level, round(preset.samples(preset.min_action)))
-        confidence = _confidence(fine, sums, level, borders)
+        own = _preference(fine, sums, level, borders)
     with stage("repetitions"):
         frames = _in_frames(borders, preset, len(rows))
-        counted = _count(rows, frames, preset)
-    primitives = np.unique(np.concatenate([frames, *(each.cuts for each in counted)]))
+        repeated = _count(rows, frames, preset)
+    primitives = np.unique(np.concatenate([frames, *(each.cuts for each in repeated)]))
     parents = np.searchsorted(frames, primitives[:-1], side="right") - 1
-    agreement = np.array([each.agreement for each in counted])[parents]
-    return HierarchyFound(
-        features, preset, unit, frames, labels, confidence, primitives, agreement, timings
-    )
+    with stage("confidence"):
+        links, starts = evidence(features, unit, borders, labels, own, preset)
+        counts, cuts = _counted(rows, primitives, parents, own, preset)
+        shown = Evidence(links, starts, counts, cuts, parents)
+    return HierarchyFound(features, preset, unit, frames, labels, primitives, shown, fine, timings)
 
 
 def _joined(level: tree.Level, shortest: int) -> tuple[Frames, Frames]:
@@ -114,7 +118,7 @@ def _joined(level: tree.Level, shortest: int) -> tuple[Frames, Frames]:
     return np.append(first, len(samples)), by_first_appearance(per_sample[first])
 
 
-def _confidence(
+def _preference(
     fine: Frames, sums: NDArray[np.float64], level: tree.Level, borders: Frames
 ) -> NDArray[np.float64]:
     """How much nearer each segment is to its own cluster than to the next, where it began."""
@@ -141,9 +145,7 @@ def _count(
     channels: NDArray[np.float64], borders: Frames, preset: HierarchyConstants
 ) -> list[Repetitions]:
     """The repetitions in each segment."""
-    step = max(1, round(preset.working_fps / preset.counting_fps))
-    rows = np.ascontiguousarray(channels[::step], np.float32)
-    slower = preset.replace(working_fps=preset.working_fps / step)
+    rows, slower, step = _thinned(channels, preset)
 
     def count(span: tuple[int, int]) -> Repetitions:
         start, stop = span[0] // step, max(span[1] // step, span[0] // step + 1)
@@ -152,3 +154,26 @@ def _count(
         return replace(found, cuts=cuts[(span[0] < cuts) & (cuts < span[1])])
 
     return map_threads(count, list(pairwise(borders.tolist())))
+
+
+def _counted(
+    channels: NDArray[np.float64],
+    primitives: Frames,
+    parents: Frames,
+    own: NDArray[np.float64],
+    preset: HierarchyConstants,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Statistics of counts and of the starts of repetitions."""
+    rows, slower, step = _thinned(channels, preset)
+    edges = np.minimum(primitives // step, len(rows) - 1)
+    repeats = np.full(len(parents), True)
+    return counted(rows, np.append(edges[:-1], len(rows)), parents, repeats, own, slower)
+
+
+def _thinned(
+    channels: NDArray[np.float64], preset: HierarchyConstants
+) -> tuple[NDArray[np.float32], HierarchyConstants, int]:
+    """Channels at the rate at which repetitions are counted, the preset for it, and the step."""
+    step = max(1, round(preset.working_fps / preset.counting_fps))
+    rows = np.ascontiguousarray(channels[::step], np.float32)
+    return rows, preset.replace(working_fps=preset.working_fps / step), step

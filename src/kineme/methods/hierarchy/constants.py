@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 from kineme.methods.base import RATE, Unit
-from kineme.methods.constants import SHARE, SOME, SOME_TIME, TIME, Limits, constant
+from kineme.methods.constants import SOME, SOME_TIME, TIME, Limits, constant
 from kineme.methods.recurrence.counting import CountingPreset
 
 
@@ -57,9 +57,6 @@ class HierarchyConstants(CountingPreset):
         fine=True,
     )  # fmt: skip
     max_clusters: int = constant("clusters at most", limits=SOME, fine=True)
-    unsure_count: float = constant(
-        "score below which a note says to look at the repetitions", limits=SHARE, fine=True
-    )
 
     def at_most(self, fps: float) -> Self:
         """The preset for a recording of that rate: energies above it are not there."""

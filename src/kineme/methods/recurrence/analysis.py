@@ -15,6 +15,7 @@ from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
+from kineme.methods.recurrence.evidence import evidence
 from kineme.methods.recurrence.found import RecurrenceFound
 from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
@@ -62,16 +63,15 @@ def analyze_actions(
         recurring = _recurrence(rows, preset, preset.min_scale, preset.max_scale)
     with stage("actions"):
         found = find_actions(recurring, preset)
-        borders, labels, confidence = _activities(found, recurring, preset, len(rows))
+        borders, labels, own = _activities(found, recurring, preset, len(rows))
     with stage("repetitions"):
         limits = found.borders * recurring.step
         counted = _count(recurring, borders, labels, limits, preset)
     primitives = np.unique(np.concatenate([borders, *(each.cuts for each in counted)]))
-    parents = np.searchsorted(borders, primitives[:-1], side="right") - 1
-    agreement = np.array([each.agreement for each in counted])[parents]
-    return RecurrenceFound(
-        rows, recurring, preset, borders, labels, confidence, primitives, agreement, timings
-    )
+    with stage("confidence"):
+        repeats = labels[np.searchsorted(borders, primitives[:-1], side="right") - 1] >= 0
+        shown = evidence(recurring, preset, borders, labels, own, primitives, repeats)
+    return RecurrenceFound(rows, recurring, preset, borders, labels, primitives, shown, timings)
 
 
 def find_actions(recurring: Recurrence, preset: RecurrenceConstants) -> Actions:
@@ -192,7 +192,7 @@ def _count(
     def count(segment: int) -> Repetitions:
         start, stop = int(borders[segment]), int(borders[segment + 1])
         if labels[segment] < 0:
-            return Repetitions(np.empty(0, np.int64), np.nan)
+            return Repetitions(np.empty(0, np.int64))
         action = int(np.searchsorted(limits, (start + stop) // 2, side="right")) - 1
         first = (start + min(start, int(limits[action]))) // 2
         last = (stop + max(stop, int(limits[action + 1]))) // 2

@@ -127,13 +127,6 @@ class RecurrenceConstants(CountingPreset):
         "largest share of an activity that a transition takes from one end", limits=Limits(0, 0.5),
         fine=True,
     )  # fmt: skip
-    # What is said to be looked at.
-    unsure_action: float = constant(
-        "confidence below which a note says to look at the activity", limits=SHARE, fine=True
-    )
-    unsure_count: float = constant(
-        "score below which a note says to look at the repetitions", limits=SHARE, fine=True
-    )
     # Signals, which have no size of their own.
     recurs_at: float = constant(
         "distance at which the median sample of signals recurs: their unit of length", fine=True,

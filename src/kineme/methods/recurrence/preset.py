@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme.methods import weights
 from kineme.methods.base import Mirror
 from kineme.methods.recurrence.constants import RecurrenceConstants
 from kineme.methods.stages import Progress
@@ -75,8 +76,8 @@ KINEME = RecurrencePreset(
     usual_quantile=0.9,
     max_transition=0.4,
     max_transition_share=0.25,
-    unsure_action=0.25,
-    unsure_count=0.5,
+    link_weights=weights.LINK,
+    border_weights=weights.BORDER,
     recurs_at=0.2,
     exact_below=0.02,
 )

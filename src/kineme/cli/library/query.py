@@ -1,9 +1,8 @@
-"""``kineme library query`` and ``export``: the tables of a library, asked and taken along."""
+"""``kineme library query``: questions in SQL."""
 
 from __future__ import annotations
 
 from json import dumps
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -33,18 +32,6 @@ def query(
                 typer.echo(dumps(row, default=str))
         else:
             _show(answer)
-
-
-def export(
-    folder: Folder,
-    to: Annotated[Path, typer.Option("--to", help="File to write: .parquet, .csv or .tsv.")],
-    table: Annotated[
-        str, typer.Option(help="segments, recordings, clusters, words or embeddings.")
-    ] = "segments",
-) -> None:
-    """Write one table of a library: its segments, with a column for the recording."""
-    with opened(folder) as library:
-        library.export(to, table)
 
 
 def _show(answer: Any) -> None:
