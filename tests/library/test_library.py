@@ -14,7 +14,9 @@ from pyarrow import parquet
 import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Example, Library, build
+from kineme.library.constants import VOCABULARY
 from kineme.library.tables import DESCRIBED
+from kineme.matching import THRESHOLD
 from kineme.segments.table import COLUMNS
 
 
@@ -226,3 +228,16 @@ def test_a_damaged_file_is_one_error(folder: Path) -> None:
         path.write_bytes(b"nothing")
     with pytest.raises(ReadError):
         Library(folder)
+
+
+def test_columns_of_the_docs_are_those_of_the_tables() -> None:
+    text = (Path(__file__).parents[2] / "docs" / "library.md").read_text(encoding="utf-8")
+    types = {str: "text", int: "whole number", float: "number"}
+    for name, columns in DESCRIBED.items():
+        for column, known in columns.items():
+            if (name, column) != ("embeddings", "embedding") and column not in COLUMNS:
+                assert f"| `{column}` | {types[known.type]} | {known.meaning} |" in text
+
+
+def test_words_are_joined_as_far_as_a_search_reaches() -> None:
+    assert VOCABULARY.join == THRESHOLD

@@ -34,9 +34,6 @@ Search looks at matching features, not at segments: short recordings and parts o
 found as well.
 """
 
-from kineme.library.building import Built, build
-from kineme.library.library import Library
-from kineme.library.searching import Example, Hit
-from kineme.library.settings import Settings
+import lazy_loader
 
-__all__ = ["Built", "Example", "Hit", "Library", "Settings", "build"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

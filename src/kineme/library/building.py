@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import check_path, is_number
+from kineme._checks import is_number
 from kineme._version import __version__
 from kineme.errors import ParameterError, WriteError
-from kineme.library.compiling import compiled
 from kineme.library.constants import VOCABULARY
 from kineme.library.edits import read_edits
 from kineme.library.layout import (
@@ -26,17 +23,15 @@ from kineme.library.layout import (
     TABLES,
     arrow,
     held,
-    read_head,
     read_json,
     write_json,
 )
 from kineme.library.pieces import has_piece
+from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import Settings
 from kineme.library.sources import Glances, listed, names_of
 from kineme.library.tables import read_table, write_tables
-from kineme.library.work import Task, outcomes_of
 
-AnyPath = str | PathLike[str]
 Progress = Callable[[str], None]
 
 NOT_THERE = "there is no such file or folder"
@@ -136,72 +131,14 @@ def build(
     folder = opened(into)
     with held(folder, "build"):
         head = read_json(folder / HEAD)
-        known = known_sources(into, _paths(sources), _paths(remove))
-        missing = [each for each in known if not each.exists() and not _is_known(head, each)]
-        plan = _Plan(
-            folder,
-            tuple(each for each in known if each not in missing),
-            tuple(missing),
-            bool(head.get("recursive")) if recursive is None else recursive,
-            settings or (Settings.from_json(head["settings"]) if head else Settings()),
-        )
-        if not known and not head:
-            raise ParameterError(f"{into}: nothing to build from: name recordings or folders")
+        plan = plan_of(folder, head, as_paths(sources), as_paths(remove), recursive, settings)
         return _built(plan, head, int(jobs), progress or _silent)
 
 
-def known_sources(
-    into: AnyPath, sources: Iterable[Path] = (), remove: Iterable[Path] = ()
-) -> list[Path]:
-    """The sources of a library after these were added and removed, as absolute paths."""
-    head = read_json(Path(into) / HEAD)
-    sources = [Path(each) for each in head.get("sources", ())] + [*map(_absolute, sources)]
-    removed = {*map(_absolute, remove)}
-    unknown = removed - set(sources)
-    if unknown:
-        raise ParameterError(
-            f"{min(unknown)} is no source of the library; there are "
-            f"{', '.join(map(str, sources)) or 'none'}"
-        )
-    return [path for path in dict.fromkeys(sources) if path not in removed]
-
-
-def opened(into: AnyPath) -> Path:
-    """The folder of a library, made where there is none."""
-    check_path(into, "build")
-    folder = Path(into)
-    if (folder / HEAD).is_file():
-        read_head(folder)
-        return folder
-    begun = (folder / PIECES).is_dir()  # by a build that was ended before its first head
-    try:
-        if folder.exists() and not begun and (not folder.is_dir() or any(folder.iterdir())):
-            raise WriteError(into, "is there already and is no library: name a new folder")
-        (folder / PIECES).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise WriteError(into, f"cannot be made: {error.strerror or error}") from error
-    return folder
-
-
-@dataclass(frozen=True)
-class _Plan:
-    """What a build is asked for."""
-
-    folder: Path
-    sources: tuple[Path, ...]
-    missing: tuple[Path, ...]
-    recursive: bool
-    settings: Settings
-
-    @property
-    def pieces(self) -> Path:
-        return self.folder / PIECES
-
-
-def _built(plan: _Plan, head: dict[str, Any], jobs: int, progress: Progress) -> Built:
+def _built(plan: Plan, head: dict[str, Any], jobs: int, progress: Progress) -> Built:
     progress("looking for recordings")
     before = _before(plan.folder, head)
-    found = listed(plan.sources, recursive=plan.recursive, without=_absolute(plan.folder))
+    found = listed(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
     gone = [source for source in plan.sources if not source.exists()]
     kept = {
         path: source
@@ -231,6 +168,8 @@ def _built(plan: _Plan, head: dict[str, Any], jobs: int, progress: Progress) -> 
         if same and all(head.get(name) == wanted[name] for name in ("kineme", "vocabulary")):
             following, tables = head["following"], head["tables"]
         else:
+            from kineme.library.compiling import compiled
+
             progress("clusters in common")
             following = max(head.get("following", 0), read_edits(plan.folder).following)
             made, following = compiled(plan.folder, entries, head.get("tables"), following)
@@ -255,7 +194,7 @@ def _before(folder: Path, head: Mapping[str, Any]) -> dict[Path, tuple[str, str]
 
 
 def _keys(
-    plan: _Plan,
+    plan: Plan,
     found: Mapping[Path, Path],
     jobs: int,
     progress: Progress,
@@ -265,17 +204,32 @@ def _keys(
     seen = read_json(plan.folder / SEEN)
     glances = Glances(plan.settings.options().skeleton)
     looks = {path: glances.at(path) for path in found}
-    keys: dict[Path, str] = {}
-    tasks = []
+    digests: dict[Path, str] = {}
     for path in found:
-        glance, key = seen.get(str(path), ("", ""))
-        key = plan.settings.key(key)
-        if glance and glance == looks[path] and has_piece(plan.pieces, key):
-            keys[path] = key
-        else:
-            tasks.append(Task(path, plan.pieces, plan.settings))
+        glance, digest = seen.get(str(path), ("", ""))
+        if glance and glance == looks[path] and has_piece(plan.pieces, plan.settings.key(digest)):
+            digests[path] = digest
+    waiting = [path for path in found if path not in digests]
+    new = _described(plan, waiting, jobs, progress, digests, failed) if waiting else 0
+    told = {str(path): [looks[path], digest] for path, digest in digests.items()}
+    if told != seen:
+        write_json(plan.folder / SEEN, told)
+    return {path: plan.settings.key(digest) for path, digest in digests.items()}, new
+
+
+def _described(
+    plan: Plan,
+    waiting: Sequence[Path],
+    jobs: int,
+    progress: Progress,
+    digests: dict[Path, str],
+    failed: dict[Path, str],
+) -> int:
+    """Make the pieces of recordings, note their digests or why there are none; how many are new."""
+    from kineme.library.work import Task, outcomes_of
+
+    tasks = [Task(path, plan.pieces, plan.settings) for path in waiting]
     new = 0
-    digests = {str(path): seen[str(path)][1] for path in keys}
     started = time.monotonic()
     for done, (task, outcome) in enumerate(outcomes_of(tasks, jobs), 1):
         if outcome.fatal:
@@ -283,14 +237,10 @@ def _keys(
         if outcome.error:
             failed[task.path] = outcome.error
         else:
-            keys[task.path] = plan.settings.key(outcome.digest)
-            digests[str(task.path)] = outcome.digest
+            digests[task.path] = outcome.digest
         new += outcome.new
         progress(_told(done, len(tasks), time.monotonic() - started))
-    told = {path: [looks[Path(path)], digest] for path, digest in digests.items()}
-    if told != {path: list(one) for path, one in seen.items()}:
-        write_json(plan.folder / SEEN, told)
-    return keys, new
+    return new
 
 
 def _told(done: int, of: int, seconds: float) -> str:
@@ -309,23 +259,6 @@ def _clean(folder: Path, keys: set[str], tables: str) -> None:
             shutil.rmtree(path, ignore_errors=True)
     for path in folder.glob(".kineme-*"):
         path.unlink(missing_ok=True)
-
-
-def _is_known(head: Mapping[str, Any], source: Path) -> bool:
-    return str(source) in head.get("sources", ())
-
-
-def _paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
-    if isinstance(given, str | PathLike):
-        return [Path(given)]
-    paths = list(given)
-    for path in paths:
-        check_path(path, "build")
-    return [Path(path) for path in paths]
-
-
-def _absolute(path: Path) -> Path:
-    return Path(os.path.abspath(path))  # noqa: PTH100 (links are not followed)
 
 
 def _silent(_: str) -> None:

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.library.constants import VOCABULARY
-from kineme.library.descriptions import EMBEDDED
-from kineme.library.layout import PIECES, arrow
+from kineme.library.layout import EMBEDDED, PIECES, arrow
 from kineme.library.numbering import Spans, lasting_numbers
 from kineme.library.pieces import Piece, read_piece
 from kineme.library.tables import read_table, table_of

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from kineme.matching import THRESHOLD
 from kineme.methods.constants import (
     SHARE,
     SOME_LENGTH,
@@ -23,7 +22,7 @@ class VocabularyConstants:
 
     join: float = constant(
         "words are joined up to this mean distance, that of a search", limits=SOME_LENGTH,
-        default=THRESHOLD,
+        default=0.85,
     )  # fmt: skip
     farthest: float = constant(
         "no two words are farther apart; those of one recording are as far", limits=SOME_LENGTH,

@@ -19,6 +19,7 @@ from kineme.errors import MotionError, ParameterError
 from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
+from kineme.library.layout import EMBEDDED
 from kineme.matching.whole_segments import course, embedding
 from kineme.methods.hierarchy.preset import SENSORS
 from kineme.methods.hierarchy.statistics import channel_statistics
@@ -32,8 +33,6 @@ BODIES = "bodies"
 """The vocabulary of everything that has a body."""
 NOWHERE = 100.0
 """In each feature of channels that were not recorded: farther from anything than a match can be."""
-EMBEDDED = 32
-"""Numbers in an embedding."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,6 +22,8 @@ SCHEMA = "kineme.library/1"
 HEAD, EDITS, SEEN = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"
 TABLES, PIECES = "tables", "pieces"
+EMBEDDED = 32
+"""Numbers in an embedding."""
 EXTRA = "library"
 """The extra that installs what libraries need."""
 

@@ -18,11 +18,7 @@ from numpy.typing import NDArray
 from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.library.descriptions import EMBEDDED, Description, describe
-from kineme.library.layout import arrow
-from kineme.library.settings import Settings
-from kineme.recordings import Motion, Signals
-from kineme.segmentation.segmenter import segment
+from kineme.library.layout import EMBEDDED, arrow
 from kineme.segments.table import COLUMNS, SegmentTable
 
 METADATA = b"kineme.library"
@@ -47,49 +43,11 @@ class Piece:
     embeddings: NDArray[np.float32]
 
 
-def make_piece(recording: Motion | Signals, settings: Settings) -> tuple[Piece, Description]:
-    """What is kept of a recording, and its features.
-
-    Parameters
-    ----------
-    recording : Motion or Signals
-    settings : Settings
-
-    Returns
-    -------
-    piece : Piece
-    described : Description
-    """
-    emg = settings.options().emg
-    found = segment(
-        recording,
-        preset=settings.preset,
-        effectors=settings.effectors,
-        emg=emg,
-        **settings.constants,
-    )
-    described = describe(recording, effectors=settings.effectors, emg=emg)
-    embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
-    for row, each in enumerate(found.table):
-        if each.kind == "activity":
-            embeddings[row] = described.embedding(each.start_s, each.stop_s)
-    reason = f"not searched: {described.reason}" if described.reason else ""
-    facts = {
-        "format": recording.provenance.format or "",
-        "n_frames": recording.n_frames,
-        "fps": recording.fps,
-        "vocabulary": described.vocabulary,
-        "features_fps": described.fps,
-        "notes": [*found.provenance["notes"], *filter(None, [reason])],
-    }
-    return Piece(facts, found.table, embeddings), described
-
-
-def write_piece(folder: Path, key: str, piece: Piece, described: Description) -> None:
-    """Leave a piece in a folder."""
+def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float32]) -> None:
+    """Leave a piece, and the features (samples, dims) of its recording, in a folder."""
     pa, parquet = arrow()
     with atomic_write(folder / f"{key}.npy") as draft, draft.open("wb") as file:
-        np.save(file, np.ascontiguousarray(described.features, np.float32), allow_pickle=False)
+        np.save(file, np.ascontiguousarray(features, np.float32), allow_pickle=False)
     values = pa.array(piece.embeddings.ravel())
     embeddings = pa.FixedSizeListArray.from_arrays(values, EMBEDDED)
     table = pa.table({**piece.table.columns(), "embedding": embeddings})
@@ -116,7 +74,7 @@ def read_piece(folder: Path, key: str) -> Piece:
     pa, parquet = arrow()
     path = folder / f"{key}.parquet"
     with reading(path):
-        table = parquet.read_table(pa.BufferReader(path.read_bytes()))
+        table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
         facts = json.loads(table.schema.metadata[METADATA])
         columns = {name: _column(table, name) for name in COLUMNS}
         flat = table.column("embedding").combine_chunks().flatten().to_numpy()

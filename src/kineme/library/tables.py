@@ -16,8 +16,7 @@ from typing import Any
 from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import WriteError
-from kineme.library.descriptions import EMBEDDED
-from kineme.library.layout import TABLES, arrow
+from kineme.library.layout import EMBEDDED, TABLES, arrow
 from kineme.segments.table import DESCRIBED as SEGMENTS
 from kineme.segments.table import Column
 
@@ -126,4 +125,4 @@ def read_table(folder: Path, named: str, name: str) -> Any:
     pa, parquet = arrow()
     path = folder / TABLES / named / f"{name}.parquet"
     with reading(path):
-        return parquet.read_table(pa.BufferReader(path.read_bytes()))
+        return parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()

@@ -13,14 +13,20 @@ from multiprocessing import get_context, parent_process
 from multiprocessing.connection import wait as wait_for
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from kineme._threads import n_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, WriteError
 from kineme.formats import read_quietly
-from kineme.library.pieces import has_piece, make_piece, write_piece
+from kineme.library.descriptions import describe
+from kineme.library.layout import EMBEDDED
+from kineme.library.pieces import Piece, has_piece, write_piece
 from kineme.library.settings import Settings
 from kineme.library.sources import content_digest
+from kineme.recordings import Motion, Signals
+from kineme.segmentation.segmenter import segment
 
 DIED = "the process that worked on it died: it may need more memory than there is"
 
@@ -101,6 +107,46 @@ def work_on(task: Task) -> Outcome:
     except Exception as error:  # noqa: BLE001 (one recording never ends a build)
         return Outcome(error=_said(error))
     return Outcome(digest, new=True)
+
+
+def make_piece(
+    recording: Motion | Signals, settings: Settings
+) -> tuple[Piece, NDArray[np.float32]]:
+    """What is kept of a recording, and its features.
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+    settings : Settings
+
+    Returns
+    -------
+    piece : Piece
+    features : (samples, dims) array
+    """
+    emg = settings.options().emg
+    found = segment(
+        recording,
+        preset=settings.preset,
+        effectors=settings.effectors,
+        emg=emg,
+        **settings.constants,
+    )
+    described = describe(recording, effectors=settings.effectors, emg=emg)
+    embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
+    for row, each in enumerate(found.table):
+        if each.kind == "activity":
+            embeddings[row] = described.embedding(each.start_s, each.stop_s)
+    reason = f"not searched: {described.reason}" if described.reason else ""
+    facts = {
+        "format": recording.provenance.format or "",
+        "n_frames": recording.n_frames,
+        "fps": recording.fps,
+        "vocabulary": described.vocabulary,
+        "features_fps": described.fps,
+        "notes": [*found.provenance["notes"], *filter(None, [reason])],
+    }
+    return Piece(facts, found.table, embeddings), described.features
 
 
 def _in_a_pool(waiting: list[Task], jobs: int) -> Generator[tuple[Task, Outcome], None, list[Task]]:

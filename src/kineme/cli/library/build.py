@@ -67,7 +67,7 @@ def build(
     with failures.caught(into):
         from kineme.library import Settings
         from kineme.library.building import build as build_library
-        from kineme.library.building import known_sources
+        from kineme.library.planning import known_sources
 
         said = any((preset, constants, reading, effectors))
         settings: Settings | None = None
