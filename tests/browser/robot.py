@@ -109,9 +109,8 @@ class Robot:
         else:
             way = self.chance.choice(["ArrowLeft", "ArrowRight"])
             nudge = f"Alt+Shift+{way}"
-            keys.press({"split": "s", "delete": "Delete", "merge": "m"}.get(what, nudge))
-            if what == "check":
-                keys.press("Shift+K")
+            known = {"split": "s", "delete": "Delete", "merge": "m", "check": "Shift+K"}
+            keys.press(known.get(what, nudge))
         self.settled()
 
     def segment(self) -> None:
@@ -196,8 +195,11 @@ class Robot:
 
     def must_be(self, rows: Rows, what: str) -> None:
         """RuntimeError where the page shows another table."""
-        if self.rows() != rows:
-            raise RuntimeError(f"after {self.edits} edits, {what}: another table is shown")
+        shown = self.rows()
+        if shown != rows:
+            differ = [row for row in shown if row not in rows][:3]
+            said = f"after {self.edits} edits, {what}: another table is shown"
+            raise RuntimeError(f"{said}: {differ} of {len(shown)}, not of {len(rows)}")
 
     def on_the_disk(self, what: str) -> None:
         """RuntimeError where the saved table is not the one that the page shows."""

@@ -72,6 +72,21 @@ def test_a_cluster_given_by_hand_is_kept_though_none_matches() -> None:
     assert "10-20 c2 limp" in spans(result.segmentation, "primitive")
 
 
+def test_what_is_left_beside_a_checked_primitive_stays_in_its_activity() -> None:
+    rows = [(0, 30), (30, 60)]
+    columns = {
+        "level": ["activity"] * 2 + ["primitive"] * 2,
+        "kind": ["activity"] * 4,
+        "start_frame": [start for start, _ in rows * 2],
+        "stop_frame": [stop for _, stop in rows * 2],
+    }
+    found = Segmentation.from_columns(columns, n_frames=60, fps=30.0)
+    before = editing.split(editing.split(found, "primitive", 12), "primitive", 29)
+    checked = editing.check(before, "primitive", [12], True)
+    result = editing.carried(checked, found)
+    assert spans(result.segmentation, "primitive") == "0-12 | 12-29 | 29-30 | 30-60"
+
+
 @given(segmentations(), segmentations(), st.data())
 def test_checked_segments_are_never_changed(before, found, data) -> None:
     if (before.n_frames, before.fps) != (found.n_frames, found.fps):

@@ -129,12 +129,21 @@ def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_wh
 
     with monkeypatch.context() as patch:
         patch.setattr(f"{where}.{place}", fail)
-        cut_short = studio.edit(before["revision"], "split", level="activity", frame=90)
-        assert cut_short.status_code == 500
+        sent = {
+            "revision": before["revision"],
+            "edit": {"kind": "split", "level": "activity", "frame": 90},
+            "name": "has no answer",
+        }
+        address = f"/api/recordings/{studio.id}/edits"
+        assert studio.client.post(address, json=sent).status_code == 500
     again = make_studio()
     message = again.recording()
     assert message["segmentation"] == before["segmentation"]
-    state = again.done(message["revision"], "undo")
+    made = again.client.post(address, json={**sent, "revision": message["revision"]}).json()
+    assert 90 in again.starts()
+    state = again.done(made["revision"], "undo")
+    assert state["segmentation"] == before["segmentation"]
+    state = again.done(state["revision"], "undo")
     assert labels(state) == set()
 
 

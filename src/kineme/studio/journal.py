@@ -64,7 +64,10 @@ class Step:
 
 @dataclass(frozen=True)
 class Record:
-    """What ``history.json`` holds; tables by their numbers."""
+    """What ``history.json`` holds; tables by their numbers.
+
+    ``names`` are those of the last changes, empty for one without.
+    """
 
     schema: str = SCHEMA
     revision: int = 0
@@ -103,7 +106,9 @@ class Journal:
         if steps and steps[history.present].n_frames == table.n_frames:
             for known in (history, _or_none(history.undone), _or_none(history.redone)):
                 if known is not None and steps[known.present].sha256 == digest:
-                    self._record = replace(self._record, history=known)  # the last was cut short
+                    if known is not history:  # the last change was cut short, and has no answer
+                        names = self._record.names[:-1]
+                        self._record = replace(self._record, history=known, names=names)
                     return
             self._record = self.changed(table, None, replaced=True).record
         else:
@@ -128,7 +133,7 @@ class Journal:
 
     def knows(self, name: str) -> bool:
         """Whether the edit of that name has been made."""
-        return name in self._record.names
+        return bool(name) and name in self._record.names
 
     def kept(self) -> dict[int, Step]:
         """The tables that were replaced, the latest first."""
@@ -213,7 +218,7 @@ class Journal:
         WriteError
             It cannot be written.
         """
-        names = (*self._record.names, *([name] if name else []))[-MOST_NAMES:]
+        names = (*self._record.names, name)[-MOST_NAMES:]
         record = _pruned(replace(change.record, revision=revision, names=names))
         try:
             self._write(record)

@@ -42,7 +42,9 @@ def levels_of(found: RecurrenceFound, columns: Columns) -> Mapping[float, Column
     at = levels.clusters_at(pieces, details, border_price=cost, cluster_price=cost)
     longest = preset.frames(preset.min_action)
     return {
-        detail: levels.at_detail(columns, frames, at[detail], longest / detail if detail < 1 else 0)
+        detail: levels.at_detail(
+            columns, frames, at[detail], longest / detail if detail < 1 else None
+        )
         for detail in details
     }
 

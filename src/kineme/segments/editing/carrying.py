@@ -134,14 +134,20 @@ def _imposed(found: Segmentation, fixed: Rows) -> Segmentation:
     own = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
     activities = _sparing(list(found.activities), own["primitive"])
     activities = _with_fixed(activities, own["activity"])
-    primitives = list(found.primitives)
-    if not primitives:
+    if not len(found.primitives):
         return with_rows(found, activities, [])
-    for border in cuts(activities):
-        primitives = cut(primitives, border)
+    primitives = _cut_at(activities, list(found.primitives))
     for row in own["activity"]:
         primitives = _inside(primitives, row, found)
-    return with_rows(found, activities, _with_fixed(primitives, own["primitive"]))
+    primitives = _cut_at(activities, _with_fixed(primitives, own["primitive"]))
+    return with_rows(found, activities, primitives)
+
+
+def _cut_at(activities: Rows, primitives: Rows) -> Rows:
+    """The primitives, none of which crosses a border of activities."""
+    for border in cuts(activities):
+        primitives = cut(primitives, border)
+    return primitives
 
 
 def _sparing(activities: Rows, primitives: Rows) -> Rows:
