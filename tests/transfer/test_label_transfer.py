@@ -110,6 +110,41 @@ def test_activities_are_labelled_where_there_are_no_primitives() -> None:
     assert activities == ["jump", "walk", "", "kick"]
 
 
+def test_a_recording_too_short_for_activities_is_searched() -> None:
+    kick = next(row for row in ASKED.truth.primitives if row.label == "kick")
+    short = ASKED.motion[max(0, kick.start_frame - 12) : kick.stop_frame + 12]
+    columns = {
+        "level": ["activity"],
+        "kind": ["transition"],
+        "start_frame": [0],
+        "stop_frame": [short.n_frames],
+    }
+    nothing = Segmentation.from_columns(columns, n_frames=short.n_frames, fps=short.fps)
+    result = transfer_labels(nothing, transfer_features(short), KNOWLEDGE)
+    (found,) = [row for row in result.primitives if row.kind == "activity"]
+    assert found.label == "kick"
+    assert abs(found.start_frame - 12) < 12
+    assert [row.label for row in result.activities if row.kind == "activity"] == ["kick"]
+    assert "1 of 1" in result.provenance["notes"][-1]
+    other = KNOWLEDGE.select(KNOWLEDGE.labels == "walk")
+    same = transfer_labels(nothing, transfer_features(short), other)
+    assert same.table == nothing.table
+
+
+def test_touching_matches_are_primitives_of_one_activity() -> None:
+    walk = synthesize([Action("walk", 3)], fps=60, seed=9)
+    columns = {
+        "level": ["activity"],
+        "kind": ["transition"],
+        "start_frame": [0],
+        "stop_frame": [walk.motion.n_frames],
+    }
+    nothing = Segmentation.from_columns(columns, n_frames=walk.motion.n_frames, fps=60)
+    result = transfer_labels(nothing, transfer_features(walk.motion), KNOWLEDGE)
+    assert [row.label for row in result.activities if row.kind == "activity"] == ["walk"]
+    assert sum(row.label == "walk" for row in result.primitives) >= 2
+
+
 def test_an_empty_knowledge_base_names_nothing() -> None:
     empty = KNOWLEDGE.select(np.zeros(len(KNOWLEDGE), bool))
     assert not transfer_labels(BLANK, FEATURES, empty).table.label.any()

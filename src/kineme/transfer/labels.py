@@ -27,6 +27,7 @@ from kineme.segments.table import Level, SegmentTable
 from kineme.transfer.features import FPS, working_frames
 from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.matching import Floats, Primitives, label_costs, same_movements
+from kineme.transfer.unsegmented import found_by_search, segmented_as_found
 
 REACH = 2.0
 """Thresholds up to which a match with the next label is looked for."""
@@ -44,9 +45,10 @@ def transfer_labels(
 ) -> Segmentation:
     """The same segments, with labels from the knowledge base and the margin as score.
 
-    Labels that are there already stay. An activity is called as most of its
-    frames are. ``provenance["transfer"]`` holds the threshold and, for each
-    primitive, the cost of its match (null: no label came from one).
+    A recording without activities, as one that is too short to repeat anything, is searched for
+    all that is known, and cut into what is found there. Labels that are there already stay. An
+    activity is called as most of its frames are. ``provenance["transfer"]`` holds the threshold
+    and, for each primitive, the cost of its match (null: no label came from one).
 
     Parameters
     ----------
@@ -90,6 +92,9 @@ def transfer_labels(
     if not (is_number(threshold) and threshold > 0):
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
     features = _checked(features, segmentation)
+    table = segmentation.table
+    if not ((table.kind == "activity") | (table.label != "")).any():
+        return _searched(segmentation, features, knowledge, threshold, spread=spread)
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     rows = segmentation.level(level)
     labels = rows.label.astype(object)
@@ -104,7 +109,6 @@ def transfer_labels(
         labels[todo], scores[todo], costs[todo] = named
     if spread:
         _spread(labels, scores, rows.cluster, todo)
-    table = segmentation.table
     own = table.level == level
     all_labels, all_scores = table.label.astype(object), table.score.copy()
     all_labels[own], all_scores[own] = labels, scores
@@ -159,6 +163,23 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
     ]
     table = replace(segmentation.table, label=np.array(names, dtype=np.str_))
     return replace(segmentation, table=table, hierarchy=None)
+
+
+def _searched(
+    segmentation: Segmentation,
+    features: Floats,
+    knowledge: KnowledgeBase,
+    threshold: float,
+    *,
+    spread: bool,
+) -> Segmentation:
+    """What is known, found in a recording without activities; the same segments if nothing is."""
+    found = found_by_search(features, knowledge, threshold)
+    result = segmented_as_found(segmentation, found) if found else segmentation
+    labels = np.array([match.label for match in found], np.str_)
+    costs = np.array([match.distance for match in found])
+    said = _provenance(segmentation, labels, costs, threshold, spread=spread)
+    return replace(result, provenance=said, hierarchy=None)
 
 
 def _checked(features: ArrayLike, segmentation: Segmentation) -> Floats:
