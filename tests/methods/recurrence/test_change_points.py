@@ -144,7 +144,8 @@ def test_an_action_is_known_again() -> None:
     walk, turn = swing(8, period=1), swing(10, period=1.2, axis=2)
     found = measured(walk, turn, walk, turn, turn)
     borders = np.array([0, 80, 200, 280, 400, 520])
-    options = {"similarity": 0.6, "softness": 1.3, "samples": 20, "least": 0.05, "gap": 12}
+    options = {"similarity": 0.6, "softness": 1.3, "samples": 20, "least": 0.05}
+    options |= {"narrow": 7, "gap_share": 0.25}
     linked = link(borders, found, found.features, **options, max_lag=None)
     assert linked.tolist() == [0, 1, 0, 1, 1]
     # 12 s away is too far to be compared, 0 s is not.

@@ -153,7 +153,8 @@ def link(
     recurrence: Recurrence,
     poses: NDArray[np.float32],
     *,
-    gap: int,
+    narrow: int,
+    gap_share: float,
     similarity: float,
     softness: float,
     samples: int,
@@ -172,8 +173,11 @@ def link(
     recurrence : Recurrence
     poses : (frames, dims) array
         By which segments are compared, in the unit of the scales.
-    gap : int
-        Samples; pairs no farther apart do not count.
+    narrow : int
+        Samples; pairs no farther apart never count. Of long segments those within the widest
+        phase window do not, either.
+    gap_share : float
+        Nor do, of shorter ones, those within this share of the shorter segment.
     similarity : float
         Relative similarity from which segments are one action, 0 to 1.
     softness : float
@@ -198,13 +202,15 @@ def link(
     chosen = [spread(start, stop, samples) for start, stop in pairwise(borders.tolist())]
     scales = [recurrence.scales[each] for each in chosen]
     frames = [step * each for each in chosen]
+    gaps = (gap_share * np.diff(borders)).astype(np.int64)
+    gaps = np.maximum(np.minimum(gaps, recurrence.phase), narrow) * step
     mean = np.zeros((k, k))
 
     def compare(g: int) -> None:
         for h in range(g, within_reach[g]):
             mean[g, h] = mean[h, g] = _distance_kernels.mean_similarity(
                 poses, frames[g], frames[h], reaches, scales[g], scales[h],
-                softness, gap * step,
+                softness, min(gaps[g], gaps[h]),
             )  # fmt: skip
 
     map_threads(compare, range(k))

@@ -92,6 +92,10 @@ class RecurrenceConstants(CountingPreset):
     link_softness: float = constant(
         "scales at which that similarity has fallen to 1/e", limits=SOME_FACTOR
     )
+    link_gap: float = constant(
+        "samples of a short segment that are nearer than this share of it are not compared",
+        limits=FACTOR, fine=True,
+    )  # fmt: skip
     link_samples: int = constant(
         "segments are compared by so many of their samples at most", limits=SOME, fine=True
     )

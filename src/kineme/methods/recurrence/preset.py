@@ -64,6 +64,7 @@ KINEME = RecurrencePreset(
     distinct_share=0.65,
     link_similarity=0.6,
     link_softness=1.3,
+    link_gap=0.25,
     link_samples=20,
     any_pace=True,
     least_self_similarity=0.05,
