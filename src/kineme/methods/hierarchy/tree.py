@@ -24,6 +24,7 @@ from kineme._threads import even_slices, map_threads
 from kineme.methods.hierarchy import _kernels as kernels
 from kineme.methods.recurrence._action_kernels import change_points
 from kineme.methods.samples import spread
+from kineme.methods.segments import by_first_appearance
 
 Floats = NDArray[np.float64]
 Samples = NDArray[np.int64]
@@ -165,35 +166,10 @@ def best_level(
         level = tree[at]
         lengths = np.diff(borders[level]).astype(np.float64)
         inner = np.add.reduceat(np.add.reduceat(sums, level[:-1], 0), level[:-1], 1)
-        for labels, within in _groupings(inner, lengths, most_clusters):
-            runs = 1 + np.count_nonzero(np.diff(labels))
-            clusters = int(labels.max()) + 1
-            cost = within + segment_cost * runs + cluster_cost * clusters
-            if cost < cheapest:
-                cheapest, best = cost, Level(borders[level], labels)
+        labels = np.empty(len(lengths), np.int64)
+        cost = kernels.cheapest_grouping(
+            inner, lengths, most_clusters, segment_cost, cluster_cost, labels
+        )
+        if cost < cheapest:
+            cheapest, best = cost, Level(borders[level], by_first_appearance(labels))
     return best
-
-
-def _groupings(inner: Floats, lengths: Floats, most: int) -> list[tuple[Samples, float]]:
-    """Labels of the segments for each number of clusters, and half the distances within them."""
-    from scipy.cluster.hierarchy import fcluster, linkage
-    from scipy.spatial.distance import squareform
-
-    k = len(lengths)
-    if k == 1:
-        return [(np.zeros(1, np.int64), float(inner[0, 0] / (2 * lengths[0])))]
-    means = inner / np.outer(lengths, lengths)
-    np.fill_diagonal(means, 0)
-    joined = linkage(squareform(means, checks=False), "average")
-    # Fewer clusters are unions of those of the finest grouping: sums are taken once.
-    finest = fcluster(joined, min(k, most), "maxclust").astype(np.int64) - 1
-    members = np.eye(int(finest.max()) + 1)[finest]
-    sums, sizes = members.T @ inner @ members, lengths @ members
-    first = np.unique(finest, return_index=True)[1]
-    found = []
-    for count in range(1, len(sizes) + 1):
-        labels = fcluster(joined, count, "maxclust").astype(np.int64) - 1
-        union = np.eye(int(labels.max()) + 1)[labels[first]]
-        own = np.einsum("gc,gh,hc->c", union, sums, union, optimize=True)
-        found.append((labels, float((own / (2 * (sizes @ union))).sum())))
-    return found
