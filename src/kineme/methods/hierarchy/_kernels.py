@@ -27,13 +27,11 @@ def similarity_band(features, unit, start, stop, similarity):
             similarity[i, lag] = 1.0 - np.sqrt(square) / unit
 
 
-@njit(
-    "void(float32[:, ::1], int64[::1], int64[::1], float64, int64, int64, float64[:, ::1])", **SUMS
-)
-def mean_distances(features, chosen, borders, unit, start, stop, means):
-    """Mean distance of the chosen samples of each two segments, in units, for some rows.
+@njit("void(float32[:, ::1], int64[::1], int64[::1], int64, int64, float64[:, ::1])", **SUMS)
+def mean_distances(features, chosen, borders, start, stop, means):
+    """Mean distance of the chosen samples of each two groups, for some rows.
 
-    Segment g has ``chosen[borders[g]:borders[g + 1]]``. Columns before the row
+    Group g has ``chosen[borders[g]:borders[g + 1]]``. Columns before the row
     are left as they are; the matrix is symmetric.
     """
     for g in range(start, stop):
@@ -47,7 +45,7 @@ def mean_distances(features, chosen, borders, unit, start, stop, means):
                         square += difference * difference
                     total += np.sqrt(square)
             pairs = (borders[g + 1] - borders[g]) * (borders[h + 1] - borders[h])
-            means[g, h] = total / (pairs * unit)
+            means[g, h] = total / pairs
 
 
 @njit("void(float64[:, ::1], float64[::1], int64[::1], int64, int64[::1], float64[::1])", **OPTIONS)

@@ -14,6 +14,7 @@ segmentation after Keogh, Chu, Hart and Pazzani 2001; the rest is ours.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -29,11 +30,11 @@ from kineme.methods.segments import by_first_appearance
 Floats = NDArray[np.float64]
 Samples = NDArray[np.int64]
 
-PAIRS = 2000
+PAIRS = 1000
 """Samples whose distances tell the median one."""
 COMPARED = 12_000
 """Samples that stand for all segments of a long recording."""
-LEAST, MOST = 4, 32
+LEAST, MOST = 4, 24
 """Samples that stand for one segment."""
 EACH_LEVEL, LEVELS = 150, 60
 """Levels up to so many segments are tried one by one; of the others so many."""
@@ -92,19 +93,23 @@ def between_segments(features: NDArray[np.float32], borders: Samples, unit: floa
     """Summed distances of the samples of each two segments, (segments, segments), in units."""
     k = len(borders) - 1
     most = max(LEAST, min(MOST, COMPARED // k))
-    chosen = [spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
-    ends = np.concatenate([[0], np.cumsum([len(each) for each in chosen])])
-    means = np.zeros((k, k))
+    groups = [spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
+    lengths = np.diff(borders)
+    sums = mean_distances(features, groups) * np.outer(lengths, lengths)
+    return np.asarray(sums / unit, np.float64)
+
+
+def mean_distances(features: NDArray[np.float32], groups: Sequence[Samples]) -> Floats:
+    """Mean distances of the samples of each two groups, (groups, groups)."""
+    ends = np.concatenate([[0], np.cumsum([len(group) for group in groups])])
+    chosen = np.concatenate(groups)
+    means = np.zeros((len(groups), len(groups)))
 
     def fill(rows: slice) -> None:
-        kernels.mean_distances(
-            features, np.concatenate(chosen), ends, unit, rows.start, rows.stop, means
-        )
+        kernels.mean_distances(features, chosen, ends, rows.start, rows.stop, means)
 
-    map_threads(fill, even_slices(k))
-    means = np.triu(means) + np.triu(means, 1).T
-    lengths = np.diff(borders)
-    return np.asarray(means * np.outer(lengths, lengths), np.float64)
+    map_threads(fill, even_slices(len(groups)))
+    return np.triu(means) + np.triu(means, 1).T
 
 
 def levels(borders: Samples, sums: Floats) -> list[Samples]:
