@@ -1,4 +1,4 @@
-"""Which of several segmentations of a recording the others agree with most.
+"""Which of two segmentations of a recording other ones agree with most.
 
 Where there is no truth, what is found in one way only is doubtful. The
 agreement of two segmentations is the adjusted Rand index of their clusters
@@ -17,7 +17,7 @@ Labels = NDArray[np.int64]
 
 
 def most_agreed(answers: Sequence[Sequence[Labels]]) -> int:
-    """The answer that agrees most with the others; the first of equals.
+    """The first or the last answer: the one that all agree with more; the first of equals.
 
     Parameters
     ----------
@@ -26,17 +26,19 @@ def most_agreed(answers: Sequence[Sequence[Labels]]) -> int:
 
     Examples
     --------
-    >>> a, b, c = np.array([0, 0, 1, 1]), np.array([0, 0, 0, 1]), np.array([0, 1, 0, 1])
-    >>> most_agreed([[c], [b], [a]])
-    1
+    >>> first, other, last = np.array([[0, 1, 0, 1, 0], [0, 0, 0, 1, 1], [0, 0, 1, 1, 1]])
+    >>> most_agreed([[first], [other], [last]])
+    2
     """
-    agreement = np.zeros(len(answers))
-    for i, mine in enumerate(answers):
-        for j in range(i):
-            pairs = zip(mine, answers[j], strict=True)
-            both = sum(len(a) * adjusted_rand_index(a, b) for a, b in pairs)
-            agreement[[i, j]] += both
-    return int(np.argmax(agreement))
+    first, last = (
+        sum(
+            len(a) * adjusted_rand_index(a, b)
+            for other in answers
+            for a, b in zip(answers[one], other, strict=True)
+        )
+        for one in (0, -1)
+    )
+    return 0 if first >= last else len(answers) - 1
 
 
 def adjusted_rand_index(first: Labels, second: Labels) -> float:

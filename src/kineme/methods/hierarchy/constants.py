@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
+from kineme.errors import ParameterError
 from kineme.methods.base import RATE, Unit
 from kineme.methods.constants import (
     SHARE,
@@ -83,6 +84,15 @@ class HierarchyConstants(CountingPreset):
     unsure_count: float = constant(
         "score below which a note says to look at the repetitions", limits=SHARE, fine=True
     )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        lengths = {len(self.shared), len(self.weights), len(self.restless_over)}
+        if lengths - {len(self.shared) or 1}:
+            raise ParameterError(
+                "shared, weights and restless_over must have a number for each view, not "
+                f"{len(self.shared)}, {len(self.weights)} and {len(self.restless_over)}"
+            )
 
     def at_most(self, fps: float) -> Self:
         """The preset for a recording of that rate: energies above it are not there."""

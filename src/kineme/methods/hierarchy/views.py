@@ -2,9 +2,9 @@
 
 Two questions have no one answer. What channels share is movement where sensors
 are on both legs, and only where somebody stands where channels are the places
-of joints. And what varies most matters most for some sensors, what changes
-from activity to activity, but little within one, for others. So both are
-answered in several ways, and what the other views agree with most is taken
+of joints. And what varies most tells activities apart for some sensors, what
+changes seldom for others. The first and the last view answer both in opposite
+ways; that is taken which those between them agree with more
 (`kineme.methods.hierarchy.agreement`).
 """
 
