@@ -48,10 +48,12 @@ ROOMS = {
     "formats": Room("recordings from files and back: one registry, one `read`", "recordings"),
     "features": Room(
         "arrays from recordings: poses in the body's own frame, rotations, distances of points, "
-        "stacking, mirroring, bundling, envelopes of muscles",
+        "stacking, mirroring, bundling, envelopes of muscles; directions in which movements of "
+        "different people match",
         "recordings",
     ),
     "graph": Room("`NeighborGraph`, `WarpingPaths` from arrays", "errors"),
+    "matching": Room("where features are like those of an example", ""),
     "methods": Room(
         "presets, and what their methods find in arrays: `recurrence`, `hierarchy`, "
         "`region_growing`, `baselines`",
@@ -70,7 +72,7 @@ ROOMS = {
     ),
     "transfer": Room(
         "`KnowledgeBase`; labels and cluster numbers for other recordings",
-        "features formats graph methods recordings segmentation segments",
+        "features formats matching recordings segments",
     ),
     "synthesis": Room(
         "`MotionGraph`, routes through it, new motion from them",

@@ -31,7 +31,7 @@ FEATURES = transfer_features(ASKED.motion)
 
 def without_labels(segments: Segmentation) -> Segmentation:
     blank = np.full(len(segments.table), "")
-    return replace(segments, table=replace(segments.table, label=blank))
+    return replace(segments, table=replace(segments.table, label=blank), hierarchy=None)
 
 
 BLANK = without_labels(ASKED.truth)
@@ -61,13 +61,13 @@ def test_scores_are_margins_and_costs_stay_within_the_threshold() -> None:
     assert (rows.score[named] <= 1).all()
     costs = result.provenance["transfer"]["costs"]
     assert [cost is not None for cost in costs] == named.tolist()
-    assert max(cost for cost in costs if cost is not None) <= 0.12
+    assert max(cost for cost in costs if cost is not None) <= 0.85
     assert f"{named.sum()} of " in result.provenance["notes"][-1]
 
 
 def test_a_lower_threshold_only_takes_labels_away() -> None:
     before = None
-    for threshold in (0.3, 0.12, 0.08, 0.04, 0.001):
+    for threshold in (1.1, 0.85, 0.6, 0.3, 0.001):
         named = transfer_labels(BLANK, FEATURES, KNOWLEDGE, threshold=threshold).primitives
         if before is not None:
             assert not ((named.label != "") & (before == "")).any()
@@ -93,8 +93,8 @@ def test_spreading_names_the_rest_of_a_cluster() -> None:
     cluster = table.cluster.copy()
     cluster[table.level == "primitive"] = one
     clustered = replace(BLANK, table=replace(table, cluster=cluster))
-    strict = transfer_labels(clustered, FEATURES, knowledge, threshold=0.09)
-    spread = transfer_labels(clustered, FEATURES, knowledge, threshold=0.09, spread=True)
+    strict = transfer_labels(clustered, FEATURES, knowledge, threshold=0.5)
+    spread = transfer_labels(clustered, FEATURES, knowledge, threshold=0.5, spread=True)
     activity = walk.kind == "activity"
     for number in (7, 8):
         members = activity & (one == number)

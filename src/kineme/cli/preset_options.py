@@ -31,6 +31,14 @@ PresetName = Annotated[
         help="\n\n".join(f"{name}: {preset.help}" for name, preset in PRESETS.items()),
     ),
 ]
+Detail = Annotated[
+    float,
+    typer.Option(
+        "--detail",
+        metavar="NUMBER",
+        help="1 as found; less for fewer, longer segments, more for finer ones.",
+    ),
+]
 Uses = dict[str, Constant]
 """A constant in each preset that has it, by the name of the preset."""
 

@@ -72,12 +72,13 @@ def read(path: Path) -> Segmentation | Labels:
                 f"ends at frame {max(columns['stop_frame'])}, but {beside.name} speaks of "
                 f"{head.get('n_frames')} frames: remove that file if it belongs to another table",
             )
-        told = with_head(columns, head, path)
+        alone = {name: said for name, said in head.items() if name != "hierarchy"}
+        told = with_head(columns, alone, path)
         said = pairs.differences(
             path, beside, head, _digest(columns), told=told.fps, own=_rate(columns)
         )
         if not said:
-            return told
+            return with_head(columns, head, path)
         notes = [*told.provenance.get("notes", ()), *said]
         return replace(told, provenance={**told.provenance, "notes": notes})
     return with_head(columns, _guessed_head(columns, path), path)

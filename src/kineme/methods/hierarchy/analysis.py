@@ -14,13 +14,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_features
 from kineme._threads import map_threads
+from kineme.methods.evidence import Evidence
 from kineme.methods.hierarchy.agreement import most_agreed
 from kineme.methods.hierarchy.constants import HierarchyConstants
+from kineme.methods.hierarchy.evidence import evidence
 from kineme.methods.hierarchy.found import HierarchyFound
 from kineme.methods.hierarchy.level import segments_of
 from kineme.methods.hierarchy.parts import linked, part_ends
 from kineme.methods.hierarchy.tree import median_distance
 from kineme.methods.hierarchy.views import views as views_of
+from kineme.methods.recurrence.evidence import counted
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from kineme.methods.samples import unstacked
 from kineme.methods.stages import Progress, stopwatch
@@ -65,23 +68,20 @@ def analyze_channels(
     with stage("level"):
         best = most_agreed([[part.per_sample() for part in parts] for parts in answers])
         features = views[best]
+        unit = median_distance(features)
         level = linked(features, answers[best])
     with stage("repetitions"):
         frames = _in_frames(level.borders, preset, len(rows))
-        counted = _count(rows, frames, preset)
-    primitives = np.unique(np.concatenate([frames, *(each.cuts for each in counted)]))
+        repeated = _count(rows, frames, preset)
+    primitives = np.unique(np.concatenate([frames, *(each.cuts for each in repeated)]))
     parents = np.searchsorted(frames, primitives[:-1], side="right") - 1
-    agreement = np.array([each.agreement for each in counted])[parents]
+    with stage("confidence"):
+        own = level.preference
+        links, starts = evidence(features, unit, level.borders, level.labels, own, preset)
+        counts, cuts = _counted(rows, primitives, parents, own, preset)
+        shown = Evidence(links, starts, counts, cuts, parents)
     return HierarchyFound(
-        features=features,
-        preset=preset,
-        unit=median_distance(features),
-        borders=frames,
-        labels=level.labels,
-        confidence=level.confidence,
-        primitives=primitives,
-        agreement=agreement,
-        timings=timings,
+        features, preset, unit, frames, level.labels, primitives, shown, level.fine, timings
     )
 
 
@@ -96,9 +96,7 @@ def _count(
     channels: NDArray[np.float64], borders: Frames, preset: HierarchyConstants
 ) -> list[Repetitions]:
     """The repetitions in each segment."""
-    step = max(1, round(preset.working_fps / preset.counting_fps))
-    rows = np.ascontiguousarray(channels[::step], np.float32)
-    slower = preset.replace(working_fps=preset.working_fps / step)
+    rows, slower, step = _thinned(channels, preset)
 
     def count(span: tuple[int, int]) -> Repetitions:
         start, stop = span[0] // step, max(span[1] // step, span[0] // step + 1)
@@ -107,3 +105,26 @@ def _count(
         return replace(found, cuts=cuts[(span[0] < cuts) & (cuts < span[1])])
 
     return map_threads(count, list(pairwise(borders.tolist())))
+
+
+def _counted(
+    channels: NDArray[np.float64],
+    primitives: Frames,
+    parents: Frames,
+    own: NDArray[np.float64],
+    preset: HierarchyConstants,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Statistics of counts and of the starts of repetitions."""
+    rows, slower, step = _thinned(channels, preset)
+    edges = np.minimum(primitives // step, len(rows) - 1)
+    repeats = np.full(len(parents), True)
+    return counted(rows, np.append(edges[:-1], len(rows)), parents, repeats, own, slower)
+
+
+def _thinned(
+    channels: NDArray[np.float64], preset: HierarchyConstants
+) -> tuple[NDArray[np.float32], HierarchyConstants, int]:
+    """Channels at the rate at which repetitions are counted, the preset for it, and the step."""
+    step = max(1, round(preset.working_fps / preset.counting_fps))
+    rows = np.ascontiguousarray(channels[::step], np.float32)
+    return rows, preset.replace(working_fps=preset.working_fps / step), step

@@ -81,9 +81,6 @@ class HierarchyConstants(CountingPreset):
         fine=True,
     )  # fmt: skip
     max_clusters: int = constant("clusters at most", limits=SOME, fine=True)
-    unsure_count: float = constant(
-        "score below which a note says to look at the repetitions", limits=SHARE, fine=True
-    )
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -30,14 +30,14 @@ class Segments:
     borders : (segments + 1,) array
     labels : (segments,) array
         Cluster of each.
-    confidence : (segments,) array
+    preference : (segments,) array
         How much nearer each is to its own cluster than to the next, 0 to 1.
     """
 
     fine: Samples
     borders: Samples
     labels: Samples
-    confidence: NDArray[np.float64]
+    preference: NDArray[np.float64]
 
     def per_sample(self) -> Samples:
         """The cluster of each sample."""
@@ -64,7 +64,7 @@ def segments_of(features: NDArray[np.float32], preset: HierarchyConstants) -> Se
     borders, labels = joined(
         level.borders, level.labels, shortest=round(preset.samples(preset.min_action))
     )
-    return Segments(fine, borders, labels, _confidence(fine, sums, level, borders))
+    return Segments(fine, borders, labels, _preference(fine, sums, level, borders))
 
 
 def joined(borders: Samples, labels: Samples, *, shortest: int = 0) -> tuple[Samples, Samples]:
@@ -88,7 +88,7 @@ def joined(borders: Samples, labels: Samples, *, shortest: int = 0) -> tuple[Sam
     return np.append(first, len(samples)), by_first_appearance(per_sample[first])
 
 
-def _confidence(
+def _preference(
     fine: Samples, sums: NDArray[np.float64], level: tree.Level, borders: Samples
 ) -> NDArray[np.float64]:
     """How much nearer each segment is to its own cluster than to the next, where it began."""

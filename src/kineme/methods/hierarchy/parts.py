@@ -63,7 +63,7 @@ def linked(features: NDArray[np.float32], parts: Sequence[Segments]) -> Segments
     borders, labels = joined(
         ends, by_first_appearance(link(means, part_of, tree.median_distance(features))[own])
     )
-    surest = np.concatenate([part.confidence for part in parts])
+    surest = np.concatenate([part.preference for part in parts])
     middles = (borders[:-1] + borders[1:]) // 2
     return Segments(fine, borders, labels, surest[np.searchsorted(ends, middles, "right") - 1])
 

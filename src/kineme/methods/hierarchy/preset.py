@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from kineme.methods import weights
 from kineme.methods.base import Mirror
 from kineme.methods.hierarchy.constants import HierarchyConstants
 from kineme.methods.stages import Progress
@@ -50,5 +51,6 @@ SENSORS = HierarchyPreset(
     cluster_cost=0.6,
     max_clusters=16,
     counting_fps=25.0,
-    unsure_count=0.5,
+    link_weights=weights.SENSOR_LINK,
+    border_weights=weights.SENSOR_BORDER,
 )
