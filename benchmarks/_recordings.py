@@ -35,11 +35,13 @@ CONDITIONS = ("as it is", "speed", "size", "noise", "one hand", "all")
 
 @dataclass(frozen=True)
 class Case:
-    """A recording and its truth."""
+    """A recording and its truth; where the maker knows them, every repetition, too."""
 
     name: str
     motion: Motion
     truth: Annotation
+    made: Segmentation | None = None
+    """The truth as a segmentation, repetitions and all, where it was made."""
 
 
 def subject_86() -> list[Case]:
@@ -48,24 +50,24 @@ def subject_86() -> list[Case]:
     return [Case(trial.name, trial.motion, trial.truth) for trial in trials]
 
 
-def hdm05(seeds: int) -> Iterator[Case]:
+def hdm05(seeds: int, *, runs: int = 8, repeats: tuple[int, int] = (3, 6)) -> Iterator[Case]:
     """Sequences of HDM05 exercises, actors in turn."""
     for seed in range(seeds):
         actor = ACTORS[seed % len(ACTORS)]
-        made = exercise_sequence(exercises_of(actor), seed)
-        yield Case(f"{actor} {seed}", made.motion, annotation(made.truth))
+        made = exercise_sequence(exercises(actor), seed, runs=runs, repeats=repeats)
+        yield Case(f"{actor} {seed}", made.motion, annotation(made.truth), made.truth)
 
 
 @cache
-def exercises_of(actor: str) -> list[Exercise]:
+def exercises(actor: str) -> list[Exercise]:
     """The cuts ``HDM_<actor>_<class>_<number>_120.amc`` of one actor."""
     skeleton = DATA / "hdm05" / "asf" / f"HDM_{actor}.asf"
-    exercises = []
+    found = []
     for path in sorted((DATA / "hdm05" / "amc").glob(f"HDM_{actor}_*_120.amc")):
         kind = path.stem.split("_")[2]
         motion = kineme.read(path, skeleton=skeleton)
-        exercises.append(Exercise(kind, motion, REPETITIONS.get(kind, 1)))
-    return exercises
+        found.append(Exercise(kind, motion, REPETITIONS.get(kind, 1)))
+    return found
 
 
 def synthetic(condition: str, seeds: int) -> Iterator[Case]:
@@ -78,11 +80,11 @@ def synthetic(condition: str, seeds: int) -> Iterator[Case]:
     for seed in range(seeds):
         rng = np.random.default_rng(seed)
         varied = {c: condition in (c, "all") for c in CONDITIONS}
-        exercises = rng.permutation(EXERCISES)[:3].tolist()
+        chosen = rng.permutation(EXERCISES)[:3].tolist()
         if varied["one hand"]:
-            exercises = [*SMALL, next(name for name in exercises if name not in SMALL)]
+            chosen = [*SMALL, next(name for name in chosen if name not in SMALL)]
         sequence = []
-        for name in (name for exercise in exercises for name in ("walk", exercise)):
+        for name in (name for exercise in chosen for name in ("walk", exercise)):
             small = varied["one hand"] and name in SMALL
             sequence.append(
                 Action(
@@ -96,7 +98,7 @@ def synthetic(condition: str, seeds: int) -> Iterator[Case]:
         size = _factor(rng) if varied["size"] else 1.0
         noise = float(rng.uniform(0, 0.02)) if varied["noise"] else 0
         made = synthesize(sequence, fps=60, size=1.75 * size, noise=noise, seed=seed)
-        yield Case(f"{condition} {seed}", made.motion, annotation(made.truth))
+        yield Case(f"{condition} {seed}", made.motion, annotation(made.truth), made.truth)
 
 
 def _factor(rng: np.random.Generator) -> float:

@@ -15,7 +15,7 @@ from functools import cache
 
 import numpy as np
 
-from _recordings import ACTORS, exercises_of, subject_86
+from _recordings import ACTORS, exercises, subject_86
 from kineme.datasets.sequences import joined
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut
@@ -142,7 +142,7 @@ def _draw(takes: list[Motion], count: int, rng: np.random.Generator) -> list[Mot
 @cache
 def _takes(actor: str) -> dict[str, list[Motion]]:
     takes: dict[str, list[Motion]] = {}
-    for exercise in exercises_of(actor):
+    for exercise in exercises(actor):
         takes.setdefault(exercise.name, []).append(exercise.motion)
     return takes
 

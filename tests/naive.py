@@ -740,6 +740,17 @@ def class_affinities(similarity, width, labels, classes, gap, min_count):
     return affinity
 
 
+def sum_similarities(similarity, width, labels, classes):
+    """Sums and numbers of pairs of each two classes."""
+    sums, counts = np.zeros((classes, classes)), np.zeros((classes, classes))
+    for i, own in enumerate(labels):
+        for j, other in enumerate(labels):
+            if own >= 0 and other >= 0 and abs(i - j) <= width:
+                sums[own, other] += similarity[i, j]
+                counts[own, other] += 1
+    return sums, counts
+
+
 def labels_cost(costs, labels, switch_cost):
     changes = sum(a != b for a, b in pairwise(labels))
     return sum(costs[t][label] for t, label in enumerate(labels)) + switch_cost * changes
@@ -931,3 +942,59 @@ def recurrences_of(start, stop, paths, free, cover):
         ):
             kept.append((begin, end, gain))
     return kept
+
+
+def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
+    """Cost and clusters of the cheapest grouping: all clusters compared before each union."""
+    clusters = [[g] for g in range(len(lengths))]
+
+    def total(a, b):
+        return sum(sums[g][h] for g in a for h in b)
+
+    def size(a):
+        return sum(lengths[g] for g in a)
+
+    best = None
+    while True:
+        of = {g: i for i, cluster in enumerate(clusters) for g in cluster}
+        runs = 1 + sum(of[g] != of[g + 1] for g in range(len(lengths) - 1))
+        within = sum(total(a, a) / (2 * size(a)) for a in clusters)
+        cost = within + segment_cost * runs + cluster_cost * len(clusters)
+        if len(clusters) <= most and (best is None or cost < best[0] - 1e-9):
+            best = cost, sorted(sorted(cluster) for cluster in clusters)
+        if len(clusters) == 1:
+            return best
+        pairs = [(a, b) for i, a in enumerate(clusters) for b in clusters[i + 1 :]]
+        a, b = min(pairs, key=lambda p: total(*p) / (size(p[0]) * size(p[1])))
+        clusters = [c for c in clusters if c not in (a, b)] + [a + b]
+
+
+# --- matching: every warping of an example onto a recording, one by one ------------------------
+
+
+def warpings(distances):
+    """For each sample the least mean distance of a warping of the example that ends there.
+
+    ``distances`` (samples, m) of a recording from the example. A warping goes on by one and one,
+    or by two of one and one of the other; two samples on one of the example count half each.
+    """
+    n, m = distances.shape
+
+    def cheapest(j, i):
+        """Sum and beginning of the cheapest warping of the first i + 1 samples that ends at j."""
+        if i == 0:
+            return distances[j, 0], j
+        found = []
+        if j >= 1:
+            total, begin = cheapest(j - 1, i - 1)
+            found.append((total + distances[j, i], begin))
+        if j >= 2:
+            total, begin = cheapest(j - 2, i - 1)
+            found.append((total + (distances[j - 1, i] + distances[j, i]) / 2, begin))
+        if j >= 1 and i >= 2:
+            total, begin = cheapest(j - 1, i - 2)
+            found.append((total + distances[j, i - 1] + distances[j, i], begin))
+        return min(found, default=(np.inf, -1))
+
+    ends = [cheapest(j, m - 1) for j in range(n)]
+    return [total / m for total, _ in ends], [begin for _, begin in ends]

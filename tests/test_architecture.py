@@ -48,10 +48,12 @@ ROOMS = {
     "formats": Room("recordings from files and back: one registry, one `read`", "recordings"),
     "features": Room(
         "arrays from recordings: poses in the body's own frame, rotations, distances of points, "
-        "stacking, mirroring, bundling, envelopes of muscles",
+        "stacking, mirroring, bundling, envelopes of muscles; directions in which movements of "
+        "different people match",
         "recordings",
     ),
     "graph": Room("`NeighborGraph`, `WarpingPaths` from arrays", "errors"),
+    "matching": Room("where features are like those of an example", ""),
     "methods": Room(
         "presets, and what their methods find in arrays: `recurrence`, `hierarchy`, "
         "`region_growing`, `baselines`",
@@ -70,11 +72,15 @@ ROOMS = {
     ),
     "transfer": Room(
         "`KnowledgeBase`; labels and cluster numbers for other recordings",
-        "features formats graph methods recordings segmentation segments",
+        "features formats matching recordings segments",
     ),
     "synthesis": Room(
         "`MotionGraph`, routes through it, new motion from them",
         "features formats graph methods recordings segmentation segments transfer",
+    ),
+    "library": Room(
+        "collections of recordings, segmented once, with clusters in common, searched by example",
+        "clips features formats labels matching methods recordings segmentation segments",
     ),
     "datasets": Room(
         "recordings with known truth, the bundled one among them; CMU's, fetched",

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from kineme import _files
-from kineme._files import atomic_write
+from kineme._files import atomic_folder, atomic_write
 from kineme.errors import WriteError
 
 HOUR = 3600
@@ -41,6 +41,29 @@ def test_a_draft_that_is_still_written_is_left_alone(tmp_path: Path) -> None:
             path.write_text("b")
         slow.write_text("a")
     assert {path.name for path in tmp_path.iterdir()} == {"a.csv", "b.csv"}
+
+
+@pytest.mark.parametrize(("age_s", "kept"), [(2 * HOUR, False), (HOUR / 2, True)])
+def test_folders_of_killed_writers_are_swept(tmp_path: Path, age_s: float, kept: bool) -> None:
+    left = tmp_path / ".kineme-0123456789ab"
+    left.mkdir()
+    (left / "half.bvh").write_text("half")
+    os.utime(left, (time.time() - age_s,) * 2)
+    with atomic_folder(tmp_path / "clips") as folder:
+        (folder / "a.bvh").write_text("whole")
+    assert left.exists() == kept
+    assert (tmp_path / "clips" / "a.bvh").read_text() == "whole"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="open folders are not removed there")
+def test_a_folder_that_is_still_filled_is_left_alone(tmp_path: Path) -> None:
+    with atomic_folder(tmp_path / "slow") as slow:
+        os.utime(slow, (time.time() - 2 * HOUR,) * 2)
+        _files._swept.clear()
+        with atomic_folder(tmp_path / "quick"):
+            pass
+        (slow / "a.bvh").write_text("a")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["quick", "slow"]
 
 
 def test_a_place_that_may_not_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-"""Files as such: written whole or not at all, and known by their first and last bytes."""
+"""Files and folders as such: made whole or not at all, known by their first and last bytes."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import errno
 import os
 import re
 import secrets
+import shutil
 import sys
 import time
 from collections.abc import Iterator
@@ -59,6 +60,43 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
             draft.unlink(missing_ok=True)
 
 
+@contextmanager
+def atomic_folder(target: Path) -> Iterator[Path]:
+    """A folder to fill; what is in it when the block ends is in ``target``.
+
+    It lies beside ``target``, which is new or empty, and takes its place. If the block
+    raises, it is removed. Drafts of killed writers are removed when they are an hour old.
+
+    Raises
+    ------
+    WriteError
+        Something is there already, or the folder cannot be made or written.
+    """
+    if target.exists() and not (target.is_dir() and not any(target.iterdir())):
+        raise WriteError(target, "is there already: name a new folder, or empty this one")
+    _sweep(target.parent)
+    draft = target.with_name(f".kineme-{secrets.token_hex(6)}")
+    try:
+        draft.mkdir()
+    except OSError as error:
+        reason = f"cannot be made: {target.parent}: {error.strerror or error}"
+        raise WriteError(target, reason) from error
+    held = None
+    try:
+        held = _hold(draft)
+        yield draft
+        if target.is_dir():
+            target.rmdir()
+        draft.rename(target)
+        _synchronise(target.parent)
+    except OSError as error:
+        raise WriteError(target, f"cannot be written: {error.strerror or error}") from error
+    finally:
+        if held is not None:
+            os.close(held)
+        shutil.rmtree(draft, ignore_errors=True)
+
+
 def head_of(path: Path) -> bytes:
     """The first bytes of a file; OSError if it cannot be opened."""
     with path.open("rb") as file:
@@ -89,19 +127,24 @@ def _places(path: str | os.PathLike[str]) -> tuple[Path, Path]:
 
 
 def _hold(draft: Path) -> int | None:
-    """Make the draft, and lock it as long as it is written."""
+    """Make the draft, unless it is a folder, and lock it as long as it is written."""
     if sys.platform == "win32":
         return None
-    held = os.open(draft, os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o666)
+    held = _opened(draft)
     with suppress(OSError):  # file systems without locks
         fcntl.flock(held, fcntl.LOCK_SH | fcntl.LOCK_NB)
     return held
 
 
+def _opened(draft: Path) -> int:
+    how = os.O_RDONLY if draft.is_dir() else os.O_CREAT | os.O_RDWR
+    return os.open(draft, how | getattr(os, "O_CLOEXEC", 0), 0o666)
+
+
 def _is_held(draft: Path) -> bool:
     if sys.platform == "win32":
         return False
-    file = os.open(draft, os.O_RDWR | os.O_CLOEXEC)
+    file = _opened(draft)
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
@@ -121,7 +164,11 @@ def _sweep(folder: Path) -> None:
         for draft in drafts:
             with suppress(OSError):
                 old = time.time() - draft.stat().st_mtime > ABANDONED_S
-                if old and not _is_held(draft):
+                if not old or _is_held(draft):
+                    continue
+                if draft.is_dir():
+                    shutil.rmtree(draft)
+                else:
                     draft.unlink()
 
 

@@ -46,6 +46,19 @@ def test_level_primitive_prints_every_one(kineme, recording: Path) -> None:
     assert len([row for row in rows if ":" in row]) == len(result.primitives)
 
 
+def test_detail_gives_coarser_and_finer_segments(kineme, recording: Path, tmp_path: Path) -> None:
+    whole = package.segment(package.read(recording))
+    for detail in (0.3, 1, 8):
+        table = tmp_path / f"{detail}.json"
+        done = kineme("segment", recording, "--detail", detail, "--output", table, "--quiet")
+        assert (done.returncode, done.stderr) == (0, "")
+        assert package.read_segments(table).table == whole.level(detail).table
+        assert package.read_segments(table).level(1).table == whole.table
+    refused = kineme("segment", recording, "--detail", 0)
+    assert refused.returncode == 2
+    assert "detail must be a number above 0" in refused.stderr
+
+
 def test_json_is_pure_and_is_what_the_library_gives(kineme, recording: Path) -> None:
     options = ("--preset", "voegele2014", "--radius", 0.5, "--growth-neighbors", "none")
     done = kineme("segment", recording, "--json", *options)

@@ -10,7 +10,7 @@ import pytest
 from format_samples import PLAIN, motions
 from hypothesis import given
 
-from kineme.errors import WriteError
+from kineme.errors import KinemeWarning, WriteError
 from kineme.formats import read, supported_formats, write
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import world_rotations
@@ -74,7 +74,8 @@ def test_names_the_format_cannot_hold_are_mended(tmp_path: Path) -> None:
     skeleton = Skeleton(names, (-1, 0, 0, 0, 0, 0), np.arange(18.0).reshape(6, 3))
     motion = Motion.from_rotations(skeleton, np.tile([1.0, 0, 0, 0], (1, 6, 1)), 30, [[0, 0, 0]])
     for suffix in (".bvh", ".amc"):
-        again = written_and_read(motion, suffix)
+        with pytest.warns(KinemeWarning, match=r"is written as .*, and \d more"):
+            again = written_and_read(motion, suffix)
         for position in motion.positions[0]:
             assert np.abs(again.positions[0] - position).max(axis=1).min() < 1e-7
 

@@ -116,6 +116,16 @@ def test_json_follows_its_documented_schema(tmp_path: Path, small: Segmentation)
     }
 
 
+@given(st.from_regex(r"'{0,2}[-=+@\w]{0,3}", fullmatch=True))
+def test_no_label_is_a_formula_and_each_is_read_again(folder: Path, label: str) -> None:
+    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [9]}
+    table = Segmentation.from_columns({**columns, "label": [label]}, n_frames=9, fps=30)
+    write_segments(table, folder / "formula.csv")
+    cell = (folder / "formula.csv").read_text(encoding="utf-8").splitlines()[1].split(",")[8]
+    assert not cell.startswith(("=", "+", "-", "@"))
+    assert read_segments(folder / "formula.csv") == table
+
+
 @pytest.mark.parametrize("suffix", [".csv", ".json", ".parquet"])
 def test_tables_older_than_the_last_columns_are_read(
     tmp_path: Path, small: Segmentation, suffix: str

@@ -64,7 +64,8 @@ def other_value(constant: Constant) -> Any:
     if isinstance(value, bool):
         return not value
     if isinstance(value, tuple):
-        return value[:-1] if len(value) > 2 else tuple(each + 1 for each in value)
+        longer = len(value) > 2 and Ellipsis in get_args(constant.hint)
+        return value[:-1] if longer else tuple(each + 1 for each in value)
     if value is None:
         return hint(4)
     near = (value - 1, value + 1) if hint is int else (0.95 * value, 0.5)

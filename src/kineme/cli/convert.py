@@ -9,6 +9,7 @@ import typer
 
 from kineme.cli.help import LABELS
 from kineme.cli.inputs import Batch, Recursive
+from kineme.cli.reading import with_reading_options
 from kineme.cli.request import Request
 from kineme.cli.targets import make_folder_of
 from kineme.errors import WriteError
@@ -50,6 +51,7 @@ def _names_channels(path: Path) -> bool:
     return hold_channels(table.names) and table.names[0] != "1" and bool(table.numeric())
 
 
+@with_reading_options
 def convert(
     files: Annotated[
         list[Path],

@@ -10,7 +10,7 @@ import typer
 
 from kineme.cli.inputs import Batch, Files, Recursive
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import Quiet
+from kineme.cli.reading import Quiet, with_body_options
 from kineme.cli.request import Request
 from kineme.cli.targets import check_place, check_writable
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from kineme.synthesis import MotionGraph
 
 
+@with_body_options
 def graph(
     files: Files,
     output: Annotated[Path, typer.Option("--output", "-o", help="The graph: a .json file.")],

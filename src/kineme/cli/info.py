@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.reading import Effectors, Json
+from kineme.cli.reading import Effectors, Json, with_reading_options
 from kineme.cli.request import Request
 from kineme.errors import EndEffectorError
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 Facts = dict[str, Any]
 
 
+@with_reading_options
 def info(
     files: Files,
     joints: Annotated[bool, typer.Option("--joints", help="Show the tree of joints.")] = False,

@@ -9,13 +9,14 @@ import typer
 
 from kineme.cli.inputs import Batch, Files, Recursive
 from kineme.cli.messages import Failures
-from kineme.cli.reading import Effectors, Quiet
+from kineme.cli.reading import Effectors, Quiet, with_body_options
 from kineme.cli.request import Request, Stage
 
 if TYPE_CHECKING:
     from kineme.transfer import KnowledgeBase
 
 
+@with_body_options
 def label(
     files: Files,
     labels: Annotated[

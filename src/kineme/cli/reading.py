@@ -116,6 +116,11 @@ def with_reading_options(
     return wrapped
 
 
+def with_body_options(command: Callable[..., None]) -> Callable[..., None]:
+    """The command with those of them that bodies need."""
+    return with_reading_options(command, BODY)
+
+
 def _checked(given: dict[str, Any]) -> dict[str, Any]:
     """Keywords for `kineme.read`, before any file is opened."""
     from kineme.formats import ReadOptions

@@ -8,13 +8,15 @@ from typing import Annotated, Any
 import typer
 
 from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.preset_options import PresetName
-from kineme.cli.reading import Effectors, Quiet
+from kineme.cli.preset_options import Detail, PresetName, with_preset_options
+from kineme.cli.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.request import Request
 from kineme.cli.targets import check_writable
 from kineme.methods.presets import DEFAULT
 
 
+@with_preset_options
+@with_reading_options
 def report(
     files: Files,
     output: Annotated[
@@ -33,6 +35,7 @@ def report(
         ),
     ] = None,
     preset: PresetName = DEFAULT,
+    detail: Detail = 1.0,
     recursive: Recursive = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
@@ -43,7 +46,7 @@ def report(
 
     One file with everything in it: it needs neither a server nor a network.
     """
-    request = Request.of(preset, constants, reading, effectors)
+    request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     pages = batch.files("--output", output, ".html")
     tables = batch.tables("--segments", segments)

@@ -12,6 +12,7 @@ import typer
 from kineme.cli.reading import effector_names
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT, resolve_preset
+from kineme.segments.hierarchy import check_detail
 
 if TYPE_CHECKING:
     from kineme.features import Names
@@ -36,12 +37,15 @@ class Request:
         Keywords of `kineme.read` that were given.
     effectors : joints, optional
         For head, hands and feet.
+    detail : float
+        Of the result: 1 as found, less is coarser, more is finer.
     """
 
     preset: str
     constants: dict[str, Any]
     reading: dict[str, Any]
     effectors: Names | None
+    detail: float = 1.0
 
     @classmethod
     def of(
@@ -50,13 +54,16 @@ class Request:
         constants: dict[str, Any] | None = None,
         reading: dict[str, Any] | None = None,
         effectors: str | None = None,
+        detail: float = 1.0,
     ) -> Request:
         """The options as they were typed; typer.BadParameter where one makes no sense."""
         try:
             resolve_preset(preset, **(constants or {}))
+            check_detail(detail)
         except ParameterError as error:
             raise typer.BadParameter(str(error)) from error
-        return cls(preset, constants or {}, reading or {}, effector_names(effectors))
+        named = effector_names(effectors)
+        return cls(preset, constants or {}, reading or {}, named, detail)
 
     @property
     def emg(self) -> bool:
@@ -76,10 +83,10 @@ class Request:
         return read_motion(path, **self.reading)
 
     def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
-        """The segments, and what was found on the way to them."""
+        """The segments at the detail asked for, and what was found on the way to them."""
         from kineme.segmentation.segmenter import segment_and_found
 
-        return segment_and_found(
+        result, found = segment_and_found(
             recording,
             preset=self.preset,
             effectors=self.effectors,
@@ -87,6 +94,7 @@ class Request:
             progress=stage,
             **self.constants,
         )
+        return result.level(self.detail), found
 
     def segments(
         self, recording: Motion | Signals, table: Path | None, stage: Stage

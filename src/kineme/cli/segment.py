@@ -10,8 +10,8 @@ import typer
 
 from kineme.cli.help import TABLES
 from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.preset_options import PresetName
-from kineme.cli.reading import Effectors, Json, Quiet
+from kineme.cli.preset_options import Detail, PresetName, with_preset_options
+from kineme.cli.reading import Effectors, Json, Quiet, with_reading_options
 from kineme.cli.request import Request
 from kineme.cli.targets import check_writable
 from kineme.methods.presets import DEFAULT
@@ -22,9 +22,12 @@ if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation
 
 
+@with_preset_options
+@with_reading_options
 def segment(
     files: Files,
     preset: PresetName = DEFAULT,
+    detail: Detail = 1.0,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -50,7 +53,7 @@ def segment(
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Cut recordings into activities, transitions and repeated primitives."""
-    request = Request.of(preset, constants, reading, effectors)
+    request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.targets("--output", output, ".csv")
     pictures = batch.targets("--plot", plot, ".png")

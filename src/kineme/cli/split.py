@@ -8,14 +8,16 @@ from typing import Annotated, Any
 import typer
 
 from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.preset_options import PresetName
-from kineme.cli.reading import Effectors, Quiet
+from kineme.cli.preset_options import PresetName, with_preset_options
+from kineme.cli.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.request import Request
 from kineme.cli.targets import make_folder_of
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 
 
+@with_preset_options
+@with_reading_options
 def split(
     files: Files,
     output: Annotated[

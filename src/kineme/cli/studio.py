@@ -8,10 +8,11 @@ from typing import Annotated, Any
 import typer
 
 from kineme.cli.messages import Failures
-from kineme.cli.reading import Effectors, effector_names
+from kineme.cli.reading import Effectors, effector_names, with_body_options
 from kineme.errors import ParameterError
 
 
+@with_body_options
 def studio(
     files: Annotated[
         list[Path] | None,

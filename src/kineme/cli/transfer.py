@@ -11,7 +11,7 @@ import typer
 from kineme.cli.help import TABLES
 from kineme.cli.inputs import Batch, Files, Recursive
 from kineme.cli.messages import Failures
-from kineme.cli.reading import Effectors, Json, Quiet
+from kineme.cli.reading import Effectors, Json, Quiet, with_body_options
 from kineme.cli.request import Request, Stage
 from kineme.cli.targets import check_writable
 from kineme.segments.table import Level
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from kineme.transfer import KnowledgeBase
 
 
+@with_body_options
 def transfer(
     files: Files,
     knowledge: Annotated[
@@ -30,9 +31,9 @@ def transfer(
     threshold: Annotated[
         float | None,
         typer.Option(
-            help="Largest cost of a match, body sizes; lower gives fewer labels, more of them "
+            help="Largest cost of a match, from 0 to 2; lower gives fewer labels, more of them "
             "right.",
-            show_default="0.12",
+            show_default="0.85",
         ),
     ] = None,
     spread: Annotated[

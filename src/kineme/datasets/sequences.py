@@ -107,9 +107,32 @@ def exercise_sequence(
         for name in order
         for exercise in _draw(of_name[name], int(rng.integers(repeats[0], repeats[1] + 1)), rng)
     ]
-    motion, starts, halves = joined([exercise.motion for exercise in parts], join)
-    provenance = Provenance(format="sequence").noted(f"{len(parts)} exercises joined, seed {seed}")
-    truth = _truth(parts, starts, halves, motion.fps)
+    return join_exercises(parts, join=join, note=f"{len(parts)} exercises joined, seed {seed}")
+
+
+def join_exercises(
+    parts: Sequence[Exercise], *, join: float = 0.4, note: str = ""
+) -> SyntheticRecording:
+    """Exercises of one person joined in the order given, and where each begins and ends.
+
+    Parameters
+    ----------
+    parts : sequence of Exercise
+        Of one skeleton and one frame rate, two at least; neighbours of one name are one activity.
+    join : float, optional
+        Seconds over which a join is blended; at most a third of the shorter exercise.
+    note : str, optional
+        For the provenance; by default how many there are.
+
+    Raises
+    ------
+    ParameterError
+        Exercises that do not fit together, or one without rotations.
+    """
+    motion, starts, halves = joined([part.motion for part in parts], join)
+    said = note or f"{len(parts)} exercises joined"
+    provenance = Provenance(format="sequence").noted(said)
+    truth = _truth(list(parts), starts, halves, motion.fps)
     return SyntheticRecording(replace(motion, provenance=provenance), truth)
 
 

@@ -16,6 +16,7 @@ from typing import Any
 from kineme._files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
+from kineme.labels.delimited import as_text
 
 GROUPS: Mapping[str, Mapping[str, str]] = {
     "published protocols": {
@@ -118,7 +119,10 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
             names = list(dict.fromkeys(name for record in plain for name in record))
             table = csv.DictWriter(file, names, lineterminator="\n")
             table.writeheader()
-            table.writerows(plain)
+            table.writerows(
+                {k: as_text(v) if isinstance(v, str) else v for k, v in record.items()}
+                for record in plain
+            )
 
 
 def write_text(text: str, path: Path) -> None:

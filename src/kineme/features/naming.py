@@ -49,6 +49,17 @@ def words_of(name: str) -> tuple[str, ...]:
     return tuple(word.lower() for word in _WORD.findall(local) if not word.isdigit())
 
 
+def part_and_side(name: str) -> tuple[str, str]:
+    """``("knee", "left")`` for ``LKnee``, ``knee_l`` or ``L.Knee``; no side is ``""``."""
+    words = list(words_of(name))
+    for place, word in enumerate(words):
+        if word in _SIDES:
+            del words[place]
+            return "".join(words), _SIDES[word]
+    glued = _GLUED_SIDE.fullmatch(words[-1]) if words else None
+    return (glued[2], _SIDES[glued[1]]) if glued else ("".join(words), "")
+
+
 def _prefix_before(name: str, word: str, side: str | None) -> list[str] | None:
     """The words before ``word`` on the given side, or None if the name says something else."""
     words = list(words_of(name))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._files import atomic_write
-from kineme.errors import KinemeWarning, ReadError
+from kineme.errors import KinemeWarning, ReadError, WriteError
 from kineme.recordings import Note, Provenance
 
 MOST_EXPANSION = 100
@@ -125,6 +125,28 @@ def table(values: NDArray[np.float64]) -> list[str]:
     """One line per row: nine decimals, below a nanometre in any of the units."""
     row = " ".join(["%.9f"] * values.shape[1]) + "\n"
     return [row % tuple(line) for line in values.tolist()]
+
+
+def spelled(path: Path, names: Sequence[str], spelling: Callable[[str], str]) -> list[str]:
+    """The names as a format can hold them, each once; a warning says what that changes.
+
+    WriteError for a name that is no text: half of a pair of UTF-16.
+    """
+    for name in names:
+        if any("\ud800" <= letter <= "\udfff" for letter in name):
+            raise WriteError(path, f"the name {name!r:.60} cannot be written: it is not text")
+    given = unique(map(spelling, names))
+    changed = [pair for pair in zip(names, given, strict=True) if pair[0] != pair[1]]
+    if changed:
+        name, new = changed[0]
+        more = f", and {len(changed) - 1} more" if len(changed) > 1 else ""
+        warn(f"{path.name}: the name {name!r:.60} is written as {new!r:.60}{more}")
+    return given
+
+
+def in_a_cell(name: str) -> str:
+    """A point's name as tables hold it: one line, without a colon at its ends."""
+    return " ".join(name.split()).strip(": ")
 
 
 def unique(names: Iterable[str]) -> list[str]:

@@ -41,11 +41,11 @@ COLUMNS = {
         },
     },
     "cluster": {"Description": "Equal numbers are equal movements; n/a: in no cluster"},
-    "score": {"Description": "How sure the producer was"},
+    "score": {"Description": "How probable it is that the segment is right"},
     "start_frame": {"Description": "First frame, counted from 0"},
     "stop_frame": {"Description": "One past the last frame"},
     "action": {"Description": "Cluster of the activity that it lies in; n/a: in no cluster"},
-    "border_confidence": {"Description": "How sure it is that a segment of its level starts there"},
+    "border_confidence": {"Description": "How probable it is that its start is right"},
 }
 MISSING = "n/a"
 

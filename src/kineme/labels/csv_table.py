@@ -3,9 +3,10 @@
 No comment lines: ``pandas.read_csv`` and spreadsheets take the file as it is.
 What does not fit into a table (frame rate, provenance, timings) goes into
 ``NAME.provenance.json`` beside ``NAME.csv``, with a digest of the cuts: a table whose
-cuts were moved since says so in its notes. Without that file the frame rate is found again from the
-last row, and the table keeps all it says.
-An empty number is nan. Columns are found by name; others are ignored.
+cuts were moved since says so in its notes. Without that file the frame rate is found
+again from the last row, and the table keeps all it says. An empty number is nan. A label
+that spreadsheets would run as a formula has a ``'`` before it. Columns are found by name;
+others are ignored.
 
 A table of intervals that people keep by hand is read as well: ``label`` with ``start_s``
 and ``stop_s``, or with ``start_frame`` and ``stop_frame``, in any order, with ``level``,
@@ -27,7 +28,7 @@ from typing import Any, Literal
 from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels import pairs
-from kineme.labels.delimited import number, read_rows, write_rows
+from kineme.labels.delimited import as_text, from_text, number, read_rows, write_rows
 from kineme.labels.heads import columns as columns_of
 from kineme.labels.heads import separator
 from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
@@ -71,12 +72,13 @@ def read(path: Path) -> Segmentation | Labels:
                 f"ends at frame {max(columns['stop_frame'])}, but {beside.name} speaks of "
                 f"{head.get('n_frames')} frames: remove that file if it belongs to another table",
             )
-        told = with_head(columns, head, path)
+        alone = {name: said for name, said in head.items() if name != "hierarchy"}
+        told = with_head(columns, alone, path)
         said = pairs.differences(
             path, beside, head, _digest(columns), told=told.fps, own=_rate(columns)
         )
         if not said:
-            return told
+            return with_head(columns, head, path)
         notes = [*told.provenance.get("notes", ()), *said]
         return replace(told, provenance={**told.provenance, "notes": notes})
     return with_head(columns, _guessed_head(columns, path), path)
@@ -123,7 +125,7 @@ def _intervals(path: Path) -> Labels:
 
 
 def _text(row: dict[str, str]) -> str:
-    return "transition" if row.get("kind") == "transition" else row["label"]
+    return "transition" if row.get("kind") == "transition" else from_text(row["label"])
 
 
 def _level(row: dict[str, str]) -> Level:
@@ -158,6 +160,8 @@ def _cell(text: str | None, name: str, path: Path, line: int) -> str | float:
     if text is None:
         raise ReadError(path, f"the line ends before column {name!r}", line=line)
     kind = DESCRIBED[name].type
+    if kind is str:
+        return from_text(text)
     if kind is float and not text.strip():
         return math.nan
     try:
@@ -193,7 +197,8 @@ def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
 
 
 def _cells(row: Segment) -> list[Any]:
-    return ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in astuple(row)]
+    cells = astuple(replace(row, label=as_text(row.label)))
+    return ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in cells]
 
 
 def _recognises(path: Path) -> bool:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TextIO
 
 from kineme.errors import ReadError
+
+_RUNS = re.compile(r"'*[=+\-@]")
+"""A text that spreadsheets would run as a formula, or one that was kept from it."""
 
 
 def read_rows(
@@ -44,6 +48,28 @@ def write_rows(
     writer = csv.writer(file, delimiter=delimiter, lineterminator="\n")
     writer.writerow(header)
     writer.writerows(rows)
+
+
+def as_text(text: str) -> str:
+    """A cell that no spreadsheet runs: one that begins like a formula gets a ``'`` before it.
+
+    Examples
+    --------
+    >>> as_text("=HYPERLINK(1)"), as_text("walk")
+    ("'=HYPERLINK(1)", 'walk')
+    """
+    return f"'{text}" if _RUNS.match(text) else text
+
+
+def from_text(cell: str) -> str:
+    """The text that `as_text` made a cell of.
+
+    Examples
+    --------
+    >>> from_text("'=HYPERLINK(1)"), from_text("'til")
+    ('=HYPERLINK(1)', "'til")
+    """
+    return cell[1:] if cell.startswith("'") and _RUNS.match(cell) else cell
 
 
 def number(text: str, name: str, path: Path, line: int) -> float:

@@ -8,6 +8,13 @@ One object:
       "fps": 120.0,                frames per second of the source file
       "provenance": {...},         as in Segmentation
       "timings": {"graph": 0.02},  seconds per stage
+      "hierarchy": {               where there are other details: all, ascending
+        "detail": 1.0,             that of "segments"
+        "levels": [                each with its table by columns; that of "segments" without
+          {"detail": 0.5, "columns": {"level": ["activity"], "kind": ["activity"], ...}},
+          {"detail": 1.0}
+        ]
+      },
       "segments": [                one object per row, ordered by level, then time
         {"level": "activity", "kind": "activity", "start_frame": 0, "stop_frame": 600,
          "start_s": 0.0, "stop_s": 5.0, "cluster": -1, "activity": 0, "label": "", "score": null,
@@ -25,18 +32,21 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write
-from kineme.errors import ReadError
+from kineme.errors import ParameterError, ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
+from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, DESCRIBED, Segment, lacking
 
 SCHEMA = "kineme.segments/1"
+HELD = tuple(name for name in COLUMNS if name not in ("start_s", "stop_s", "activity", "action"))
+"""Of the tables at other details; the rest follows from these."""
 
 
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
@@ -47,7 +57,12 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
 
 def dumps(segmentation: Segmentation) -> str:
     """The JSON text: small parts indented, one line per segment."""
-    head = json.dumps(head_of(segmentation), indent=2).removesuffix("\n}")
+    told = head_of(segmentation)
+    levels = told.get("hierarchy", {}).pop("levels", [])
+    head = json.dumps(told, indent=2).removesuffix("\n}")
+    if levels:
+        lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
+        head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
     rows = ",\n".join(f"    {json.dumps(_cells(row))}" for row in segmentation)
     return f'{head},\n  "segments": [\n{rows}\n  ]\n}}\n'
 
@@ -73,13 +88,16 @@ def read(path: Path) -> Segmentation:
 
 def head_of(segmentation: Segmentation) -> dict[str, Any]:
     """Everything but the table, as JSON holds it."""
-    return {
+    head = {
         "schema": SCHEMA,
         "n_frames": segmentation.n_frames,
         "fps": segmentation.fps,
         "provenance": segmentation.provenance,
         "timings": segmentation.timings,
     }
+    if segmentation.hierarchy is not None:
+        head["hierarchy"] = _levels(segmentation.hierarchy)
+    return head
 
 
 def parse(text: str, path: Path) -> dict[str, Any]:
@@ -110,20 +128,60 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     for name, value in notes.items():
         if not isinstance(value, dict):
             raise ReadError(path, f'"{name}" must be an object, not {value!r:.40}')
-    return Segmentation.from_columns(columns, n_frames=n_frames, fps=fps, **notes)
+    found = Segmentation.from_columns(columns, n_frames=n_frames, fps=fps, **notes)
+    if "hierarchy" not in head:
+        return found
+    try:
+        return replace(found, hierarchy=_hierarchy(head["hierarchy"], found))
+    except (ParameterError, KeyError, TypeError) as error:
+        raise ReadError(path, f'"hierarchy" is none: {error}') from error
+
+
+def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
+    """A hierarchy as JSON holds it."""
+    levels: list[dict[str, Any]] = []
+    for detail, table in zip(hierarchy.details, hierarchy.tables, strict=True):
+        levels.append({"detail": detail})
+        if detail != hierarchy.detail:
+            columns = table.columns()
+            levels[-1]["columns"] = {
+                name: [_cell(value) for value in columns[name].tolist()] for name in HELD
+            }
+    return {"detail": hierarchy.detail, "levels": levels}
+
+
+def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
+    """What `_levels` gave, around a table."""
+    tables = {}
+    for level in data["levels"]:
+        columns = level.get("columns")
+        if columns is None:
+            tables[level["detail"]] = found.table
+            continue
+        columns = {
+            name: [_known(value, name) for value in values] for name, values in columns.items()
+        }
+        tables[level["detail"]] = Segmentation.from_columns(
+            columns, n_frames=found.n_frames, fps=found.fps
+        ).table
+    return Hierarchy(tuple(tables), tuple(tables.values()), data["detail"])
 
 
 def _value(row: dict[str, Any], name: str) -> Any:
     """A cell; a number that is null, or that older files do not have, is nan."""
-    value = row[name] if DESCRIBED[name].since_first else row.get(name)
+    return _known(row[name] if DESCRIBED[name].since_first else row.get(name), name)
+
+
+def _known(value: Any, name: str) -> Any:
     return math.nan if value is None and DESCRIBED[name].type is float else value
 
 
 def _cells(row: Segment) -> dict[str, Any]:
-    return {
-        name: None if isinstance(value, float) and math.isnan(value) else value
-        for name, value in asdict(row).items()
-    }
+    return {name: _cell(value) for name, value in asdict(row).items()}
+
+
+def _cell(value: Any) -> Any:
+    return None if isinstance(value, float) and math.isnan(value) else value
 
 
 FORMAT = LabelFormat(

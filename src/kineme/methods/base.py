@@ -14,7 +14,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -61,11 +61,12 @@ class Found(Protocol):
     def columns(self) -> Columns:
         """Columns of a segment table: ``level``, ``kind``, ``start_frame``, ``stop_frame``.
 
-        Frames count samples. ``cluster`` and ``score`` go with them.
+        Frames count samples. ``cluster`` and ``score`` go with them, and
+        ``border_confidence`` where the method knows how sure borders are.
         """
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """A sentence for each segment that the method is not sure of.
+        """A sentence for each thing that the method is not sure of, the worst first.
 
         Parameters
         ----------
@@ -73,6 +74,23 @@ class Found(Protocol):
             Those of `columns`, in frames of the recording.
         fps : float
             Of the recording.
+        """
+
+
+@runtime_checkable
+class Leveled(Protocol):
+    """What a method can give beside `Found`: the same at other levels of detail."""
+
+    def levels(self, columns: Columns) -> Mapping[float, Columns]:
+        """Columns of a segment table by their detail: below 1 coarser, above 1 finer.
+
+        Every border at one detail is one at any finer one, those of `columns` at detail 1
+        among them.
+
+        Parameters
+        ----------
+        columns : dict of str to array
+            Those of `Found.columns`, which are detail 1.
         """
 
 

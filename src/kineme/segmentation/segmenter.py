@@ -17,14 +17,16 @@ from kineme._checks import as_features, is_number
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.features.effectors import Names
-from kineme.methods.base import Found, Mirror, Preset
+from kineme.methods.base import Columns, Found, Leveled, Mirror, Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
-from kineme.methods.stages import Progress
+from kineme.methods.stages import Progress, stopwatch
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.bodies import view_of_motion
 from kineme.segmentation.channels import view_of_signals
 from kineme.segmentation.spans import gaps_between, in_frames
 from kineme.segmentation.views import View
+from kineme.segments.columns import segment_table
+from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
 
 
@@ -92,7 +94,7 @@ def segment(
     >>> import kineme
     >>> motion = kineme.read(kineme.bundled_recording())
     >>> kineme.segment(motion).repetitions()
-    {0: 8, 1: 5, 2: 4, 3: 6, 4: 4, 5: 5}
+    {0: 9, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4}
     """
     return segment_and_found(
         recording,
@@ -214,7 +216,13 @@ def _result(
 ) -> Segmentation:
     """What was found, in frames of the recording, with where it came from."""
     n_frames, fps = recording.n_frames, recording.fps
-    columns = in_frames(found.columns(), view.seen, n_frames, fps / preset.working_fps)
+
+    def placed(columns: Columns) -> Columns:
+        return in_frames(columns, view.seen, n_frames, fps / preset.working_fps)
+
+    samples = found.columns()
+    columns = placed(samples)
+    spent = {**timings, **found.timings}
     source = recording.provenance
     provenance: dict[str, Any] = {
         "kineme": __version__,
@@ -226,13 +234,18 @@ def _result(
     }
     if gaps := gaps_between(view.seen, n_frames):
         provenance["gaps"] = [list(gap) for gap in gaps]
-    return Segmentation.from_columns(
-        columns,
-        n_frames=n_frames,
-        fps=fps,
-        provenance=provenance,
-        timings={**timings, **found.timings},
+    hierarchy = None
+    if isinstance(found, Leveled):
+        with stopwatch(spent, None)("levels"):
+            tables = {
+                detail: segment_table(placed(level), fps)
+                for detail, level in {1.0: samples, **found.levels(samples)}.items()
+            }
+            hierarchy = Hierarchy.of(tables)
+    result = Segmentation.from_columns(
+        columns, n_frames=n_frames, fps=fps, provenance=provenance, timings=spent
     )
+    return replace(result, hierarchy=hierarchy)
 
 
 def _outside(recording: Motion | Signals, features: ArrayLike, fps: float | None) -> Signals:

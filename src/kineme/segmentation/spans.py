@@ -78,6 +78,9 @@ def in_frames(columns: Columns, seen: Sequence[SeenSpan], n_frames: int, ratio: 
     full = start < stop
     taken = {name: column[row[full]] for name, column in columns.items()}
     taken |= {"start_frame": start[full], "stop_frame": stop[full]}
+    if "border_confidence" in taken:  # what goes on after a gap does not start there
+        at_gap = np.isin(taken["start_frame"], [span.start for span in seen])
+        taken["border_confidence"] = np.where(at_gap, np.nan, taken["border_confidence"])
     return _with_gaps(taken, gaps_between(seen, n_frames))
 
 

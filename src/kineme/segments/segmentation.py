@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, get_args
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._checks import check_type, is_one_of
 from kineme.errors import ParameterError
 from kineme.segments.columns import segment_table
+from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.invariants import check_parents, check_recording, check_tiles, plain_json
 from kineme.segments.table import COLUMNS, Level, Segment, SegmentTable
 
@@ -44,6 +45,9 @@ class Segmentation:
         inferred). A producer may add more.
     timings : mapping of str to float
         Seconds spent per stage.
+    hierarchy : Hierarchy, optional
+        The tables at other details, and this one among them; what `level` gives by number.
+        None where there is one detail, and where the table is not one of them (any more).
 
     Raises
     ------
@@ -67,6 +71,7 @@ class Segmentation:
     fps: float
     provenance: Mapping[str, Any] = field(default_factory=dict)
     timings: Mapping[str, float] = field(default_factory=dict)
+    hierarchy: Hierarchy | None = None
 
     def __post_init__(self) -> None:
         check_type(
@@ -78,6 +83,8 @@ class Segmentation:
         check_parents(self.activities, self.primitives)
         object.__setattr__(self, "provenance", plain_json(self.provenance, "provenance"))
         object.__setattr__(self, "timings", plain_json(self.timings, "timings"))
+        if self.hierarchy is not None and self.hierarchy.table != self.table:
+            object.__setattr__(self, "hierarchy", None)
 
     @classmethod
     def from_columns(
@@ -124,20 +131,55 @@ class Segmentation:
         spent = {} if timings is None else timings
         return cls(table, int(n_frames), float(fps), said, spent)
 
-    def level(self, level: Level) -> SegmentTable:
-        """The segments of one level, in time order.
+    @overload
+    def level(self, level: Level) -> SegmentTable: ...
+    @overload
+    def level(self, level: float) -> Segmentation: ...
+    def level(self, level: Level | float) -> SegmentTable | Segmentation:
+        """The segments of one level of the table; or, by a number, the result at that detail.
 
         Parameters
         ----------
-        level : {"activity", "primitive"}
+        level : {"activity", "primitive"} or float
+            Of the two levels of this table, one: a `SegmentTable` in time order. Or a detail
+            above 0: 1 is the default result, less is coarser, more is finer, and every
+            border at one detail is a border at any finer one.
 
         Returns
         -------
-        SegmentTable
+        SegmentTable or Segmentation
+            By a number, the finest segmentation that is no finer than that, with the same
+            hierarchy: what was coarser or finer can still be had. Without a hierarchy there is
+            one detail, and it is this segmentation whatever the number.
+
+        Raises
+        ------
+        ParameterError
+            No such level, or a number that is no detail.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> found = kineme.segment(kineme.read(kineme.bundled_recording()))
+        >>> [len(found.level(detail).cuts()) for detail in (0.1, 0.5, 1)]
+        [0, 4, 12]
+        >>> found.level(0.5).level(1) == found
+        True
         """
-        if not is_one_of(level, get_args(Level)):
-            raise ParameterError(f"level must be 'activity' or 'primitive', not {level!r}")
-        return self.table.select(self.table.level == level)
+        if isinstance(level, str):
+            if not is_one_of(level, get_args(Level)):
+                raise ParameterError(
+                    f"level must be 'activity' or 'primitive', or a detail above 0, not {level!r}"
+                )
+            return self.table.select(self.table.level == level)
+        check_detail(level)
+        if self.hierarchy is None:
+            return self
+        chosen = self.hierarchy.at(level)
+        provenance = {name: said for name, said in self.provenance.items() if name != "detail"}
+        if chosen.detail != DEFAULT_DETAIL:
+            provenance["detail"] = chosen.detail
+        return replace(self, table=chosen.table, provenance=provenance, hierarchy=chosen)
 
     @property
     def activities(self) -> SegmentTable:

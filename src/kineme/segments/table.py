@@ -54,10 +54,10 @@ DESCRIBED: Mapping[str, Column] = {
     "cluster": Column(int, "equal numbers are equal movements; -1: in no cluster"),
     "activity": Column(int, "the segment of the activity level that it lies in (or is), from 0"),
     "label": Column(str, "a name given by a person or a knowledge base, or empty"),
-    "score": Column(float, "how sure the producer was; none where it does not say"),
+    "score": Column(float, "how probable it is that the segment is right; none where nobody says"),
     "action": Column(int, "`cluster` of the activity that it lies in (or is)", since_first=False),
     "border_confidence": Column(
-        float, "how sure it is that a segment of its level starts there; none where nobody says",
+        float, "how probable it is that its start is right; none where nobody says",
         since_first=False,
     ),
 }  # fmt: skip

@@ -37,16 +37,19 @@ def analysis_of(seed: int) -> RecurrenceFound:
 
 
 def assert_same(found: RecurrenceFound, expected: RecurrenceFound) -> None:
-    for name in ("borders", "labels", "primitives"):
+    for name in ("borders", "labels", "primitives", "clusters"):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
-    for name in ("confidence", "agreement"):
-        np.testing.assert_allclose(getattr(found, name), getattr(expected, name), atol=1e-3)
+    for name in ("links", "counts", "borders", "cuts"):
+        probabilities = (getattr(each.confidence, name) for each in (found, expected))
+        np.testing.assert_allclose(*probabilities, atol=1e-2)
 
 
 def repetitions_of(found: RecurrenceFound) -> list[int]:
     """How many repetitions each activity has; transitions left out."""
     parents = np.searchsorted(found.borders, found.primitives[:-1], side="right") - 1
-    return np.bincount(parents)[found.labels >= 0].tolist()
+    return np.bincount(parents[found.clusters >= 0], minlength=len(found.labels))[
+        found.labels >= 0
+    ].tolist()
 
 
 # --- what is known is found -------------------------------------------------------------------
@@ -104,9 +107,7 @@ def test_similarity_is_looked_for_no_farther_away_than_asked() -> None:
 @few
 def test_moving_and_turning_the_features_changes_nothing(seed, turn, shift) -> None:
     rows = recorded(seed)
-    stacked = rows.reshape(len(rows), len(KINEME.offsets), -1)
-    turn_of_poses = ortho_group.rvs(stacked.shape[2], random_state=turn)
-    turned = (stacked @ turn_of_poses).reshape(rows.shape) + shift
+    turned = rows @ ortho_group.rvs(rows.shape[1], random_state=turn) + shift
     assert_same(analyze_actions(turned, KINEME), analysis_of(seed))
 
 
@@ -120,7 +121,8 @@ for _ in range(2):
     found = analyze_actions(motion_features(random_recording(2).motion, KINEME), KINEME)
     digest = hashlib.sha256()
     for part in (found.recurrence.near, found.recurrence.similarity, found.borders, found.labels,
-                 found.confidence, found.primitives, found.agreement):
+                 found.confidence.links, found.confidence.counts, found.confidence.borders,
+                 found.primitives, found.confidence.cuts):
         digest.update(np.ascontiguousarray(part).tobytes())
     print(digest.hexdigest())
 """
@@ -151,17 +153,23 @@ def assert_whole(found: RecurrenceFound, frames: int) -> None:
         assert (np.diff(borders) > 0).all()
     assert set(found.borders.tolist()) <= set(found.primitives.tolist())
     labels = found.labels.tolist()
-    assert len(labels) == len(found.confidence) == len(found.borders) - 1
+    assert len(labels) == len(found.borders) - 1
     assert all(a != b for a, b in pairwise(labels))
     known = [label for label in dict.fromkeys(labels) if label >= 0]
     assert known == list(range(len(known)))
     assert set(labels) <= {-1, *known}
-    moving = found.labels >= 0
-    assert ((found.confidence[moving] >= 0) & (found.confidence[moving] <= 1)).all()
-    assert np.isnan(found.confidence[~moving]).all()
-    counted = found.agreement[np.isfinite(found.agreement)]
-    assert ((counted >= 0) & (counted <= 1 + 1e-9)).all()
-    assert len(found.agreement) == len(found.primitives) - 1
+    moving, sure = found.labels >= 0, found.confidence
+    periodic = moving & ~np.isin(found.labels, found.not_periodic)
+    for probabilities, known in ((sure.links, moving), (sure.counts, periodic)):
+        assert np.isfinite(probabilities).tolist() == known.tolist()
+    assert np.isnan(sure.borders[0])
+    for probabilities in (sure.links, sure.counts, sure.borders, sure.cuts):
+        given = probabilities[np.isfinite(probabilities)]
+        assert ((given >= 0) & (given <= 1)).all()
+    assert np.isfinite(sure.borders[1:]).all()
+    begins = np.isin(found.primitives[:-1], found.borders) | periodic[found.evidence.parents]
+    assert np.isfinite(sure.cuts[1:][begins[1:]]).all()
+    assert len(sure.cuts) == len(found.primitives) - 1
 
 
 def test_activities_alternate_and_are_counted_by_first_appearance() -> None:
@@ -269,4 +277,5 @@ def test_a_gap_in_the_features_is_named() -> None:
 def test_progress_and_timings_name_the_stages() -> None:
     names: list[str] = []
     found = analyze_actions(np.zeros((40, 2)), KINEME, progress=names.append)
-    assert names == [*found.timings] == ["recurrence", "actions", "repetitions", "occurrences"]
+    stages = ["recurrence", "actions", "repetitions", "occurrences", "confidence"]
+    assert names == [*found.timings] == stages

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from kineme.methods.recurrence.occurrences import Occurrences
@@ -19,8 +21,7 @@ def segments() -> Segments:
         np.array([0.9, np.nan, 0.8, 0.7]),
         np.array([0, 50, 100, 130, 300, 400]),
         np.array([0, 0, -1, 1, 0]),
-        np.array([1.0, 1.0, np.nan, 1.0, 0.6]),
-        np.array([1]),
+        np.empty(0, np.int64),
     )
 
 
@@ -36,7 +37,7 @@ def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
     found = placed(segments(), occurring((140, 180), (220, 260)), FREE)
     assert found.primitives.tolist() == [0, 50, 100, 130, 140, 180, 220, 260, 300, 400]
     assert found.clusters.tolist() == [0, 0, -1, -1, 2, -1, 2, -1, 0]
-    np.testing.assert_array_equal(found.agreement[3:6], [np.nan, 0.5, np.nan])
+    assert found.repeats.tolist() == [True, True] + 6 * [False] + [True]
     assert found.borders.tolist() == BORDERS.tolist()
     assert found.not_periodic.tolist() == [1]
 
@@ -44,7 +45,15 @@ def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
 def test_without_occurrences_a_free_activity_has_no_primitive() -> None:
     found = placed(segments(), occurring(), FREE)
     assert found.clusters.tolist() == [0, 0, -1, -1, 0]
-    assert np.isnan(found.agreement[3])
+
+
+def test_numbers_go_on_after_repetitions_that_are_another_movement() -> None:
+    parts = replace(segments(), clusters=np.array([0, 3, -1, 2, 0]))
+    found = placed(parts, occurring((140, 180), (220, 260)), FREE)
+    assert found.clusters.tolist() == [0, 2, -1, -1, 3, -1, 3, -1, 0]
+    untouched = placed(parts, occurring(), np.zeros(4, np.bool_))
+    assert untouched.clusters.tolist() == [0, 2, -1, 3, 0]
+    assert untouched.not_periodic.size == 0
 
 
 def test_borders_go_to_the_nearer_end_of_an_occurrence() -> None:

@@ -29,7 +29,7 @@ from kineme.formats.arrays.named_arrays import (
     positions_to_motion,
 )
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.files import FileContent
+from kineme.formats.files import FileContent, spelled
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
@@ -62,7 +62,7 @@ def write_npz(motion: Motion, path: Path) -> None:
     arrays: dict[str, Any] = {
         "positions": motion.positions,
         "fps": motion.fps,
-        "names": np.array(skeleton.names),
+        "names": np.array(spelled(path, skeleton.names, str)),
         "parents": np.array(skeleton.parents),
         "offsets": skeleton.offsets,
         "end_sites": np.array(sorted(skeleton.end_sites), np.int64),

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.formats.delimited import rows_of, separator_of
-from kineme.formats.files import FileContent, numbers, save, unique
+from kineme.formats.files import FileContent, in_a_cell, numbers, save, spelled
 from kineme.formats.gaps import split_at, unseen
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
@@ -55,7 +55,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
 
 def write_trc(motion: Motion, path: Path) -> None:
     """Leave the joints' positions in a TRC file, in millimetres; cells in gaps are empty."""
-    names = unique(" ".join(name.split()) for name in motion.skeleton.names)
+    names = spelled(path, motion.skeleton.names, in_a_cell)
     n, m = motion.n_frames, len(names)
     fps = f"{motion.fps!r}"
     head = (

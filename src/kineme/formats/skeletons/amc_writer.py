@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme.errors import WriteError
-from kineme.formats.files import save, table, unique
+from kineme.formats.files import save, spelled, table
 from kineme.formats.skeletons.asf import ROOT
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.formats.units import UNITS
@@ -59,7 +59,7 @@ def write_amc(motion: Motion, path: Path) -> None:
     moving = sorted(j for j in motion.skeleton.end_sites if slides[j])
     if moving:
         raise WriteError(path, f"end site {motion.skeleton.names[moving[0]]!r} moves on its bone")
-    bones = _bones(motion.skeleton, slides)
+    bones = _bones(motion.skeleton, slides, path)
     angles = np.degrees(rot.to_euler_zyx(motion.rotations))[..., ::-1]
     shift = (translations - motion.skeleton.offsets) / UNIT
     shift[:, 0] = translations[:, 0] / UNIT
@@ -75,10 +75,10 @@ def write_amc(motion: Motion, path: Path) -> None:
     save(path, [head, *frames])
 
 
-def _bones(skeleton: Skeleton, slides: NDArray[np.bool_]) -> list[Bone]:
+def _bones(skeleton: Skeleton, slides: NDArray[np.bool_], path: Path) -> list[Bone]:
     """The root and all bones, parents first."""
     inner = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
-    words = unique([ROOT, *map(_word, (skeleton.names[j] for j in inner[1:]))])
+    words = spelled(path, [ROOT, *(skeleton.names[j] for j in inner[1:])], _word)
     names = dict(zip(inner, words, strict=True))
     bones: list[Bone] = []
     hangs_on = {0: ROOT}
@@ -120,5 +120,5 @@ def _asf(bones: list[Bone]) -> Iterator[str]:
 
 def _word(name: str) -> str:
     """One word that an ASF does not take for a comment, keyword or number."""
-    word = re.sub(r"[\s#:]+", "_", name)
+    word = re.sub(r"[\s#:(),\0]+", "_", name)
     return f"_{word}" if word.isdigit() or word.lower() in ("begin", "end", "") else word

@@ -38,6 +38,7 @@ from kineme.recordings import Motion, Skeleton
 
 Floats = NDArray[np.float64]
 
+_HIERARCHY = re.compile(rb"^(\xef\xbb\xbf)?\s*HIERARCHY\s", re.IGNORECASE | re.MULTILINE)
 _MOTION = re.compile(rb"\bMOTION\s+Frames\s*:", re.IGNORECASE)
 _GLUED = re.compile(rb"(?<=[0-9.])-")
 _HEADER = re.compile(rb"[ \t]*(\d{1,18})\s+Frame\s*Time\s*:[ \t]*(\S*)[^\r\n]*", re.IGNORECASE)
@@ -172,4 +173,6 @@ def _row(line: bytes) -> tuple[list[float], bool]:
         return numbers(apart.split()), True
 
 
-FORMAT = Format("BVH", (".bvh",), lambda head: b"HIERARCHY" in head.upper(), read_bvh, write_bvh)
+FORMAT = Format(
+    "BVH", (".bvh",), lambda head: _HIERARCHY.search(head) is not None, read_bvh, write_bvh
+)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme.errors import WriteError
-from kineme.formats.files import save, table, unique
+from kineme.formats.files import save, spelled, table
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import local_translations
 
@@ -46,16 +46,29 @@ def write_bvh(motion: Motion, path: Path) -> None:
         if slides[j]:
             columns.append(translations[:, j] / UNIT)
         columns.append(angles[:, j])
-    head = "\n".join(_hierarchy(motion, order, slides, ends))
+    head = "\n".join(_hierarchy(motion, order, slides, _names(motion, ends, path)))
     timing = f"MOTION\nFrames: {motion.n_frames}\nFrame Time: {1 / motion.fps!r}\n"
     save(path, [head, "\n", timing, *table(np.concatenate(columns, axis=1))])
 
 
+def _names(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
+    """The names of joints as a line holds them; end sites have none."""
+    named = [j for j in range(motion.skeleton.n_joints) if j not in ends]
+    return dict(
+        zip(named, spelled(path, [motion.skeleton.names[j] for j in named], _line), strict=True)
+    )
+
+
+def _line(name: str) -> str:
+    """No braces, and nothing that the motion begins with."""
+    plain = re.sub(r"[{}\s]+", " ", name).strip()
+    return re.sub(r"(\bmotion frames) ?:", r"\1", plain, flags=re.IGNORECASE)
+
+
 def _hierarchy(
-    motion: Motion, order: list[int], slides: NDArray[np.bool_], ends: set[int]
+    motion: Motion, order: list[int], slides: NDArray[np.bool_], names: dict[int, str]
 ) -> Iterator[str]:
     skeleton = motion.skeleton
-    names = unique(re.sub(r"[{}\s]+", " ", name).strip() for name in skeleton.names)
     depths: dict[int, int] = {-1: -1}
     open_joints: list[int] = []
     yield "HIERARCHY"
@@ -66,10 +79,10 @@ def _hierarchy(
         open_joints.append(j)
         kind = "ROOT" if skeleton.parents[j] < 0 else "JOINT"
         tab = "\t" * depth
-        yield tab + ("End Site" if j in ends else f"{kind} {names[j]}")
+        yield tab + (f"{kind} {names[j]}" if j in names else "End Site")
         yield tab + "{"
         yield f"{tab}\tOFFSET " + " ".join(f"{x / UNIT:.9f}" for x in skeleton.offsets[j])
-        if j not in ends:
+        if j in names:
             places = "6 Xposition Yposition Zposition" if slides[j] else "3"
             yield f"{tab}\tCHANNELS {places} Zrotation Yrotation Xrotation"
     while open_joints:

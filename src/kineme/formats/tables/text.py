@@ -18,7 +18,7 @@ from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.columns import columns_to_motion, dated, is_used
 from kineme.formats.delimited import rows_of, separator_of
-from kineme.formats.files import FileContent, save, unique
+from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
 from kineme.formats.gaps import unseen
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut, read_deeplabcut
 from kineme.formats.options import ReadOptions
@@ -40,7 +40,7 @@ def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
 
 def write_csv(motion: Motion, path: Path) -> None:
     """Leave the joints' positions in a CSV file, in metres with y up."""
-    joints = unique(" ".join(name.replace('"', "'").split()) for name in motion.skeleton.names)
+    joints = spelled(path, motion.skeleton.names, lambda n: in_a_cell(n.replace('"', "'")))
     names = ["time", *(f"{joint}_{axis}" for joint in joints for axis in "xyz")]
     head = ",".join(f'"{name}"' if "," in name else name for name in names) + "\n"
     row = "%.9f" + ",%.9f" * (len(names) - 1) + "\n"

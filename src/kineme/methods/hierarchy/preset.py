@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from kineme.methods import weights
 from kineme.methods.base import Mirror
 from kineme.methods.hierarchy.constants import HierarchyConstants
 from kineme.methods.stages import Progress
@@ -39,12 +40,17 @@ SENSORS = HierarchyPreset(
     rate=5.0,
     averaging=1.0,
     bands=(0.3, 1.0, 2.4, 7.0, 20.0),
+    shared=(1e4, 1e4, 1e4, 1.0, 0.3),
+    weights=(0.5, 1.0, 1.0, 1.0, 1.0),
+    restless_over=(0.0, 0.0, 1.0, 0.0, 1.0),
+    part=600.0,
     fine_cost=0.4,
     max_fine=80.0,
     min_action=1.4,
     segment_cost=0.15,
-    cluster_cost=0.8,
+    cluster_cost=0.6,
     max_clusters=16,
     counting_fps=25.0,
-    unsure_count=0.5,
+    link_weights=weights.SENSOR_LINK,
+    border_weights=weights.SENSOR_BORDER,
 )

@@ -87,3 +87,22 @@ def cheapest_labels(costs, switch_cost):
     for t in range(n - 1, 0, -1):
         labels[t - 1] = before[t, labels[t]]
     return labels
+
+
+@njit("void(float32[:, ::1], int64[::1], float64[:, ::1], float64[:, ::1])", **SUMS)
+def sum_similarities(similarity, labels, sums, counts):
+    """Adds the similarities of the samples of each two classes, and how many pairs there are.
+
+    Over all ordered pairs within the band, a sample with itself among them; samples of
+    class -1 count nowhere.
+    """
+    samples, width = similarity.shape
+    for i in range(samples):
+        if labels[i] >= 0:
+            for j in range(i, min(samples, i + width)):
+                if labels[j] >= 0:
+                    sums[labels[i], labels[j]] += similarity[i, j - i]
+                    counts[labels[i], labels[j]] += 1
+                    if j > i:
+                        sums[labels[j], labels[i]] += similarity[i, j - i]
+                        counts[labels[j], labels[i]] += 1

@@ -5,20 +5,31 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from itertools import compress
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_features
 from kineme._threads import map_threads
+from kineme.methods.confidence import probability
 from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
+from kineme.methods.recurrence.ends import fitted_ends
+from kineme.methods.recurrence.evidence import counted, evidence
 from kineme.methods.recurrence.found import RecurrenceFound
 from kineme.methods.recurrence.occurrences import occurrences
+from kineme.methods.recurrence.parts import clusters_of_repetitions
 from kineme.methods.recurrence.placing import Segments, of_actions, placed
-from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
+from kineme.methods.recurrence.recurrence import (
+    Recurrence,
+    narrower,
+    phase_windows,
+    recurrence,
+)
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from kineme.methods.recurrence.transitions import activity_ends
 from kineme.methods.samples import unstacked
@@ -62,54 +73,59 @@ def analyze_actions(
     stage = stopwatch(timings, progress)
     with stage("recurrence"):
         recurring = _recurrence(rows, preset, preset.min_scale, preset.max_scale)
+        narrow = _narrower(recurring, preset)
     with stage("actions"):
-        actions = find_actions(recurring, preset)
-        borders, labels, confidence = _activities(actions, recurring, preset, len(rows))
+        found = find_actions(recurring, narrow, preset)
+        borders, labels, own = _activities(found, narrow, preset, len(rows))
     with stage("repetitions"):
-        limits = actions.borders * recurring.step
-        counted = _count(recurring, borders, labels, limits, preset)
-    primitives = np.unique(np.concatenate([borders, *(each.cuts for each in counted)]))
-    parents = np.searchsorted(borders, primitives[:-1], side="right") - 1
-    agreement = np.array([each.agreement for each in counted])[parents]
-    none = np.empty(0, np.int64)
-    segments = Segments(borders, labels, confidence, primitives, labels[parents], agreement, none)
+        limits = found.borders * recurring.step
+        repeating = _count(recurring, borders, labels, limits, preset)
+        segments, explained = _repeated(recurring, borders, labels, own, repeating, preset)
     with stage("occurrences"):
-        explained = np.array([each.explained for each in counted])
-        segments = _with_occurrences(rows, segments, explained, preset)
+        segments = _with_occurrences(recurring, segments, explained, preset)
+    borders, labels, primitives = segments.borders, segments.labels, segments.primitives
+    with stage("confidence"):
+        repeats = segments.repeats
+        shown = evidence(recurring, preset, borders, labels, segments.own, primitives, repeats)
     return RecurrenceFound(
         rows,
         recurring,
         preset,
-        segments.borders,
-        segments.labels,
-        segments.confidence,
-        segments.primitives,
+        borders,
+        labels,
+        primitives,
         segments.clusters,
-        segments.agreement,
         segments.not_periodic,
+        shown,
+        narrow,
         timings,
     )
 
 
-def find_actions(recurring: Recurrence, preset: RecurrenceConstants) -> Actions:
-    """Segments of one action each, in samples."""
-    per_second = preset.working_fps / preset.step
-    borders = change_points.change_points(
-        recurring,
-        penalty=preset.border_cost * per_second,
-        min_length=max(1, preset.samples(preset.min_segment)),
-    )
-    borders = change_points.merge_neighbors(
-        borders,
-        recurring,
-        gap=preset.samples(preset.merge_gap),
+def find_actions(wide: Recurrence, narrow: Recurrence, preset: RecurrenceConstants) -> Actions:
+    """Segments of one action each, in samples.
+
+    Parameters
+    ----------
+    wide, narrow : Recurrence
+        Of the same samples, with the phases of the preset and with those for short actions.
+    preset : RecurrenceConstants
+    """
+    borders = change_points.divided(
+        _segments(wide, preset),
+        _segments(narrow, preset.narrowed()),
+        narrow,
         softness=preset.merge_softness,
-        least=preset.merge_share,
+        least=preset.min_repetition,
+        elsewhere=preset.distinct_share,
+        min_length=max(1, preset.samples(preset.min_segment)),
     )
     labels = change_points.link(
         borders,
-        recurring,
-        _poses(recurring.features, preset.offsets) if preset.any_pace else recurring.features,
+        wide,
+        _poses(wide.features, preset.offsets) if preset.any_pace else wide.features,
+        narrow=narrow.phase,
+        gap_share=preset.link_gap,
         similarity=preset.link_similarity,
         softness=preset.link_softness,
         samples=preset.link_samples,
@@ -117,18 +133,34 @@ def find_actions(recurring: Recurrence, preset: RecurrenceConstants) -> Actions:
         max_lag=None if preset.max_lag is None else preset.samples(preset.max_lag),
     )
     repeats = change_points.repeating(
-        borders, labels, recurring, softness=preset.merge_softness, least=preset.min_repetition
+        borders, labels, wide, softness=preset.merge_softness, least=preset.min_repetition
     )
     return refine(
         borders,
         np.where(repeats, labels, -1),
-        recurring,
-        switch_cost=preset.switch_cost * per_second,
+        narrow,
+        switch_cost=preset.switch_cost * preset.working_fps / preset.step,
         no_action_cost=preset.no_action_cost,
         least_similarity=preset.least_similarity,
         least_own=preset.least_self_similarity,
         min_length=max(1, preset.samples(preset.min_action)),
         rounds=preset.rounds,
+    )
+
+
+def _segments(recurring: Recurrence, preset: RecurrenceConstants) -> Frames:
+    """Borders between the samples that are similar, but for those between parts of one."""
+    borders = change_points.change_points(
+        recurring,
+        penalty=preset.border_cost * preset.working_fps / preset.step,
+        min_length=max(1, preset.samples(preset.min_segment)),
+    )
+    return change_points.merge_neighbors(
+        borders,
+        recurring,
+        gap=preset.samples(preset.merge_gap),
+        softness=preset.merge_softness,
+        least=preset.merge_share,
     )
 
 
@@ -160,12 +192,24 @@ def _recurrence(
     )
 
 
-def _poses(features: NDArray[Any], offsets: tuple[float, ...]) -> NDArray[Any]:
+def _narrower(wide: Recurrence, preset: RecurrenceConstants) -> Recurrence:
+    """The recurrence by which short actions are told apart."""
+    short = preset.narrowed()
+    return narrower(
+        wide,
+        phases=phase_windows(short.samples(short.phase), short.phase_shares),
+        rank=short.samples(short.recurrence_time),
+        low=short.min_scale,
+        high=short.max_scale,
+    )
+
+
+def _poses(features: NDArray[np.float32], offsets: tuple[float, ...]) -> NDArray[np.float32]:
     """The poses without their neighbours in time; all, if they were not stacked at the offsets."""
     bare = unstacked(features, offsets)
     if bare is None:
         return features
-    poses: NDArray[Any] = bare * len(offsets) ** 0.5
+    poses: NDArray[np.float32] = bare * len(offsets) ** 0.5
     return poses
 
 
@@ -192,33 +236,79 @@ def _activities(
     return np.append(borders[first], n), labels[first], confidence[first]
 
 
+def _repeated(
+    recurring: Recurrence,
+    borders: Frames,
+    labels: Frames,
+    own: NDArray[np.float64],
+    repeating: Sequence[Repetitions],
+    preset: RecurrenceConstants,
+) -> tuple[Segments, NDArray[np.float64]]:
+    """Activities and their repetitions with fitted ends; how much of each those explain."""
+    n, known = len(recurring.features), labels >= 0
+    ends = fitted_ends(
+        recurring.features,
+        borders[:-1][known],
+        borders[1:][known],
+        labels[known],
+        [each.cuts for each in compress(repeating, known)],
+        preset,
+    )
+    borders, activity = _tiled(n, ends.starts, ends.stops)
+    primitives, repeated = _tiled(
+        n, ends.firsts, ends.lasts, [borders, *(each.cuts for each in repeating)]
+    )
+    labels, own = np.append(labels[known], -1), np.append(own[known], np.nan)
+    explained = np.append([each.explained for each in compress(repeating, known)], 0.0)
+    clusters = clusters_of_repetitions(
+        _poses(recurring.features, preset.offsets), primitives, labels[repeated], repeated, preset
+    )
+    none = np.empty(0, np.int64)
+    segments = Segments(borders, labels[activity], own[activity], primitives, clusters, none)
+    return segments, explained[activity]
+
+
 def _with_occurrences(
-    features: NDArray[np.float64],
+    recurring: Recurrence,
     segments: Segments,
     explained: NDArray[np.float64],
     preset: RecurrenceConstants,
 ) -> Segments:
-    """Occurrences for primitives in transitions and where repetitions explain less than they do.
+    """Occurrences for primitives in transitions, and where they explain what is not counted.
 
-    Transitions that are no more than the ends of two activities are left alone. An activity
-    that neither repeats itself nor recurs stays one primitive, of which nothing is sure.
+    An action of which a count is probable keeps its repetitions. Transitions that are no more
+    than the ends of two activities are left alone.
     """
     borders, labels = segments.borders, segments.labels
-    explained = of_actions(explained, borders, labels)
-    ends = (labels < 0) & (np.diff(borders) <= 2 * preset.frames(preset.max_transition))
-    weak = (explained < preset.min_explained) & ~ends
-    looked_at = np.repeat(weak, np.diff(borders))
-    found = occurrences(_poses(features, preset.offsets), looked_at, preset)
-    recurring = of_actions(found.explained(borders), borders, labels)
-    free = weak & ((labels < 0) | (recurring > explained))
-    alone = (labels >= 0) & (explained == 0)
-    parents = np.searchsorted(borders, segments.primitives[:-1], side="right") - 1
-    unsure = replace(
-        segments,
-        agreement=np.where(alone[parents], np.nan, segments.agreement),
-        not_periodic=np.unique(labels[alone | (free & (labels >= 0))]),
+    counts, _ = counted(
+        recurring.features,
+        segments.primitives,
+        segments.parents,
+        segments.repeats,
+        segments.own,
+        preset,
     )
-    return placed(unsure, found.within(borders, free), free)
+    sure = labels[probability(counts, preset.count_weights) >= preset.unsure_count]
+    ends = (labels < 0) & (np.diff(borders) <= 2 * preset.frames(preset.max_transition))
+    weak = ~ends & ~np.isin(labels, sure)
+    looked_at = np.repeat(weak, np.diff(borders))
+    found = occurrences(_poses(recurring.features, preset.offsets), looked_at, preset)
+    recur = of_actions(found.explained(borders), borders, labels)
+    free = weak & ((labels < 0) | (recur > of_actions(explained, borders, labels)))
+    return placed(segments, found.within(borders, free), free)
+
+
+def _tiled(
+    n: int, starts: Frames, stops: Frames, cuts: Sequence[Frames] = ()
+) -> tuple[Frames, Frames]:
+    """Borders from 0 to n with these spans and cuts among them, and the span of each segment.
+
+    What lies in no span is in span -1.
+    """
+    borders: Frames = np.unique(np.concatenate([[0, n], starts, stops, *cuts]))
+    spans = np.searchsorted(starts, borders[:-1], side="right") - 1
+    inside = (spans >= 0) & (borders[:-1] < np.append(stops, 0)[spans])
+    return borders, np.where(inside, spans, -1)
 
 
 def _count(
@@ -238,7 +328,7 @@ def _count(
     def count(segment: int) -> Repetitions:
         start, stop = int(borders[segment]), int(borders[segment + 1])
         if labels[segment] < 0:
-            return Repetitions(np.empty(0, np.int64), np.nan)
+            return Repetitions(np.empty(0, np.int64))
         action = int(np.searchsorted(limits, (start + stop) // 2, side="right")) - 1
         first = (start + min(start, int(limits[action]))) // 2
         last = (stop + max(stop, int(limits[action + 1]))) // 2

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kineme.methods.base import Preset
-from kineme.methods.constants import FACTOR, SHARE, SOME, SOME_FACTOR, TIME, Limits, constant
+from kineme.methods.confidence import ConfidencePreset
+from kineme.methods.constants import FACTOR, SHARE, SOME, TIME, Limits, constant
 
 
 @dataclass(frozen=True, kw_only=True)
-class CountingPreset(Preset):
+class CountingPreset(ConfidencePreset):
     """A preset whose method counts repetitions; see `kineme.methods.recurrence.repetitions`."""
 
     repetition_smoothing: float = constant(
@@ -61,7 +61,3 @@ class CountingPreset(Preset):
     same_count: float = constant(
         "repetitions by which these differ at most", limits=FACTOR, fine=True, default=0.75
     )
-    rival_cost: float = constant(
-        "divisions that cost no more than this above the best say whether the count is certain",
-        limits=SOME_FACTOR, fine=True, default=0.3,
-    )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -10,6 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.base import Columns
+from kineme.methods.confidence import Confidence, confidence
+from kineme.methods.doubts import doubts
+from kineme.methods.evidence import Evidence
 from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.segments import columns_of
 
@@ -40,16 +44,16 @@ class RecurrenceFound:
         Of activities and transitions, from 0 to n.
     labels : (segments,) array
         Action of each, -1 for transitions.
-    confidence : (segments,) array
-        How sure the action of each is, nan for transitions.
     primitives : (primitives + 1,) array
         Borders of the primitives, from 0 to n, those of activities included.
     clusters : (primitives,) array
         Cluster of each, -1 where it is neither repetition nor occurrence.
-    agreement : (primitives,) array
-        How certain the count is, or how similar an occurrence to others, 0 to 1; else nan.
     not_periodic : array of int
-        Actions that do not repeat themselves back to back.
+        Actions whose primitives are occurrences.
+    evidence : Evidence
+        By which it is told how sure all that is.
+    narrow : Recurrence
+        How similar the samples are for short actions.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -59,23 +63,37 @@ class RecurrenceFound:
     preset: RecurrenceConstants
     borders: Frames
     labels: Frames
-    confidence: NDArray[np.float64]
     primitives: Frames
     clusters: Frames
-    agreement: NDArray[np.float64]
     not_periodic: Frames
+    evidence: Evidence
+    narrow: Recurrence
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
-        """Activities with their confidence, primitives with the certainty of their count."""
-        return columns_of(
+        """Activities, primitives, and how probable it is that each is right."""
+        parents = self.evidence.parents
+        sure = self.confidence
+        columns = columns_of(
             self.borders,
             self.primitives,
             is_activity=self.labels >= 0,
             is_primitive=self.clusters >= 0,
             clusters=(self.labels, self.clusters),
-            scores=(self.confidence, self.agreement),
+            scores=(sure.links, np.where(self.clusters >= 0, sure.counts[parents], np.nan)),
         )
+        return columns | {"border_confidence": np.concatenate([sure.borders, sure.cuts])}
+
+    @cached_property
+    def confidence(self) -> Confidence:
+        """How probable it is that each thing found is right."""
+        return confidence(self.evidence, self.preset)
+
+    def levels(self, columns: Columns) -> Mapping[float, Columns]:
+        """The table at coarser and finer details; see `kineme.methods.recurrence.levels`."""
+        from kineme.methods.recurrence.levels import levels_of
+
+        return levels_of(self, columns)
 
     @cached_property
     def graph(self) -> NeighborGraph:
@@ -90,35 +108,18 @@ class RecurrenceFound:
         )
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """A sentence for each activity that is nearly another, or whose count is not sure.
+        """A sentence for each cluster, count or border that is not sure, at most five.
 
-        And one for those that are not periodic.
+        And one for the activities that are not periodic.
         """
-        activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
-        sentences = []
-        for row in np.flatnonzero(activity):
-            start, stop = columns["start_frame"][row], columns["stop_frame"][row]
-            where = f"at {start / fps:.2f} to {stop / fps:.2f} s"
-            if columns["score"][row] < self.preset.unsure_action:
-                sentences.append(
-                    f"look at the activity {where}: it is nearly as similar to another "
-                    f"(confidence {columns['score'][row]:.2f})"
-                )
-            inside = (columns["level"] == "primitive") & (columns["start_frame"] == start)
-            agreement = columns["score"][inside][0]
-            counted = columns["cluster"][row] not in self.not_periodic
-            if counted and agreement < self.preset.unsure_count:
-                sentences.append(
-                    f"look at the repetitions {where}: another number of them fits nearly as well "
-                    f"(score {agreement:.2f})"
-                )
-        loose = np.flatnonzero(activity & np.isin(columns["cluster"], self.not_periodic))
-        if len(loose):
+        found = doubts(columns, fps, self.preset)
+        loose = (columns["level"] == "activity") & np.isin(columns["cluster"], self.not_periodic)
+        if loose.any():
             spans = zip(columns["start_frame"][loose], columns["stop_frame"][loose], strict=True)
             listed = [f"{start / fps:.2f} to {stop / fps:.2f} s" for start, stop in spans]
             more = f" and {len(listed) - LISTED} more" if len(listed) > LISTED else ""
-            sentences.append(
+            found.append(
                 f"not periodic: {', '.join(listed[:LISTED])}{more}; "
                 "their primitives are what recurs anywhere"
             )
-        return sentences
+        return found

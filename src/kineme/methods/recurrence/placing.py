@@ -26,23 +26,36 @@ class Segments:
     ----------
     borders : (activities + 1,) array
         Of activities and the transitions between them.
-    labels, confidence : (activities,) array
-        Action of each and how sure it is; -1 and nan for transitions.
+    labels, own : (activities,) array
+        Action of each, and how much more similar it is to that than to others; -1 and nan for
+        transitions.
     primitives : (primitives + 1,) array
         Borders of the primitives, those of activities among them.
-    clusters, agreement : (primitives,) array
-        Cluster of each and how sure it is; -1 and nan for what is part of none.
+    clusters : (primitives,) array
+        Cluster of each, -1 for what is part of none: actions, then parts of them, then what
+        occurs.
     not_periodic : array of int
-        Actions that do not repeat themselves back to back.
+        Actions whose primitives are occurrences.
     """
 
     borders: Frames
     labels: Frames
-    confidence: NDArray[np.float64]
+    own: NDArray[np.float64]
     primitives: Frames
     clusters: Frames
-    agreement: NDArray[np.float64]
     not_periodic: Frames
+
+    @property
+    def parents(self) -> Frames:
+        """The activity or transition that each primitive lies in."""
+        return _place(self.borders, self.primitives[:-1])
+
+    @property
+    def repeats(self) -> NDArray[np.bool_]:
+        """Which primitives are repetitions."""
+        actions = self.labels[self.parents]
+        found: NDArray[np.bool_] = (self.clusters >= 0) & (actions >= 0)
+        return found & ~np.isin(actions, self.not_periodic)
 
 
 def of_actions(shares: NDArray[np.float64], borders: Frames, labels: Frames) -> NDArray[np.float64]:
@@ -65,7 +78,7 @@ def placed(segments: Segments, found: Occurrences, free: NDArray[np.bool_]) -> S
     found : Occurrences
         Of the free segments; their clusters go on after those of the activities.
     free : (activities,) array of bool
-        Transitions, and activities that are not periodic.
+        Transitions, and activities of actions that are not periodic.
 
     Returns
     -------
@@ -77,27 +90,21 @@ def placed(segments: Segments, found: Occurrences, free: NDArray[np.bool_]) -> S
     cuts = cuts[~free[_place(borders, cuts)]]
     primitives = np.unique(np.concatenate([borders, cuts, found.starts, found.stops]))
     begin = primitives[:-1]
-    parents = _place(borders, begin)
-    before = _place(segments.primitives, begin)
     labels = by_first_appearance(segments.labels[old])
-    numbers = np.full(segments.labels.max() + 2, -1)
+    numbers = np.full(segments.labels.max(initial=-1) + 2, -1)
     numbers[segments.labels[old] + 1] = labels
-    clusters, agreement = numbers[segments.clusters[before] + 1], segments.agreement[before]
-    clusters[free[parents]], agreement[free[parents]] = -1, np.nan
+    actions = int(labels.max(initial=-1)) + 1
+    clusters = segments.clusters[_place(segments.primitives, begin)]
+    clusters[free[_place(borders, begin)]] = -1
+    parts = by_first_appearance(np.where(clusters < len(numbers) - 1, -1, clusters))
+    clusters = np.where(parts < 0, numbers[np.where(parts < 0, clusters, -1) + 1], actions + parts)
     if len(found):
         which = np.maximum(_place(found.starts, begin), 0)
         inside = (found.starts[which] <= begin) & (begin < found.stops[which])
-        clusters[inside] = labels.max() + 1 + found.clusters[which[inside]]
-        agreement[inside] = found.similarity[which[inside]]
-    return Segments(
-        borders,
-        labels,
-        segments.confidence[old],
-        primitives,
-        clusters,
-        agreement,
-        np.unique(numbers[segments.not_periodic + 1]),
-    )
+        first = actions + int(parts.max(initial=-1)) + 1
+        clusters[inside] = first + found.clusters[which[inside]]
+    loose = np.unique(labels[free & (labels >= 0)])
+    return Segments(borders, labels, segments.own[old], primitives, clusters, loose)
 
 
 def _place(borders: Frames, frames: Frames) -> Frames:

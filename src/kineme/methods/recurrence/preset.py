@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme.methods import weights
 from kineme.methods.base import Mirror
 from kineme.methods.recurrence.constants import RecurrenceConstants
 from kineme.methods.stages import Progress
@@ -59,8 +60,11 @@ KINEME = RecurrencePreset(
     merge_gap=0.75,
     merge_softness=2.0,
     merge_share=0.3,
+    narrow_share=0.55,
+    distinct_share=0.65,
     link_similarity=0.6,
     link_softness=1.3,
+    link_gap=0.25,
     link_samples=20,
     any_pace=True,
     least_self_similarity=0.05,
@@ -75,8 +79,8 @@ KINEME = RecurrencePreset(
     usual_quantile=0.9,
     max_transition=0.4,
     max_transition_share=0.25,
-    max_unexplained=0.66,
-    min_explained=0.5,
+    end_factor=2.0,
+    part_gap=1.75,
     event_scale=0.45,
     event_velocity=0.2,
     event_rest=0.1,
@@ -87,8 +91,8 @@ KINEME = RecurrencePreset(
     max_event=6.0,
     min_recurrence=0.45,
     event_link=0.6,
-    unsure_action=0.25,
-    unsure_count=0.5,
+    link_weights=weights.LINK,
+    border_weights=weights.BORDER,
     recurs_at=0.2,
     exact_below=0.02,
 )

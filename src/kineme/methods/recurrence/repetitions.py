@@ -42,20 +42,17 @@ class Repetitions:
     ----------
     cuts : array of int
         Frames at which the second, third, ... repetition begins.
-    agreement : float
-        How certain their number is, 0 to 1.
     explained : float
         Share of the activity that each repetition's likeness to the others explains; 0 of a
         single one.
     """
 
     cuts: Frames
-    agreement: float
     explained: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
-class _Movement:
+class Movement:
     """An activity along its path.
 
     Attributes
@@ -136,10 +133,10 @@ def repetitions(
     Repetitions
     """
     rows = features[start:stop]
-    movement = _movement(rows, preset.frames(preset.repetition_smoothing))
-    candidates = _candidates(rows, movement, preset)
+    along = movement(rows, preset.frames(preset.repetition_smoothing))
+    candidates = _candidates(rows, along, preset)
     if not candidates:
-        return Repetitions(np.empty(0, np.int64), 1.0)
+        return Repetitions(np.empty(0, np.int64))
     best = min(candidates, key=lambda each: each.cost)
     same = [
         each
@@ -153,15 +150,11 @@ def repetitions(
         count = best.whole
         divisions = [cuts for cuts in [best.cuts(count)] if cuts is not None]
     even = min(divisions, key=lambda cuts: np.diff([0, *cuts, len(rows)]).std())
-    weights = np.array([max(best.cost + preset.rival_cost - each.cost, 0) for each in candidates])
-    if not weights.any():  # a cost too small to be told from none
-        weights = np.array([float(each is best) for each in candidates])
-    agreeing = np.array([each.whole == count for each in candidates])
-    agreement = float(weights[agreeing].sum() / weights.sum())
-    return Repetitions(start + even, agreement, 1 - best.unexplained)
+    return Repetitions(start + even, 1 - best.unexplained)
 
 
-def _movement(rows: NDArray[np.float32], smoothing: int) -> _Movement:
+def movement(rows: NDArray[np.float32], smoothing: int) -> Movement:
+    """An activity along its path, its poses averaged over so many frames before and after."""
     frames = np.arange(len(rows))
     before, after = np.maximum(frames - smoothing, 0), np.minimum(frames + smoothing, len(rows) - 1)
     sums = np.cumsum(np.pad(rows.astype(np.float64), ((1, 0), (0, 0))), axis=0)
@@ -170,11 +163,11 @@ def _movement(rows: NDArray[np.float32], smoothing: int) -> _Movement:
     path = np.append(0, np.cumsum(speeds))
     shares = speeds / max(path[-1], 1e-12)
     poses = poses - shares @ poses
-    return _Movement(poses, path, float(shares @ (poses**2).sum(axis=1)))
+    return Movement(poses, path, float(shares @ (poses**2).sum(axis=1)))
 
 
 def _candidates(
-    rows: NDArray[np.float32], movement: _Movement, preset: CountingPreset
+    rows: NDArray[np.float32], movement: Movement, preset: CountingPreset
 ) -> list[_Candidate]:
     """Divisions of an activity into more than one repetition."""
     voters = min(preset.voters, len(rows))
@@ -205,7 +198,7 @@ def _dips(
     return np.maximum(shares - noise, 0), centers
 
 
-def _candidate(movement: _Movement, visits: Frames, preset: CountingPreset) -> _Candidate:
+def _candidate(movement: Movement, visits: Frames, preset: CountingPreset) -> _Candidate:
     poses, path, places = movement.poses, movement.path, preset.path_points
     whole, at = path[-1], path[visits]
     lengths = np.diff(at)
@@ -232,7 +225,7 @@ def _candidate(movement: _Movement, visits: Frames, preset: CountingPreset) -> _
     return _Candidate(visits, before, after, float(total), preset.length_cost)
 
 
-def _followed(movement: _Movement, lengths: Floats, mean: Floats, near: float) -> float:
+def _followed(movement: Movement, lengths: Floats, mean: Floats, near: float) -> float:
     """How much of a repetition an end follows the mean of the others, 0 to 1."""
     poses, path = movement.poses, movement.path
     inside = lengths[(lengths >= 0) & (lengths <= path[-1])]

@@ -1,0 +1,77 @@
+"""All recordings of bodies at hand, by corpus, with what people say of them.
+
+``hdm05``: 188 exercises of three actors, one label each. ``utkinect``: ten people before a Kinect,
+labelled spans. ``cmu86``: five trials of one person, labelled throughout. ``others``: takes of
+CMU, PyMO, aitviewer and OpenSim as AMC, BVH, C3D and TRC.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+
+import kineme
+from _recordings import ACTORS, DATA, subject_86
+from kineme.recordings import Motion
+
+WALKS = ("02_01.amc", "02_01.bvh", "02_01.c3d", "PyMO_AV_8Walk.bvh", "subject01_walk.trc")
+"""Takes of ``others`` in which people walk from beginning to end."""
+OTHERS = (
+    *(f"cmu_formats/{name}" for name in (*WALKS[:3], "49_02.amc", "49_02.bvh")),
+    *(f"formats/{name}" for name in (*WALKS[3:], "aitviewer_sample.bvh")),
+    "formats/cmu_131_01_bvh11.bvh",
+)
+
+
+@dataclass(frozen=True)
+class Take:
+    """A recording: what it is called, of whom it is, and labelled spans in seconds."""
+
+    name: str
+    person: str
+    motion: Motion
+    spans: tuple[tuple[float, float, str], ...] = ()
+
+
+@cache
+def corpora() -> dict[str, list[Take]]:
+    """Every take of every corpus."""
+    found = {"hdm05": hdm05(), "utkinect": utkinect(), "cmu86": cmu86(), "others": others()}
+    return {name: list(takes) for name, takes in found.items()}
+
+
+def hdm05() -> Iterator[Take]:
+    for actor in ACTORS:
+        skeleton = DATA / "hdm05" / "asf" / f"HDM_{actor}.asf"
+        for path in sorted((DATA / "hdm05" / "amc").glob(f"HDM_{actor}_*_120.amc")):
+            motion = kineme.read(path, skeleton=skeleton)
+            label = path.stem.split("_")[2]
+            yield Take(path.name, actor, motion, ((0.0, motion.duration, label),))
+
+
+def utkinect() -> Iterator[Take]:
+    folder = DATA / "sets" / "utkinect"
+    spans: dict[str, list[tuple[float, float, str]]] = {}
+    with (folder / "labels.csv").open(encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            span = float(row["start_s"]), float(row["stop_s"]), row["label"]
+            spans.setdefault(row["recording"], []).append(span)
+    for name in sorted(spans):
+        motion = kineme.read(folder / "recordings" / f"{name}.parquet")
+        yield Take(name, name.split("_")[0], motion, tuple(spans[name]))
+
+
+def cmu86() -> Iterator[Take]:
+    for case in subject_86():
+        marks = case.truth.at_means()
+        borders = [border / marks.fps for border in marks.borders]
+        spans = zip(borders[:-1], borders[1:], marks.labels, strict=True)
+        yield Take(case.name, "86", case.motion, tuple(spans))
+
+
+def others() -> Iterator[Take]:
+    for path in OTHERS:
+        name = path.rpartition("/")[2]
+        yield Take(name, name.partition(".")[0], kineme.read(DATA / path))

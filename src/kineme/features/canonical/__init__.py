@@ -1,0 +1,6 @@
+"""Features of a body that is the same for all: in them, movements of different people match."""
+
+from kineme.features.canonical.body import mirror_poses
+from kineme.features.canonical.matching import MATCHING_FPS, matching_features, matching_poses
+
+__all__ = ["MATCHING_FPS", "matching_features", "matching_poses", "mirror_poses"]

@@ -1,0 +1,139 @@
+"""The poses of anybody, told by a body of the same size and shape for all.
+
+The canonical body has the directions of the person's limbs and lengths of its own: what is left
+is how somebody moves, whoever it is. Its ankles, head and wrists are told in its own frame: from
+the middle of the hips, y up, turned about the vertical so that left is +x. With them goes what
+these do not tell: how high the pelvis is above the lower foot, and how fast it rises.
+
+Lengths are in leg lengths. Heading and forward speed are left out: in them, people differ more
+than movements.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.features.mirroring import EXCHANGED, FLIP
+
+Floats = NDArray[np.float64]
+Joints = Mapping[str, Floats]
+
+HIP, SHOULDER = 0.11, 0.22
+"""From the middle of the body to either side."""
+TRUNK, NECK = 0.6, 0.32
+"""From the hips to the shoulders, and from there to the head."""
+LEG, ARM = (0.5, 0.5), (0.34, 0.33)
+"""Thigh and shin, upper arm and forearm."""
+RISE = 0.5
+"""Seconds; the vertical speed counts as what the pelvis would rise in so long."""
+DIMS = 17
+"""Numbers in a pose."""
+
+_STRAIGHT = 0.98  # of the frames show a limb shorter than it is when straight
+_FLAT = 0.1  # of the line through the hips and shoulders; where less lies flat, it has no heading
+
+
+def canonical_poses(joints: Joints, fps: float) -> Floats:
+    """Poses (frames, 17): x, y, z of ankles, head and wrists, left before right; height; rise.
+
+    Parameters
+    ----------
+    joints : mapping of str to (frames, 3) array
+        Metres, y up, by the names of `kineme.features.canonical.joints.JOINTS`. Without knee or
+        elbow a limb is as long as it reaches; without shoulders they are as the hips.
+    fps : float
+        Frames per second.
+
+    Returns
+    -------
+    ndarray
+    """
+    pelvis = (joints["left_hip"] + joints["right_hip"]) / 2
+    hips = _unit(joints["left_hip"] - joints["right_hip"])
+    shoulders, sides = hips, dict(joints)
+    chest = pelvis + TRUNK / (TRUNK + NECK) * (joints["head"] - pelvis)
+    if {"left_shoulder", "right_shoulder"} <= joints.keys():
+        shoulders = _unit(joints["left_shoulder"] - joints["right_shoulder"])
+        chest = (joints["left_shoulder"] + joints["right_shoulder"]) / 2
+    else:
+        sides |= {"left_shoulder": chest, "right_shoulder": chest}
+    trunk = TRUNK * _unit(chest - pelvis)
+    legs = [
+        sign * HIP * hips + _limb(sides, (f"{side}_hip", f"{side}_knee", f"{side}_ankle"), LEG)
+        for side, sign in _SIDES
+    ]
+    arms = [
+        trunk
+        + sign * SHOULDER * shoulders
+        + _limb(sides, (f"{side}_shoulder", f"{side}_elbow", f"{side}_wrist"), ARM)
+        for side, sign in _SIDES
+    ]
+    ends = np.stack([*legs, trunk + NECK * _unit(joints["head"] - chest), *arms], axis=1)
+    ground = np.minimum(joints["left_ankle"][:, 1], joints["right_ankle"][:, 1])
+    leg = _leg_length(joints)
+    rise = RISE * fps * np.gradient(pelvis[:, 1]) if len(pelvis) > 1 else np.zeros(1)
+    vertical = np.stack([pelvis[:, 1] - ground, rise], axis=1) / leg
+    return np.hstack([_facing_ahead(ends, hips + shoulders).reshape(len(ends), -1), vertical])
+
+
+def mirror_poses(poses: Floats) -> Floats:
+    """Poses (frames, 17) of the body in a mirror: left and right exchanged."""
+    ends = poses[:, :15].reshape(len(poses), len(EXCHANGED), 3)[:, EXCHANGED] * FLIP
+    return np.hstack([ends.reshape(len(poses), -1), poses[:, 15:]])
+
+
+_SIDES = (("left", 1.0), ("right", -1.0))
+
+
+def _limb(joints: Joints, names: tuple[str, str, str], bones: tuple[float, float]) -> Floats:
+    """From the top of a limb of the canonical body to its end, (frames, 3)."""
+    top, end = joints[names[0]], joints[names[2]]
+    if names[1] in joints:
+        middle = joints[names[1]]
+        return bones[0] * _unit(middle - top) + bones[1] * _unit(end - middle)
+    reach = np.linalg.norm(end - top, axis=1, keepdims=True)
+    bent = np.minimum(reach / max(float(np.quantile(reach, _STRAIGHT)), _TINY), 1.0)
+    straight: Floats = sum(bones) * bent * _unit(end - top)
+    return straight
+
+
+def _leg_length(joints: Joints) -> float:
+    """Metres, the mean of both legs."""
+    lengths = []
+    for side, _ in _SIDES:
+        hip, ankle = joints[f"{side}_hip"], joints[f"{side}_ankle"]
+        knee = joints.get(f"{side}_knee")
+        if knee is None:
+            reach = np.linalg.norm(ankle - hip, axis=1)
+            lengths.append(float(np.quantile(reach, _STRAIGHT)))
+        else:
+            bones = np.linalg.norm(knee - hip, axis=1) + np.linalg.norm(ankle - knee, axis=1)
+            lengths.append(float(np.median(bones)))
+    return max(float(np.mean(lengths)), _TINY)
+
+
+def _facing_ahead(points: Floats, to_left: Floats) -> Floats:
+    """The points of each frame turned about y so that what points to the left lies along +x.
+
+    Where that stands upright the heading of the nearest frame that has one is taken.
+    """
+    length = np.hypot(to_left[:, 0], to_left[:, 2])
+    known = np.flatnonzero(length > _FLAT * np.linalg.norm(to_left, axis=1))
+    if len(known) == 0:
+        return points
+    nearest = known[np.searchsorted((known[:-1] + known[1:]) / 2, np.arange(len(length)))]
+    cos, sin = (to_left[nearest, axis, None] / length[nearest, None] for axis in (0, 2))
+    x, y, z = np.moveaxis(points, 2, 0)
+    return np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=2)
+
+
+_TINY = 1e-9
+
+
+def _unit(vectors: Floats) -> Floats:
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    unit: Floats = vectors / np.maximum(lengths, _TINY)
+    return unit

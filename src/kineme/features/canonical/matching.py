@@ -1,0 +1,137 @@
+"""Features in which the movements of different people match: directions on a sphere.
+
+Poses of the canonical body (see `kineme.features.canonical.body`) at 30 Hz, each stacked with
+those 0.1 and 0.2 s before and after it, less a fixed mean, along fixed main axes of many people's
+movements, each divided by a shrunk deviation, and made a unit vector: what counts is how a pose
+departs from the mean one, not how far. The distance of two is the chord between them: 0 is equal,
+1.41 has nothing in common, 2 is opposite.
+
+Mean and axes are in ``basis.npz``, which ``benchmarks/canonical_basis.py`` makes.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.features.canonical.body import canonical_poses, mirror_poses
+from kineme.features.canonical.joints import canonical_joints
+from kineme.features.effectors import Names
+from kineme.features.pose import offsets_in_frames, stack
+from kineme.recordings import Motion
+from kineme.recordings.operations import resample
+
+Floats = NDArray[np.float64]
+
+MATCHING_FPS = 15.0
+"""Features per second."""
+OFFSETS_S = (-0.2, -0.1, 0.0, 0.1, 0.2)
+"""Seconds between a frame and those it is stacked with."""
+DIMS = 40
+"""Numbers in a feature."""
+POSE_FPS = 30.0
+"""Poses per second, of which every second one becomes a feature."""
+
+_SMOOTHING = np.array([0.25, 0.75, 1.0, 0.75, 0.25]) / 3.0  # of positions, over 0.17 s
+
+
+def matching_features(
+    motion: Motion, *, effectors: Names | None = None, mirrored: bool = False
+) -> NDArray[np.float32]:
+    """Unit vectors (n, 40), 15 a second; zero where the body is not seen.
+
+    Parameters
+    ----------
+    motion : Motion
+    effectors : joints, optional
+        To take for head, hands and feet where names do not tell.
+    mirrored : bool
+        Of the motion in a mirror, left and right exchanged.
+
+    Returns
+    -------
+    ndarray of float32
+
+    Raises
+    ------
+    EndEffectorError
+        Head, hands or feet were not found.
+    MotionError
+        The legs have no hips.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features.canonical import matching_features
+    >>> matching_features(kineme.read(kineme.bundled_recording())).shape
+    (725, 40)
+    """
+    at_rate = resample(motion, POSE_FPS)
+    poses = poses_of(at_rate, effectors=effectors)
+    stacked = stacked_poses(mirror_poses(poses) if mirrored else poses)
+    features = directions(stacked, *basis())
+    for start, stop in at_rate.gaps:
+        features[(start + 1) // 2 : (stop + 1) // 2] = 0.0
+    return features
+
+
+def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
+    """Poses of the canonical body (n, 17), 15 a second: what a whole segment is described by.
+
+    Parameters
+    ----------
+    motion : Motion
+    effectors : joints, optional
+        To take for head, hands and feet where names do not tell.
+
+    Returns
+    -------
+    ndarray
+        See `kineme.features.canonical.body.canonical_poses`.
+
+    Raises
+    ------
+    EndEffectorError, MotionError
+        As `matching_features`.
+    """
+    return poses_of(resample(motion, POSE_FPS), effectors=effectors)[::2]
+
+
+def poses_of(motion: Motion, *, effectors: Names | None = None) -> Floats:
+    """Poses of the canonical body (frames, 17) at the rate of the motion, which is smoothed."""
+    joints = {
+        joint: _smoothed(motion.positions[:, list(points)].mean(axis=1))
+        for joint, points in canonical_joints(motion, effectors=effectors).items()
+    }
+    return canonical_poses(joints, motion.fps)
+
+
+def stacked_poses(poses: Floats) -> Floats:
+    """(n, 85): every second one of poses at 30 Hz, stacked with its neighbours."""
+    return stack(poses, offsets_in_frames(OFFSETS_S, POSE_FPS))[::2]
+
+
+def directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
+    """Unit vectors (frames, 40): where stacked poses lie from the mean, along the axes."""
+    values = (stacked - mean) @ axes
+    lengths = np.linalg.norm(values, axis=1, keepdims=True)
+    return np.asarray(values / np.maximum(lengths, 1e-9), np.float32)
+
+
+@cache
+def basis() -> tuple[Floats, Floats]:
+    """The mean (85,) and the axes (85, 40), each over its shrunk deviation."""
+    with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as held:
+        return held["mean"].astype(np.float64), held["axes"].astype(np.float64)
+
+
+def _smoothed(positions: Floats) -> Floats:
+    """A weighted mean over five frames; at the ends the outermost frame is repeated."""
+    longer = np.concatenate([positions[:1]] * 2 + [positions] + [positions[-1:]] * 2)
+    smoothed = np.zeros_like(positions)
+    for k, weight in enumerate(_SMOOTHING):
+        smoothed += weight * longer[k : k + len(positions)]
+    return smoothed

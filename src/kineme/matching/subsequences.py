@@ -1,0 +1,142 @@
+"""Where a recording is like an example: subsequence search by warping.
+
+A match is a warping of the whole example onto successive samples of the recording, at half to
+twice its speed: from one pair of samples to the next both go on by one, or one of them by two.
+Its distance is the mean over the samples of the example of the distance to the one, or the mean
+of the two, of the recording that it is laid on. Every place is looked at; nothing is thinned out.
+
+The steps are those of Müller, Information Retrieval for Music and Motion (2007), section 4.4.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme._checks import as_floats, is_number
+from kineme.errors import ParameterError
+from kineme.matching._kernels import apart, warp_along
+
+Ints = NDArray[np.int64]
+Float32s = NDArray[np.float32]
+
+THRESHOLD = 0.85
+"""Distance of unit vectors up to which two movements are one, whoever makes them."""
+BLOCK = 4096
+"""Samples compared at a time."""
+
+
+class Matches(NamedTuple):
+    """Spans [start, stop) of a recording in samples, apart from each other, the best first."""
+
+    starts: Ints
+    stops: Ints
+    distances: Float32s
+
+
+def search(
+    example: ArrayLike,
+    recording: ArrayLike,
+    *,
+    threshold: float = THRESHOLD,
+    top: int | None = None,
+) -> Matches:
+    """The matches of an example in a recording that do not overlap, the best first.
+
+    Parameters
+    ----------
+    example : (m, dims) array
+        Matching features.
+    recording : (n, dims) array
+        In the same features, at the same rate.
+    threshold : float
+        Largest distance of a match.
+    top : int, optional
+        Matches wanted at most; all by default.
+
+    Returns
+    -------
+    Matches
+
+    Raises
+    ------
+    ParameterError
+        Arrays of other shapes, an empty example, or a threshold or number that is not above 0.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> angle = np.arange(100) / 4
+    >>> recording = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    >>> found = search(recording[20:40], recording, threshold=0.1)
+    >>> found.starts.tolist(), found.stops.tolist()
+    ([20, 45, 70], [40, 65, 90])
+    """
+    if not (is_number(threshold) and threshold > 0):
+        raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
+    if top is not None and not (is_number(top) and top >= 1):
+        raise ParameterError(f"top must be a whole number above 0, not {top!r:.60}")
+    costs, starts = warped(example, recording)
+    ends = np.flatnonzero(costs <= np.float32(threshold))
+    ends = ends[np.argsort(costs[ends], kind="stable")]
+    chosen = np.empty(len(ends), np.int64)
+    most = len(ends) if top is None else int(top)
+    n = apart(ends, starts, most, np.zeros(len(costs), np.bool_), chosen)
+    ends = chosen[:n]
+    return Matches(starts[ends].astype(np.int64), ends + 1, costs[ends])
+
+
+def two_way_distance(one: ArrayLike, other: ArrayLike) -> float:
+    """The larger of the distances of each one's best match in the other; inf without one.
+
+    Small only where neither is a mere part of the other.
+
+    Parameters
+    ----------
+    one, other : (samples, dims) array
+        Matching features of two segments.
+
+    Returns
+    -------
+    float
+    """
+    return max(float(warped(a, b)[0].min()) for a, b in ((one, other), (other, one)))
+
+
+def warped(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np.int32]]:
+    """``costs[j]``, ``starts[j]``: of the cheapest match that ends with sample j; inf without."""
+    short, long = _checked(example, "example"), _checked(recording, "recording")
+    if short.shape[1] != long.shape[1] or len(short) == 0:
+        raise ParameterError(
+            f"an example of shape {short.shape} cannot be searched in features of shape "
+            f"{long.shape}: both need the same features, and the example a sample"
+        )
+    n, m = len(long), len(short)
+    costs, starts = np.empty(n, np.float32), np.empty(n, np.int32)
+    sums = np.full((3, m + 1), np.inf, np.float32)
+    begins, last = np.zeros((3, m + 1), np.int32), np.zeros(m, np.float32)
+    for first in range(0, n, BLOCK):
+        span = slice(first, first + BLOCK)
+        between = distances_between(long[span], short)
+        warp_along(between, first, sums, begins, last, costs[span], starts[span])
+    return costs, starts
+
+
+def distances_between(one: Float32s, other: Float32s) -> Float32s:
+    """Distance of every sample of one from every sample of the other."""
+    squares: Float32s = one @ other.T
+    squares *= -2
+    squares += np.einsum("ij,ij->i", one, one)[:, None]
+    squares += np.einsum("ij,ij->i", other, other)
+    np.maximum(squares, 0, out=squares)
+    np.sqrt(squares, out=squares)
+    return squares
+
+
+def _checked(features: ArrayLike, name: str) -> Float32s:
+    array = features if isinstance(features, np.ndarray) else as_floats(features, name)
+    if array.ndim != 2:
+        raise ParameterError(f"the {name} must be samples x dims, not of shape {array.shape}")
+    return np.ascontiguousarray(array, np.float32)

@@ -1,0 +1,71 @@
+"""Doubts: sentences on what is not sure in a segment table, the least sure first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from kineme.methods.base import Columns
+from kineme.methods.confidence import ConfidencePreset
+
+Doubt = tuple[float, str]
+"""How probable it is that something is right, and what."""
+
+MOST = 5
+"""Sentences; who is told more looks at none."""
+
+
+def doubts(columns: Columns, fps: float, preset: ConfidencePreset) -> list[str]:
+    """A sentence for each cluster, count or border that is not sure, at most five.
+
+    Parameters
+    ----------
+    columns : dict of str to array
+        Of a segment table, with ``score`` and ``border_confidence``.
+    fps : float
+        Frames per second of the table.
+    preset : ConfidencePreset
+        Whose ``unsure_...`` say what is not sure.
+    """
+    found = [*_of_activities(columns, fps, preset), *_of_counts(columns, fps, preset)]
+    worst = sorted(found, key=lambda each: each[0])[:MOST]
+    return [f"{text} ({100 * probability:.0f} % sure)" for probability, text in worst]
+
+
+def _of_activities(columns: Columns, fps: float, preset: ConfidencePreset) -> Iterator[Doubt]:
+    """Clusters and borders."""
+    for row in np.flatnonzero(columns["level"] == "activity"):
+        border, link = (float(columns[name][row]) for name in ("border_confidence", "score"))
+        if border < preset.unsure_border:
+            yield border, f"look at the border at {columns['start_frame'][row] / fps:.2f} s"
+        if link < preset.unsure_action:
+            yield link, f"look at the cluster of the activity {_span(columns, row, fps)}"
+
+
+def _of_counts(columns: Columns, fps: float, preset: ConfidencePreset) -> Iterator[Doubt]:
+    """Numbers of repetitions; activities that repeat nothing are told in one sentence."""
+    single = []
+    is_primitive = (columns["level"] == "primitive") & (columns["kind"] == "activity")
+    is_activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
+    for row in np.flatnonzero(is_activity):
+        inside = is_primitive & (columns["start_frame"] >= columns["start_frame"][row])
+        inside &= columns["stop_frame"] <= columns["stop_frame"][row]
+        count = float(columns["score"][inside].min(initial=1))
+        if not count < preset.unsure_count:  # none is known of what is not counted
+            continue
+        if np.count_nonzero(inside) == 1:
+            length = columns["stop_frame"][row] - columns["start_frame"][row]
+            single.append((int(length), row, count))
+        else:
+            yield count, f"look at the number of repetitions {_span(columns, row, fps)}"
+    if single:
+        _, row, count = max(single, key=lambda each: each[0])
+        others = len(single) - 1
+        more = f" and in {others} other {'activity' if others == 1 else 'activities'}"
+        yield count, f"nothing repeats {_span(columns, row, fps)}{more if others else ''}"
+
+
+def _span(columns: Columns, row: np.integer, fps: float) -> str:
+    start, stop = (columns[f"{name}_frame"][row] / fps for name in ("start", "stop"))
+    return f"at {start:.2f} to {stop:.2f} s"

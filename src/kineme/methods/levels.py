@@ -1,0 +1,228 @@
+"""Levels of detail: clusters joined one by one, so that each level is nested in the next.
+
+What a method finds by default is detail 1. Pieces finer than its segments are
+clusters within its clusters. The two clusters whose union costs least, for what
+it saves, are joined, again and again: first within the clusters of detail 1,
+then these (weakest-link pruning, after Breiman, Friedman, Olshen and Stone
+1984). The cost is by how much more the samples of the union differ from each
+other; saved are the prices of the borders between the two and of a cluster.
+
+- Above 1 clusters are joined that save more than they cost at prices divided by the detail.
+- Below 1 so many are joined that a share of those at detail 1 is left, the detail.
+
+So every border at one detail is a border at any finer one, and every cluster a
+union of finer ones.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.methods.base import Columns
+from kineme.methods.segments import by_first_appearance
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+COARSER = (0.125, 0.25, 0.5, 0.75)
+FINER = (2.0, 4.0, 8.0)
+"""The details that are offered beside 1."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """The segments of the finest level, and which cluster of detail 1 they lie in.
+
+    Attributes
+    ----------
+    borders : (pieces + 1,) array
+        Samples; those of detail 1 are among them.
+    labels : (pieces,) array
+        Cluster at the finest level, from 0; -1 for transitions.
+    parents : (clusters,) array
+        The cluster at detail 1 of each cluster.
+    differences : (clusters, clusters) array
+        Summed over their samples: how much the clusters differ, 0 for equal ones.
+    """
+
+    borders: Ints
+    labels: Ints
+    parents: Ints
+    differences: Floats
+
+
+def clusters_at(
+    pieces: Pieces, details: tuple[float, ...], *, border_price: float, cluster_price: float
+) -> dict[float, Ints]:
+    """The cluster of each piece at each detail, -1 for transitions.
+
+    Parameters
+    ----------
+    pieces : Pieces
+    details : tuple of float
+    border_price, cluster_price : float
+        What a border and a cluster cost at detail 1.
+    """
+    finer, coarser = _joins(pieces, border_price, cluster_price)
+    found = {}
+    for detail in details:
+        joins = [(kept, gone) for kept, gone, least in finer if detail < least]
+        if detail < 1:
+            left = max(1, round(detail * (len(coarser) + 1)))
+            joins += [(kept, gone) for kept, gone, _ in coarser[: len(coarser) + 1 - left]]
+        of = np.arange(len(pieces.parents))
+        for kept, gone in joins:
+            of[of == of[gone]] = of[kept]
+        found[detail] = np.where(pieces.labels < 0, -1, np.append(of, -1)[pieces.labels])
+    return found
+
+
+def at_detail(
+    columns: Columns, borders: Ints, labels: Ints, longest: float | None = None
+) -> Columns:
+    """The columns of a table with other activities: pieces joined, repetitions kept.
+
+    Neighbours of one cluster are one activity, with a transition between them if that
+    is no longer than `longest`. Every primitive border stays.
+
+    Parameters
+    ----------
+    columns : dict of str to array
+        Of detail 1.
+    borders, labels : array of int
+        Of the pieces, as in `Pieces`.
+    longest : float, optional
+        Samples; None for a detail above 1, at which every border of activities stays, too.
+
+    Returns
+    -------
+    dict of str to array
+    """
+    level = columns["level"] == "activity"
+    before = {name: column[level] for name, column in columns.items()}
+    inner = {name: column[~level] for name, column in columns.items()}
+    begins = np.isin(borders[:-1], before["start_frame"] if longest is None else 0)
+    if longest is not None:
+        labels = _over_transitions(borders, labels, longest)
+    first = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | begins)
+    starts, clusters = borders[:-1][first], by_first_appearance(labels[first])
+    cuts = np.unique(np.concatenate([starts, inner["start_frame"]]))
+    kinds = np.where(clusters < 0, "transition", "activity")
+    activities = _rows(before, starts, int(borders[-1])) | {"kind": kinds, "cluster": clusters}
+    primitives = _rows(inner, cuts, int(borders[-1]))
+    parents = np.searchsorted(starts, cuts, side="right") - 1
+    own = primitives["kind"] == "activity"
+    if _inherited(before, inner):
+        primitives["cluster"] = np.where(own, clusters[parents], -1)
+    else:
+        parts = own & ~_whole(primitives, inner)
+        pairs = np.column_stack([primitives["cluster"], clusters[parents]])[parts]
+        numbers = np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
+        primitives["cluster"][parts] = inner["cluster"].max(initial=-1) + 1 + numbers
+    return {name: np.concatenate([activities[name], primitives[name]]) for name in columns}
+
+
+Join = tuple[int, int, float]
+"""A cluster that stays, one that becomes part of it, and the detail below which it does."""
+
+
+def _joins(
+    pieces: Pieces, border_price: float, cluster_price: float
+) -> tuple[list[Join], list[Join]]:
+    """Joins within the clusters of detail 1, and of these, each in order."""
+    seen = pieces.labels[pieces.labels >= 0]
+    k = len(pieces.parents)
+    met = np.zeros((k, k))
+    np.add.at(met, (seen[:-1], seen[1:]), 1.0)
+    np.fill_diagonal(met, 0)
+    prices = border_price * (met + met.T)
+    lengths = np.diff(pieces.borders)[pieces.labels >= 0]
+    sizes = np.maximum(np.bincount(seen, lengths, k), 1.0)
+    state = (pieces.differences.copy(), prices, sizes)
+    finer: list[Join] = []
+    for parent in np.unique(pieces.parents):
+        finer += _weakest(*state, np.flatnonzero(pieces.parents == parent), cluster_price)
+    finer = [(kept, gone, max(detail, np.nextafter(1, 2))) for kept, gone, detail in finer]
+    roots = np.setdiff1d(np.arange(k), [gone for _, gone, _ in finer])
+    return sorted(finer, key=lambda join: -join[2]), _weakest(*state, roots, cluster_price)
+
+
+def _weakest(
+    differences: Floats, prices: Floats, sizes: Floats, among: Ints, cluster_price: float
+) -> list[Join]:
+    """The joins of some clusters into one, those that cost least first; details never rise.
+
+    What is known of the clusters is joined in place.
+    """
+
+    def details(of: int) -> Floats:
+        """The detail below which a cluster and each of the others are one."""
+        own = differences[of, of] / sizes[of]
+        others = np.diagonal(differences)[among]
+        sums = differences[of, of] + others + 2 * differences[of, among]
+        losses = sums / (sizes[of] + sizes[among]) - own - others / sizes[among]
+        found: Floats = (prices[of, among] + cluster_price) / np.maximum(losses, 1e-9)
+        return np.where(alive & (among != of), found, -1.0)
+
+    alive = np.full(len(among), True)
+    matrix = np.array([details(int(of)) for of in among]).reshape(len(among), len(among))
+    found: list[Join] = []
+    detail = np.inf
+    for _ in range(len(among) - 1):
+        first, second = sorted(divmod(int(np.argmax(matrix)), len(among)))
+        detail = min(detail, float(matrix[first, second]))
+        kept, gone = int(among[first]), int(among[second])
+        for sums in (differences, prices):
+            sums[kept] += sums[gone]
+            sums[:, kept] += sums[:, gone]
+        prices[kept, kept] = 0
+        sizes[kept] += sizes[gone]
+        alive[second] = False
+        matrix[second] = matrix[:, second] = -1
+        matrix[first] = matrix[:, first] = details(kept)
+        found.append((kept, gone, detail))
+    return found
+
+
+def _over_transitions(borders: Ints, labels: Ints, longest: float) -> Ints:
+    """The labels with short transitions between neighbours of one cluster as part of it."""
+    joined = labels.copy()
+    lengths = np.diff(borders)
+    for at in np.flatnonzero(labels < 0):
+        between = 0 < at < len(labels) - 1
+        if between and labels[at - 1] == labels[at + 1] >= 0 and lengths[at] <= longest:
+            joined[at] = labels[at - 1]
+    return joined
+
+
+def _rows(source: Columns, starts: Ints, end: int) -> Columns:
+    """Rows that begin there, like those of the source they lie in; what is unknown is nan."""
+    order = np.argsort(source["start_frame"], kind="stable")
+    at = order[np.searchsorted(source["start_frame"][order], starts, side="right") - 1]
+    rows = {name: column[at] for name, column in source.items()}
+    begun = rows["start_frame"] == starts
+    rows["start_frame"] = starts
+    stops = np.append(starts[1:], end)
+    whole = begun & (rows["stop_frame"] == stops)
+    rows["stop_frame"] = stops
+    for name, same in (("score", whole), ("border_confidence", begun)):
+        if name in rows:
+            rows[name] = np.where(same, rows[name], np.nan)
+    return rows
+
+
+def _whole(rows: Columns, source: Columns) -> NDArray[np.bool_]:
+    """Which rows have the span of one of the source."""
+    spans = {*zip(source["start_frame"].tolist(), source["stop_frame"].tolist(), strict=True)}
+    own = zip(rows["start_frame"].tolist(), rows["stop_frame"].tolist(), strict=True)
+    return np.array([span in spans for span in own], bool)
+
+
+def _inherited(activities: Columns, primitives: Columns) -> bool:
+    """Whether each primitive is in the cluster of its activity."""
+    parents = np.searchsorted(activities["start_frame"], primitives["start_frame"], "right") - 1
+    own = primitives["kind"] == "activity"
+    return bool((activities["cluster"][parents] == primitives["cluster"])[own].all())

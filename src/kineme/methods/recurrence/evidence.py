@@ -1,0 +1,127 @@
+"""Statistics of what the method found, by which it is told how sure it is."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._threads import map_threads
+from kineme.methods.evidence import (
+    COMPARED,
+    Evidence,
+    border_statistics,
+    correlations,
+    count_statistics,
+    cut_statistics,
+    link_statistics,
+    mean,
+)
+from kineme.methods.recurrence import _candidate_kernels as kernels
+from kineme.methods.recurrence.recurrence import Recurrence
+from kineme.methods.recurrence.repetitions import movement
+from kineme.methods.samples import spread
+
+if TYPE_CHECKING:
+    from kineme.methods.recurrence.counting import CountingPreset
+
+Floats = NDArray[np.float64]
+Frames = NDArray[np.int64]
+
+NEAR = 0.5
+"""Seconds on either side of a border that are compared with both segments."""
+
+
+def evidence(
+    recurring: Recurrence,
+    preset: CountingPreset,
+    borders: Frames,
+    labels: Frames,
+    own: Floats,
+    primitives: Frames,
+    repeats: NDArray[np.bool_],
+) -> Evidence:
+    """Statistics of activities, their borders and their repetitions.
+
+    Parameters
+    ----------
+    recurring : Recurrence
+    preset : CountingPreset
+    borders, labels : array of int
+        Of activities and transitions, frames, and actions.
+    own : (segments,) array
+        How much more similar the samples of each are to their own action than to others.
+    primitives : array of int
+        Borders of primitives, frames.
+    repeats : (primitives,) array of bool
+        Which of them are repetitions.
+    """
+    samples, width = recurring.similarity.shape
+
+    def similar(rows: Frames, columns: Frames) -> Floats:
+        first, second = np.minimum.outer(rows, columns), np.maximum.outer(rows, columns)
+        lags = second - first
+        compared = (recurring.phase < lags) & (lags < width)
+        return np.where(compared, recurring.similarity[first, np.where(compared, lags, 0)], np.nan)
+
+    at = np.append(borders[:-1] // recurring.step, samples)
+    spans = [spread(start, stop, COMPARED) for start, stop in pairwise(at.tolist())]
+    alike = np.full((len(labels), len(labels)), np.nan)
+    within_reach = np.searchsorted(at[:-1], at[1:] + width)
+    for g in range(len(labels)):
+        for h in range(g, within_reach[g]):
+            alike[g, h] = alike[h, g] = mean(similar(spans[g], spans[h]))
+    near = round(NEAR * preset.working_fps / recurring.step)
+    parents = np.searchsorted(borders, primitives[:-1], side="right") - 1
+    return Evidence(
+        link_statistics(labels, alike, own),
+        border_statistics(at, labels, alike, similar, near),
+        *counted(recurring.features, primitives, parents, repeats, own, preset),
+        parents,
+    )
+
+
+def counted(
+    features: NDArray[np.float32],
+    primitives: Frames,
+    parents: Frames,
+    repeats: NDArray[np.bool_],
+    own: Floats,
+    preset: CountingPreset,
+) -> tuple[Floats, Floats]:
+    """Statistics of the count of each segment, and of the start of each primitive.
+
+    Parameters
+    ----------
+    features : (frames, dims) array
+    primitives : (primitives + 1,) array
+        Borders, frames.
+    parents : (primitives,) array
+        The segment that each lies in.
+    repeats : (primitives,) array of bool
+        Which primitives are repetitions.
+    own : (segments,) array
+        How much more similar each segment is to its own cluster than to others.
+    preset : CountingPreset
+    """
+    ends = np.searchsorted(parents, np.arange(len(own) + 1))
+    counts = np.full((len(own), 4), np.nan)
+    cuts = np.full((len(parents), 2), np.nan)
+    smoothing = preset.frames(preset.repetition_smoothing)
+
+    def judge(segment: int) -> None:
+        first, last = ends[segment], ends[segment + 1]
+        edges = primitives[first : last + 1]
+        along = movement(features[edges[0] : max(edges[-1], edges[0] + 1)], smoothing)
+        are = repeats[first:last]
+        repetitions = kernels.repetitions_between(
+            along.poses, along.path, edges - edges[0], preset.path_points
+        )[are]
+        similar, lengths = correlations(repetitions), np.diff(edges)[are]
+        counts[segment] = count_statistics(similar, lengths, own[segment])
+        cuts[first + 1 : last] = cut_statistics(similar, lengths, are)
+
+    map_threads(judge, np.unique(parents[repeats]).tolist())
+    return counts, cuts

@@ -1,0 +1,89 @@
+"""Levels of detail of the ``kineme`` method: actions joined, activities divided."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.methods import levels
+from kineme.methods.base import Columns
+from kineme.methods.recurrence import _action_kernels as kernels
+from kineme.methods.recurrence.change_points import change_points
+
+if TYPE_CHECKING:
+    from kineme.methods.recurrence.found import RecurrenceFound
+
+Samples = NDArray[np.int64]
+
+MOST = 1000
+"""Pieces of a long recording, at most, if it has not more segments."""
+
+
+def levels_of(found: RecurrenceFound, columns: Columns) -> Mapping[float, Columns]:
+    """The table at each detail but 1.
+
+    Parameters
+    ----------
+    found : RecurrenceFound
+    columns : dict of str to array
+        The table at detail 1.
+
+    Returns
+    -------
+    mapping of float to columns
+    """
+    preset = found.preset
+    pieces, frames = _pieces(found)
+    details = (*levels.COARSER, *levels.FINER)
+    cost = preset.border_cost * preset.working_fps / preset.step
+    at = levels.clusters_at(pieces, details, border_price=cost, cluster_price=cost)
+    longest = preset.frames(preset.min_action)
+    return {
+        detail: levels.at_detail(
+            columns, frames, at[detail], longest / detail if detail < 1 else None
+        )
+        for detail in details
+    }
+
+
+def _pieces(found: RecurrenceFound) -> tuple[levels.Pieces, Samples]:
+    """Activities cut where finer change points are, and transitions; with their frames."""
+    preset, recurrence = found.preset.narrowed(), found.narrow
+    n, step = len(recurrence), recurrence.step
+    frames = found.borders
+    for finest in sorted(levels.FINER, reverse=True):
+        cuts = change_points(
+            recurrence,
+            penalty=preset.border_cost * preset.working_fps / step / finest,
+            min_length=max(1, preset.samples(preset.min_segment)),
+        )
+        finer = _divided(found, cuts * step)
+        if len(finer) <= MOST:
+            frames = finer
+            break
+    parents = found.labels[np.searchsorted(found.borders, frames[:-1], side="right") - 1]
+    labels = np.where(parents >= 0, np.cumsum(parents >= 0) - 1, -1)
+    borders = np.minimum(np.rint(frames / step).astype(np.int64), n)
+    borders[-1] = n
+    k = int(labels.max(initial=-1)) + 1
+    sums, counts = np.zeros((k, k)), np.zeros((k, k))
+    kernels.sum_similarities(
+        recurrence.similarity, np.repeat(labels, np.diff(borders)), sums, counts
+    )
+    lengths = np.bincount(labels[labels >= 0], np.diff(borders)[labels >= 0], k)
+    pairs = np.outer(lengths, lengths)
+    differences = pairs * (1 - sums / np.maximum(counts, 1))
+    return levels.Pieces(borders, labels, parents[labels >= 0], differences), frames
+
+
+def _divided(found: RecurrenceFound, cuts: Samples) -> Samples:
+    """The borders with those cuts that lie in activities, not near their ends."""
+    borders, least = found.borders, found.preset.frames(found.preset.min_segment)
+    at = np.searchsorted(borders, cuts, side="right") - 1
+    inside = (at >= 0) & (at < len(found.labels))
+    cuts, at = cuts[inside], at[inside]
+    far = (cuts - borders[at] >= least) & (borders[at + 1] - cuts >= least)
+    return np.unique(np.concatenate([borders, cuts[far & (found.labels[at] >= 0)]]))

@@ -1,0 +1,177 @@
+"""Levels of detail: the tables of one recording from coarse to fine, each nested in the next.
+
+Detail 1 is what a method finds by default, less is coarser, more is finer. A
+border of either level at one detail is a border at any finer one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._checks import is_number
+from kineme.errors import ParameterError
+from kineme.segments.table import Level, SegmentTable
+
+DEFAULT_DETAIL = 1.0
+
+
+@dataclass(frozen=True, repr=False)
+class Hierarchy:
+    """The tables of one recording by their detail, and which of them is looked at.
+
+    Parameters
+    ----------
+    details : tuple of float
+        Ascending and above 0.
+    tables : tuple of SegmentTable
+        One for each; its borders are among those of the next.
+    detail : float
+        The detail that is looked at, one of them.
+
+    Raises
+    ------
+    ParameterError
+        Details out of order, or a border that a finer table does not have.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> found = kineme.segment(kineme.read(kineme.bundled_recording()))
+    >>> found.hierarchy
+    <Hierarchy of 6 details from 0.125 to 8, 1 is looked at>
+    """
+
+    details: tuple[float, ...]
+    tables: tuple[SegmentTable, ...]
+    detail: float = DEFAULT_DETAIL
+
+    def __post_init__(self) -> None:
+        _check_details(self.details, self.detail)
+        if len(self.tables) != len(self.details):
+            raise ParameterError(
+                f"{len(self.details)} details need as many tables, not {len(self.tables)}"
+            )
+        steps = zip(pairwise(self.details), pairwise(self.tables), strict=True)
+        for (less, more), (coarse, fine) in steps:
+            for level in ("activity", "primitive"):
+                lost = np.setdiff1d(_starts(coarse, level), _starts(fine, level))
+                if len(lost):
+                    raise ParameterError(
+                        f"the {level} border at frame {lost[0]} is there at detail {less:g}, but "
+                        f"not at {more:g}: finer tables must have the borders of coarser ones"
+                    )
+
+    @classmethod
+    def of(cls, tables: Mapping[float, SegmentTable]) -> Hierarchy:
+        """The hierarchy of tables by detail, those left out that equal their coarser neighbour.
+
+        Parameters
+        ----------
+        tables : mapping of float to SegmentTable
+            That of detail 1 among them, which is looked at and never left out.
+
+        Returns
+        -------
+        Hierarchy
+        """
+        kept = [DEFAULT_DETAIL]
+        for detail in sorted(each for each in tables if each > DEFAULT_DETAIL):
+            if not _same_spans(tables[detail], tables[kept[-1]]):
+                kept.append(detail)
+        for detail in sorted((each for each in tables if each < DEFAULT_DETAIL), reverse=True):
+            if _same_spans(tables[detail], tables[kept[0]]) and kept[0] < DEFAULT_DETAIL:
+                kept[0] = detail
+            elif not _same_spans(tables[detail], tables[kept[0]]):
+                kept.insert(0, detail)
+        return cls(tuple(kept), tuple(tables[detail] for detail in kept))
+
+    @property
+    def table(self) -> SegmentTable:
+        """The table that is looked at."""
+        return self.tables[self.details.index(self.detail)]
+
+    def at(self, detail: float) -> Hierarchy:
+        """The hierarchy with the finest table looked at that is no finer than this.
+
+        Parameters
+        ----------
+        detail : float
+            Above 0; below all there are, the coarsest is taken.
+
+        Returns
+        -------
+        Hierarchy
+
+        Raises
+        ------
+        ParameterError
+            No such number.
+        """
+        check_detail(detail)
+        known = np.searchsorted(self.details, detail * (1 + 1e-9), side="right") - 1
+        return Hierarchy(self.details, self.tables, self.details[max(0, int(known))])
+
+    def borders(self, level: Level = "activity") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """The borders of the finest table, and the least detail at which each is there.
+
+        Parameters
+        ----------
+        level : {"activity", "primitive"}
+
+        Returns
+        -------
+        frames : (borders,) array of int
+        details : (borders,) array of float
+        """
+        frames = _starts(self.tables[-1], level)
+        details = np.full(len(frames), self.details[-1])
+        for detail, table in zip(self.details[::-1], self.tables[::-1], strict=True):
+            details[np.isin(frames, _starts(table, level))] = detail
+        return frames, details
+
+    def __repr__(self) -> str:
+        n = len(self.details)
+        of = f"{n} detail{'s' * (n != 1)} from {self.details[0]:g} to {self.details[-1]:g}"
+        return f"<Hierarchy of {of}, {self.detail:g} is looked at>"
+
+
+def check_detail(detail: object) -> None:
+    """ParameterError for what is no detail."""
+    if isinstance(detail, bool) or not (is_number(detail) and detail > 0):  # type: ignore[operator]
+        raise ParameterError(
+            f"detail must be a number above 0 (1 is the default, less is coarser), "
+            f"not {detail!r:.60}"
+        )
+
+
+def _check_details(details: tuple[float, ...], present: float) -> None:
+    for each in details:
+        check_detail(each)
+    if any(less >= more for less, more in pairwise(details)):
+        raise ParameterError(f"details must rise, not be {', '.join(map(str, details))}")
+    if present not in details:
+        raise ParameterError(
+            f"detail {present!r:.60} is none of {', '.join(f'{each:g}' for each in details)}"
+        )
+
+
+def _starts(table: SegmentTable, level: Level) -> NDArray[np.int64]:
+    """Where segments of a level begin, but the first."""
+    return np.sort(table.start_frame[table.level == level])[1:]
+
+
+def _same_spans(a: SegmentTable, b: SegmentTable) -> bool:
+    """Whether two tables have the same segments in the same clusters, however these are counted."""
+    same = all(
+        np.array_equal(getattr(a, name), getattr(b, name))
+        for name in ("level", "kind", "start_frame", "stop_frame")
+    )
+    if not same:
+        return False
+    pairs = np.unique(np.column_stack([a.cluster, b.cluster]), axis=0)
+    return len(pairs) == len(np.unique(pairs[:, 0])) == len(np.unique(pairs[:, 1]))

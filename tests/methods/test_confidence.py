@@ -1,0 +1,166 @@
+"""Probabilities that what was found is right, and what is said of those that are low."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import kineme
+from kineme.datasets import random_recording
+from kineme.methods import weights
+from kineme.methods.confidence import probability
+from kineme.methods.doubts import doubts
+from kineme.methods.evidence import correlations, count_statistics
+from kineme.methods.recurrence.analysis import analyze_actions
+from kineme.methods.recurrence.preset import KINEME
+from loops import swing
+
+
+def once(seconds: float, seed: int) -> np.ndarray:
+    """A smooth movement that never repeats: a walk at random, averaged over a second."""
+    steps = np.random.default_rng(seed).standard_normal((round(30 * seconds) + 60, 6))
+    path = np.cumsum(steps, axis=0) * 0.02
+    sums = np.cumsum(path, axis=0)
+    return (sums[30:] - sums[:-30])[: round(30 * seconds)] / 30
+
+
+# --- what is sure and what is not -------------------------------------------------------------
+
+
+@pytest.mark.parametrize("period", [0.8, 1.2, 2.0])
+def test_a_clearly_periodic_activity_is_sure(period: float) -> None:
+    rows = np.concatenate([swing(10, period=period), swing(10, period=1, axis=2)])
+    found = analyze_actions(rows, KINEME)
+    assert found.labels.tolist() == [0, 1]
+    sure = found.confidence
+    assert (sure.counts > 0.9).all()
+    assert (sure.links > 0.9).all()
+    assert sure.borders[1] > 0.9
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_happens_once_is_never_a_sure_repetition(seed: int) -> None:
+    found = analyze_actions(once(40, seed), KINEME)
+    counts = found.confidence.counts
+    assert not (counts >= 0.9).any()
+    whole = np.bincount(found.evidence.parents) == 1
+    assert not (counts[whole] >= 0.5).any()
+
+
+def test_one_repetition_has_nothing_that_speaks_for_it() -> None:
+    alone = count_statistics(np.ones((1, 1)), np.array([90]), 0.9)
+    assert probability(alone[None], weights.COUNT)[0] < 0.5
+
+
+@given(st.integers(2, 8), st.floats(0.0, 0.5), st.integers(0, 99))
+def test_more_similar_repetitions_are_surer(count: int, noise: float, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    shape = rng.standard_normal((16, 6)).cumsum(axis=0)
+    shaken = rng.standard_normal((count, 16, 6))
+    lengths = np.full(count, 30)
+    clear, less = (
+        probability(count_statistics(similar, lengths, 0.8)[None], weights.COUNT)[0]
+        for similar in (correlations(shape + more * shaken) for more in (noise, noise + 3))
+    )
+    assert less <= clear
+
+
+# --- the columns ------------------------------------------------------------------------------
+
+
+def test_every_score_and_border_confidence_is_a_probability() -> None:
+    motion = random_recording(3).motion
+    gapped = kineme.Signals(motion.positions[:, ::5, 1], motion.fps, gaps=[(500, 560)])
+    for segments in (kineme.segment(motion), kineme.segment(gapped)):
+        table = segments.table
+        activity = table.kind == "activity"
+        assert np.isfinite(table.score).tolist() == activity.tolist()
+        for column in (table.score, table.border_confidence):
+            known = column[np.isfinite(column)]
+            assert known.size
+            assert ((known >= 0) & (known <= 1)).all()
+        assert np.isnan(table.border_confidence[table.start_frame == 0]).all()
+    assert np.isnan(table.border_confidence[np.isin(table.start_frame, (500, 560))]).all()
+
+
+def test_the_first_repetition_begins_as_surely_as_its_activity() -> None:
+    segments = kineme.segment(random_recording(3).motion)
+    of_activities = dict(
+        zip(
+            segments.activities.start_frame.tolist(),
+            segments.activities.border_confidence.tolist(),
+            strict=True,
+        )
+    )
+    first = [row for row in segments.primitives if row.start_frame in of_activities]
+    assert len(first) == len(of_activities)
+    for row in first[1:]:
+        assert row.border_confidence == of_activities[row.start_frame]
+
+
+# --- notes ------------------------------------------------------------------------------------
+
+
+def columns(links: list[float], borders: list[float], counts: list[float]) -> dict[str, np.ndarray]:
+    """Activities of ten frames each, two repetitions in each."""
+    n = len(links)
+    starts, halves = 10 * np.arange(n), 5 * np.arange(2 * n)
+    return {
+        "level": np.repeat(["activity", "primitive"], [n, 2 * n]),
+        "kind": np.full(3 * n, "activity"),
+        "start_frame": np.append(starts, halves),
+        "stop_frame": np.append(starts + 10, halves + 5),
+        "cluster": np.zeros(3 * n, np.int64),
+        "score": np.append(links, np.repeat(counts, 2)),
+        "border_confidence": np.append(borders, np.full(2 * n, 0.01)),
+    }
+
+
+shares = st.lists(st.floats(0, 1), min_size=12, max_size=12)
+
+
+@given(shares, shares, shares)
+def test_notes_are_five_at_most_and_the_worst_comes_first(links, borders, counts) -> None:
+    borders[0] = np.nan
+    said = doubts(columns(links, borders, counts), 10.0, KINEME)
+    told = [int(re.search(r"\((\d+) % sure\)", note)[1]) for note in said]
+    below = sorted(each for each in (*links, *borders[1:], *counts) if each < 0.5)
+    assert told == [round(100 * each) for each in below[:5]]
+
+
+def test_notes_say_what_to_look_at_and_where() -> None:
+    known = columns([0.9, 0.4], [np.nan, 0.3], [0.2, 0.9])
+    assert doubts(known, 10.0, KINEME) == [
+        "look at the number of repetitions at 0.00 to 1.00 s (20 % sure)",
+        "look at the border at 1.00 s (30 % sure)",
+        "look at the cluster of the activity at 1.00 to 2.00 s (40 % sure)",
+    ]
+    assert doubts(known, 10.0, KINEME.replace(unsure_count=0.1, unsure_border=0.1)) == [
+        "look at the cluster of the activity at 1.00 to 2.00 s (40 % sure)"
+    ]
+
+
+def test_activities_that_repeat_nothing_are_told_in_one_note() -> None:
+    known = {
+        "level": np.array(["activity"] * 3 + ["primitive"] * 4),
+        "kind": np.full(7, "activity"),
+        "start_frame": np.array([0, 10, 40, 0, 10, 40, 45]),
+        "stop_frame": np.array([10, 40, 50, 10, 40, 45, 50]),
+        "cluster": np.zeros(7, np.int64),
+        "score": np.array([0.9] * 3 + [0.1, 0.1, 0.9, 0.9]),
+        "border_confidence": np.full(7, 0.9),
+    }
+    assert doubts(known, 10.0, KINEME) == [
+        "nothing repeats at 1.00 to 4.00 s and in 1 other activity (10 % sure)"
+    ]
+
+
+def test_what_happens_once_is_in_the_notes() -> None:
+    segments = kineme.segment(kineme.Signals(once(40, 1), 30))
+    notes = segments.provenance["notes"]
+    assert any(note.endswith("% sure)") for note in notes)
+    assert sum(note.endswith("% sure)") for note in notes) <= 5
