@@ -107,7 +107,9 @@ def test_similarity_is_looked_for_no_farther_away_than_asked() -> None:
 @few
 def test_moving_and_turning_the_features_changes_nothing(seed, turn, shift) -> None:
     rows = recorded(seed)
-    turned = rows @ ortho_group.rvs(rows.shape[1], random_state=turn) + shift
+    stacked = rows.reshape(len(rows), len(KINEME.offsets), -1)
+    turn_of_poses = ortho_group.rvs(stacked.shape[2], random_state=turn)
+    turned = (stacked @ turn_of_poses).reshape(rows.shape) + shift
     assert_same(analyze_actions(turned, KINEME), analysis_of(seed))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import hypothesis.strategies as st
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from hypothesis import given, settings
 
 import naive
 from kineme.methods.recurrence import _occurrence_kernels as kernels
+from kineme.methods.recurrence.analysis import analyze_actions
 from kineme.methods.recurrence.occurrences import Occurrences, occurrences
 from kineme.methods.recurrence.preset import KINEME
 
@@ -148,6 +151,42 @@ def test_what_is_not_free_is_not_looked_at() -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_movement_that_never_comes_back_has_no_occurrences(seed) -> None:
     assert len(found_in(wandering(np.random.default_rng(seed), 900))) == 0
+
+
+def stacked(rows: np.ndarray) -> np.ndarray:
+    """Features of the method: each pose with those before and after, scaled."""
+    shifts = [round(offset * KINEME.working_fps) for offset in KINEME.offsets]
+    places = np.arange(len(rows)) + np.array(shifts)[:, None]
+    return np.hstack(rows[places.clip(0, len(rows) - 1)]) / len(shifts) ** 0.5
+
+
+def test_gestures_are_primitives_where_nothing_is_counted() -> None:
+    places = [100, 310, 555, 790]
+    found = analyze_actions(stacked(with_gestures(1, places)), KINEME)
+    occurring = found.clusters > found.labels.max()
+    assert np.abs(found.primitives[:-1][occurring] - places).max() <= 6
+    assert (found.clusters[~occurring] < 0).all()
+    columns = found.columns()
+    assert np.isnan(columns["score"][columns["level"] == "primitive"]).all()
+
+
+def test_what_is_counted_for_sure_keeps_its_repetitions() -> None:
+    angle = 2 * np.pi * np.arange(600) / 45
+    rows = 0.3 * np.column_stack([np.sin(k * angle + k) for k in (1, 2, 1, 3, 1, 2)])
+    found = analyze_actions(stacked(rows), KINEME)
+    assert np.abs(np.diff(found.primitives)[found.clusters == 0] - 45).max() <= 4
+    assert found.clusters.max() == 0
+    assert found.not_periodic.size == 0
+    assert found.doubts(found.columns(), 30.0) == []
+
+
+def test_a_note_says_what_is_not_periodic() -> None:
+    found = analyze_actions(
+        np.tile(stacked(wandering(np.random.default_rng(0), 90)), (6, 1)), KINEME
+    )
+    loose = replace(found, not_periodic=np.array([0]))
+    notes = loose.doubts(loose.columns(), 30.0)
+    assert "not periodic: 0.00 to 18.00 s; their primitives are what recurs anywhere" in notes
 
 
 def test_standing_still_does_not_recur() -> None:

@@ -71,8 +71,11 @@ def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
 
 
 def test_shares_are_those_of_actions() -> None:
-    shares = of_actions(np.array([0.8, 0.0, 0.5, 0.2]), BORDERS, LABELS)
-    np.testing.assert_allclose(shares, [0.5, 0, 0.5, 0.5])
+    shares = np.array([0.8, np.nan, 0.5, 0.2])
+    found = of_actions(shares, np.diff(BORDERS), LABELS)
+    np.testing.assert_allclose(found, [0.5, 0, 0.5, 0.5])
+    found = of_actions(shares, np.diff(BORDERS) * [True, True, False, False], LABELS)
+    np.testing.assert_allclose(found, [0.8, 0, 0, 0.8])
 
 
 def test_occurrences_within_some_segments_recur_there() -> None:

@@ -80,9 +80,9 @@ def analyze_actions(
     with stage("repetitions"):
         limits = found.borders * recurring.step
         repeating = _count(recurring, borders, labels, limits, preset)
-        segments, explained = _repeated(recurring, borders, labels, own, repeating, preset)
+        segments = _repeated(recurring, borders, labels, own, repeating, preset)
     with stage("occurrences"):
-        segments = _with_occurrences(recurring, segments, explained, preset)
+        segments = _with_occurrences(recurring, segments, preset)
     borders, labels, primitives = segments.borders, segments.labels, segments.primitives
     with stage("confidence"):
         repeats = segments.repeats
@@ -243,8 +243,8 @@ def _repeated(
     own: NDArray[np.float64],
     repeating: Sequence[Repetitions],
     preset: RecurrenceConstants,
-) -> tuple[Segments, NDArray[np.float64]]:
-    """Activities and their repetitions with fitted ends; how much of each those explain."""
+) -> Segments:
+    """Activities and their repetitions, with fitted ends."""
     n, known = len(recurring.features), labels >= 0
     ends = fitted_ends(
         recurring.features,
@@ -259,42 +259,34 @@ def _repeated(
         n, ends.firsts, ends.lasts, [borders, *(each.cuts for each in repeating)]
     )
     labels, own = np.append(labels[known], -1), np.append(own[known], np.nan)
-    explained = np.append([each.explained for each in compress(repeating, known)], 0.0)
     clusters = clusters_of_repetitions(
         _poses(recurring.features, preset.offsets), primitives, labels[repeated], repeated, preset
     )
     none = np.empty(0, np.int64)
-    segments = Segments(borders, labels[activity], own[activity], primitives, clusters, none)
-    return segments, explained[activity]
+    return Segments(borders, labels[activity], own[activity], primitives, clusters, none)
 
 
 def _with_occurrences(
-    recurring: Recurrence,
-    segments: Segments,
-    explained: NDArray[np.float64],
-    preset: RecurrenceConstants,
+    recurring: Recurrence, segments: Segments, preset: RecurrenceConstants
 ) -> Segments:
-    """Occurrences for primitives in transitions, and where they explain what is not counted.
+    """Occurrences for primitives in transitions, and in actions whose counts are not probable.
 
-    An action of which a count is probable keeps its repetitions. Transitions that are no more
-    than the ends of two activities are left alone.
+    An action gives its repetitions up where occurrences explain more of it than these are
+    probable. Transitions that are no more than the ends of two activities are left alone.
     """
     borders, labels = segments.borders, segments.labels
+    parents, repeats, lengths = segments.parents, segments.repeats, np.diff(borders)
     counts, _ = counted(
-        recurring.features,
-        segments.primitives,
-        segments.parents,
-        segments.repeats,
-        segments.own,
-        preset,
+        recurring.features, segments.primitives, parents, repeats, segments.own, preset
     )
-    sure = labels[probability(counts, preset.count_weights) >= preset.unsure_count]
-    ends = (labels < 0) & (np.diff(borders) <= 2 * preset.frames(preset.max_transition))
-    weak = ~ends & ~np.isin(labels, sure)
-    looked_at = np.repeat(weak, np.diff(borders))
+    several = np.bincount(parents[repeats], minlength=len(labels)) > 1
+    sure = of_actions(probability(counts, preset.count_weights), lengths * several, labels)
+    ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
+    weak = (sure < preset.unsure_count) & ~ends
+    looked_at = np.repeat(weak, lengths)
     found = occurrences(_poses(recurring.features, preset.offsets), looked_at, preset)
-    recur = of_actions(found.explained(borders), borders, labels)
-    free = weak & ((labels < 0) | (recur > of_actions(explained, borders, labels)))
+    explained = of_actions(found.explained(borders), lengths, labels)
+    free = weak & ((labels < 0) | (explained > sure))
     return placed(segments, found.within(borders, free), free)
 
 

@@ -58,14 +58,16 @@ class Segments:
         return found & ~np.isin(actions, self.not_periodic)
 
 
-def of_actions(shares: NDArray[np.float64], borders: Frames, labels: Frames) -> NDArray[np.float64]:
-    """For each segment the mean share over the time of its action; 0 in transitions."""
-    lengths = np.diff(borders)
+def of_actions(
+    shares: NDArray[np.float64], weights: NDArray[np.integer], labels: Frames
+) -> NDArray[np.float64]:
+    """For each segment the weighted mean share of its action; 0 of transitions."""
     known = labels >= 0
-    times = np.bincount(labels[known], lengths[known])
-    sums = np.bincount(labels[known], (shares * lengths)[known])
+    of_known = labels[known]
+    total = np.bincount(of_known, weights[known])
     means = np.zeros(len(labels))
-    means[known] = (sums / np.maximum(times, 1))[labels[known]]
+    sums = np.bincount(of_known, (shares * weights)[known])
+    means[known] = (sums / np.maximum(total, 1))[of_known]
     return means
 
 

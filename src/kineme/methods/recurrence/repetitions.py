@@ -42,13 +42,9 @@ class Repetitions:
     ----------
     cuts : array of int
         Frames at which the second, third, ... repetition begins.
-    explained : float
-        Share of the activity that each repetition's likeness to the others explains; 0 of a
-        single one.
     """
 
     cuts: Frames
-    explained: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +146,7 @@ def repetitions(
         count = best.whole
         divisions = [cuts for cuts in [best.cuts(count)] if cuts is not None]
     even = min(divisions, key=lambda cuts: np.diff([0, *cuts, len(rows)]).std())
-    return Repetitions(start + even, 1 - best.unexplained)
+    return Repetitions(start + even)
 
 
 def movement(rows: NDArray[np.float32], smoothing: int) -> Movement:
