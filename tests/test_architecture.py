@@ -78,6 +78,10 @@ ROOMS = {
         "`MotionGraph`, routes through it, new motion from them",
         "features formats graph methods recordings segmentation segments transfer",
     ),
+    "library": Room(
+        "collections of recordings, segmented once, with clusters in common, searched by example",
+        "clips features formats labels matching methods recordings segmentation segments",
+    ),
     "datasets": Room(
         "recordings with known truth, the bundled one among them; CMU's, fetched",
         "formats labels recordings segments",

@@ -2,6 +2,9 @@
 
 __version__: str
 
+from . import (
+    library as library,
+)
 from .datasets import (
     bundled_recording as bundled_recording,
 )
@@ -79,6 +82,9 @@ from .labels import (
 )
 from .labels import (
     write_segments as write_segments,
+)
+from .library import (
+    Library as Library,
 )
 from .methods import (
     PRESETS as PRESETS,

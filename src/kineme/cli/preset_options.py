@@ -17,20 +17,19 @@ import typer
 from kineme.cli.constant_texts import metavar, parsed, shown
 from kineme.errors import ParameterError
 from kineme.methods import PRESETS, Constant
+from kineme.methods.presets import DEFAULT
 
 FINE = "Finer constants, which hardly anybody needs to change"
 SHARED = "Constants of presets of several methods"
 NARROW = 1000
 """Limits below this are told: somebody may meet them."""
 
-PresetName = Annotated[
-    str,
-    typer.Option(
-        "--preset",
-        metavar="NAME",
-        help="\n\n".join(f"{name}: {preset.help}" for name, preset in PRESETS.items()),
-    ),
-]
+PRESET = typer.Option(
+    "--preset",
+    metavar="NAME",
+    help="\n\n".join(f"{name}: {preset.help}" for name, preset in PRESETS.items()),
+)
+PresetName = Annotated[str, PRESET]
 Detail = Annotated[
     float,
     typer.Option(
@@ -57,7 +56,7 @@ def with_preset_options(command: Callable[..., None]) -> Callable[..., None]:
     def wrapped(**values: Any) -> None:
         given = {option.name: values.pop(option.name) for option in added}
         typed = {name: text for name, text in given.items() if text is not None}
-        command(**values, constants=_values(values["preset"], typed))
+        command(**values, constants=_values(values["preset"] or DEFAULT, typed))
 
     wrapped.__signature__ = signature.replace(parameters=[*own, *added])  # type: ignore[attr-defined]
     wrapped.__annotations__ = {p.name: p.annotation for p in (*own, *added)}

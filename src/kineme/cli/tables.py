@@ -15,6 +15,8 @@ from kineme._colors import cluster_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
+WORDS = ("kind", "cluster", "label", "recording", "example")
+"""Columns that hold no numbers."""
 _NOTHING_FOUND = (
     "no activity found: nothing stays similar or repeats for long enough; of a recording of a few "
     "seconds --min-action 0.5 --min-segment 0.3 or --preset krueger2017 may tell more"
@@ -63,13 +65,14 @@ def show_segments(
 
 def _activity_rows(segmentation: Segmentation) -> Table:
     """Activities and transitions with their repetitions counted."""
-    table = _table("#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label")
+    table = new_table("#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label")
     primitives = segmentation.primitives
     for number, row in enumerate(segmentation.activities):
-        inside = primitives.cluster[primitives.activity == number].tolist()
+        repeated = (primitives.activity == number) & (primitives.kind == "activity")
+        inside = primitives.cluster[repeated].tolist()
         count = _repetitions(inside, row.cluster) if row.kind == "activity" else ""
         table.add_row(
-            *_span(number, row), count, _cluster(row.cluster), row.label, style=_style(row)
+            *_span(number, row), count, cluster_cell(row.cluster), row.label, style=_style(row)
         )
     if any("+" in str(cell) for cell in table.columns[5].cells):
         table.caption = "(+n): primitives of the activity that are in other clusters, or in none"
@@ -78,24 +81,27 @@ def _activity_rows(segmentation: Segmentation) -> Table:
 
 
 def _repetitions(clusters: list[int], main: int) -> str:
-    """How many primitives are in the activity's cluster, and how many are not."""
+    """How many primitives are in the activity's cluster, else in the largest; how many are not."""
+    if main not in clusters:
+        main = max(clusters, key=clusters.count, default=-1)
     count = clusters.count(main) if main >= 0 else 0
     others = len(clusters) - count
     return f"{count} (+{others})" if others else str(count)
 
 
 def _primitive_rows(segmentation: Segmentation) -> Table:
-    table = _table("#", "kind", "start s", "stop s", "frames", "activity", "cluster", "label")
+    table = new_table("#", "kind", "start s", "stop s", "frames", "activity", "cluster", "label")
     for number, row in enumerate(segmentation.primitives):
-        cells = str(row.activity), _cluster(row.cluster), row.label
+        cells = str(row.activity), cluster_cell(row.cluster), row.label
         table.add_row(*_span(number, row), *cells, style=_style(row))
     return _without_empty_labels(table, segmentation.primitives.label.tolist())
 
 
-def _table(*names: str) -> Table:
+def new_table(*names: str) -> Table:
+    """A table with these columns: words to the left, numbers to the right."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for name in names:
-        table.add_column(name, justify="left" if name in ("kind", "cluster", "label") else "right")
+        table.add_column(name, justify="left" if name in WORDS else "right")
     return table
 
 
@@ -110,7 +116,8 @@ def _span(number: int, row: Segment) -> tuple[str, ...]:
     return str(number), row.kind, f"{row.start_s:.2f}", f"{row.stop_s:.2f}", frames
 
 
-def _cluster(cluster: int) -> RenderableType:
+def cluster_cell(cluster: int) -> RenderableType:
+    """A cluster with its colour; nothing for none."""
     return Text.assemble(("■ ", cluster_color(cluster)), str(cluster)) if cluster >= 0 else ""
 
 

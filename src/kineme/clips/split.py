@@ -23,7 +23,7 @@ The folder appears whole or not at all, and nothing that was there is touched.
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from math import degrees
 from os import PathLike
 from pathlib import Path
@@ -92,14 +92,47 @@ def split(
     if not rows:
         found = sorted({row.cluster for row in segmentation.level(level)} - {-1})
         raise ParameterError(f"no {level} is in cluster {cluster}; there are {found}")
-    suffix, write_clip = _writer(recording, loops=loops)
+    return write_clips([(recording, rows)], folder, loops=loops)
+
+
+def write_clips(
+    wanted: Iterable[tuple[Motion | Signals, Sequence[Segment]]],
+    folder: str | PathLike[str],
+    *,
+    loops: bool = False,
+) -> list[Path]:
+    """Write segments of several recordings as clips in one folder; the paths of the clips.
+
+    Parameters
+    ----------
+    wanted : iterable of (Motion or Signals, sequence of Segment)
+        Gone through once, so that one recording at a time needs memory.
+    folder : str or PathLike
+        To be made; one that is there must be empty.
+    loops : bool, optional
+        Blend the ends of each clip; motions only.
+
+    Raises
+    ------
+    ParameterError
+        Loops of signals.
+    WriteError
+        The folder is not empty, or cannot be written.
+    """
     target = Path(folder)
-    stem = _plain(Path(recording.provenance.path or "recording").stem)
-    names = [f"{stem}_{i:04d}_{_plain(text_of(row))}{suffix}" for i, row in enumerate(rows)]
+    lines: list[list[object]] = []
     with atomic_folder(target) as draft:
-        carries = [write_clip(row, draft / name) for row, name in zip(rows, names, strict=True)]
-        _write_manifest(draft / MANIFEST, recording, rows, names, carries)
-    return [target / name for name in names]
+        for recording, rows in wanted:
+            suffix, write_clip = _writer(recording, loops=loops)
+            path = str(recording.provenance.path or "")
+            stem = _plain(Path(path or "recording").stem)
+            source = path.encode(errors="backslashreplace").decode()
+            for row in rows:
+                name = f"{stem}_{len(lines):04d}_{_plain(text_of(row))}{suffix}"
+                carry = write_clip(row, draft / name)
+                lines.append([name, source, *(getattr(row, span) for span in SPANS), *carry])
+        _write_manifest(draft / MANIFEST, CARRY if loops else (), lines)
+    return [target / str(name) for name, *_ in lines]
 
 
 def _writer(recording: Motion | Signals, *, loops: bool) -> tuple[str, Write]:
@@ -133,18 +166,9 @@ def _plain(text: str) -> str:
     return kept.encode(errors="replace")[:80].decode(errors="ignore")
 
 
-def _write_manifest(
-    path: Path,
-    recording: Motion | Signals,
-    rows: Sequence[Segment],
-    names: Sequence[str],
-    carries: Sequence[tuple[float, ...]],
-) -> None:
-    source = str(recording.provenance.path or "").encode(errors="backslashreplace").decode()
+def _write_manifest(path: Path, more: Sequence[str], lines: Sequence[Sequence[object]]) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
-        lines = csv.writer(file, lineterminator="\n")
-        lines.writerow(["file", "source", *SPANS, *(CARRY if carries[0] else ())])
-        for row, name, carry in zip(rows, names, carries, strict=True):
-            cells = [name, source, *(getattr(row, span) for span in SPANS)]
-            safe = [as_text(cell) if isinstance(cell, str) else cell for cell in cells]
-            lines.writerow([*safe, *carry])
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["file", "source", *SPANS, *more])
+        for line in lines:
+            table.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in line])

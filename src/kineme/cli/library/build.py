@@ -1,0 +1,117 @@
+"""``kineme library build``: recordings in, a library of them out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kineme.cli.help import RECORDINGS
+from kineme.cli.inputs import Batch
+from kineme.cli.messages import Failures, progress
+from kineme.cli.preset_options import PRESET, with_preset_options
+from kineme.cli.reading import Effectors, Quiet, with_reading_options
+from kineme.cli.request import Request
+from kineme.methods.presets import DEFAULT
+
+if TYPE_CHECKING:
+    from kineme.library import Built, Settings
+
+
+@with_preset_options
+@with_reading_options
+def build(
+    into: Annotated[
+        Path, typer.Option("--into", help="Folder of the library, new or to be brought up to date.")
+    ],
+    files: Annotated[
+        list[Path] | None,
+        typer.Argument(
+            metavar="FILES",
+            help=f"Recordings, or folders of them: {RECORDINGS}. They add to those that the "
+            "library knows; without any, it looks at these again.",
+        ),
+    ] = None,
+    remove: Annotated[
+        list[Path] | None,
+        typer.Option(help="Take these files or folders out of the library; may be given again."),
+    ] = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(min=1, help="Processes at once.", show_default="one for each core"),
+    ] = None,
+    recursive: Annotated[
+        bool | None,
+        typer.Option(
+            "--recursive/--flat",
+            "-r",
+            help="Look into the folders of a folder, too.",
+            show_default="as the last time",
+        ),
+    ] = None,
+    preset: Annotated[str | None, PRESET] = None,
+    quiet: Quiet = False,
+    effectors: Effectors = None,
+    constants: dict[str, Any] | None = None,
+    reading: dict[str, Any] | None = None,
+) -> None:
+    """Segment a collection of recordings once, and keep what a search needs.
+
+    What is there already is kept: a build that was ended goes on where it was, and one with more
+    recordings does only these. Options that say how recordings are read and segmented stay as
+    they were unless one of them is given.
+    """
+    request = Request.of(preset or DEFAULT, constants, reading, effectors)
+    failures = Failures()
+    with failures.caught(into):
+        from kineme.library import Settings
+        from kineme.library.building import build as build_library
+        from kineme.library.planning import known_sources
+
+        said = any((preset, constants, reading, effectors))
+        settings: Settings | None = None
+        if said:
+            settings = Settings(
+                request.preset, request.constants, request.reading, request.effectors
+            )
+        sources = known_sources(into, files or (), remove or ())
+        with progress(into, quiet=quiet) as stage:
+            built = build_library(
+                files or (),
+                into,
+                remove=remove or (),
+                recursive=recursive,
+                settings=settings,
+                jobs=_cores() if jobs is None else jobs,
+                progress=stage,
+            )
+        if not quiet:
+            typer.echo(_summary(built))
+        _exit(built, Batch(sources, recursive=built.recursive))
+    failures.exit()
+
+
+def _exit(built: Built, batch: Batch) -> None:
+    """Say what was left out and why; end with code 1 if something named gave nothing."""
+    from kineme.errors import ReadError
+
+    for path in batch.paths:
+        with batch.caught(path):
+            if path in built.failed:
+                raise ReadError(path, built.failed[path].removeprefix(f"{path}: "))
+    batch.exit()
+
+
+def _summary(built: Built) -> str:
+    n = len(built.paths)
+    parts = [f"{n} recording{'s' * (n != 1)} in {built.folder}", f"{built.new} new"]
+    parts += [f"{built.removed} taken out"] * bool(built.removed)
+    parts += [f"{len(built.failed)} failed"] * bool(built.failed)
+    return ", ".join(parts)
+
+
+def _cores() -> int:
+    from kineme._threads import n_threads
+
+    return n_threads()

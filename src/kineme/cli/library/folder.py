@@ -1,0 +1,32 @@
+"""``LIB``: the library that a command is about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from kineme.cli.messages import Failures
+
+if TYPE_CHECKING:
+    from kineme.library import Library
+
+Folder = Annotated[
+    Path, typer.Argument(metavar="LIB", help="Library that `kineme library build` made.")
+]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON, one object a line.")]
+Cluster = Annotated[str, typer.Argument(help="A cluster by its number or name.")]
+
+
+@contextmanager
+def opened(folder: Path) -> Iterator[Library]:
+    """The library; what goes wrong with it in the block is said, and ends the command with 1."""
+    failures = Failures()
+    with failures.caught(folder):
+        from kineme.library import Library
+
+        yield Library(folder)
+    failures.exit()

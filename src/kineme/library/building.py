@@ -1,0 +1,265 @@
+"""Building a library: what is new is read, segmented and described; what is there is kept."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from kineme._checks import is_number
+from kineme._version import __version__
+from kineme.errors import ParameterError, WriteError
+from kineme.library.constants import VOCABULARY
+from kineme.library.edits import read_edits
+from kineme.library.layout import (
+    HEAD,
+    LOCK_EDITS,
+    PIECES,
+    SCHEMA,
+    SEEN,
+    TABLES,
+    arrow,
+    held,
+    read_json,
+    write_json,
+)
+from kineme.library.pieces import has_piece
+from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
+from kineme.library.settings import Settings
+from kineme.library.sources import Glances, listed, names_of
+from kineme.library.tables import read_table, write_tables
+
+Progress = Callable[[str], None]
+
+NOT_THERE = "there is no such file or folder"
+GONE = "is not there: its recordings are kept; --remove takes them out"
+
+
+@dataclass(frozen=True)
+class Built:
+    """What a build did.
+
+    Attributes
+    ----------
+    folder : Path
+        Of the library.
+    paths : tuple of Path
+        The recordings in it.
+    new : int
+        How many of them were read and segmented.
+    removed : int
+        How many are not in it any more.
+    recursive : bool
+        Whether folders in folders were looked into.
+    failed : Mapping of Path to str
+        What could not be read or segmented, and why.
+    """
+
+    folder: Path
+    paths: tuple[Path, ...]
+    new: int
+    removed: int
+    recursive: bool
+    failed: Mapping[Path, str] = field(default_factory=dict)
+
+
+def build(
+    sources: AnyPath | Iterable[AnyPath],
+    into: AnyPath,
+    *,
+    remove: Iterable[AnyPath] = (),
+    recursive: bool | None = None,
+    settings: Settings | None = None,
+    jobs: int = 1,
+    progress: Progress | None = None,
+) -> Built:
+    """Make a library of recordings, or bring one up to date.
+
+    Sources add to those that the library knows. Recordings that are new or changed are read and
+    segmented, those that are gone from a source are taken out. A build that was ended before goes
+    on; one that failed for some recordings tries these again.
+
+    Parameters
+    ----------
+    sources : path-like, or iterable of path-like
+        Recordings and folders of them; none for those that the library knows.
+    into : path-like
+        Folder of the library; made where there is none.
+    remove : iterable of path-like
+        Sources to take out, with their recordings.
+    recursive : bool, optional
+        Look into the folders of a folder, too; as the last time by default.
+    settings : Settings, optional
+        How recordings are read and segmented; as the last time by default. Others than those mean
+        that everything is done anew.
+    jobs : int
+        Processes at once. With more than 1, a script must guard what it runs with
+        ``if __name__ == "__main__"``, as always with processes.
+    progress : callable, optional
+        Called with a sentence on how far it is.
+
+    Returns
+    -------
+    Built
+
+    Raises
+    ------
+    ParameterError
+        No source, or options that make no sense.
+    ReadError
+        The folder is of another kind or version.
+    WriteError
+        The folder cannot be written, or another build is at work on it.
+    MissingDependencyError
+        pyarrow is not installed.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as home:
+    ...     built = kineme.library.build(kineme.bundled_recording(), f"{home}/library")
+    ...     len(built.paths), built.new
+    (1, 1)
+    """
+    arrow()
+    if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
+        raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
+    folder = opened(into)
+    with held(folder, "build"):
+        head = read_json(folder / HEAD)
+        plan = plan_of(folder, head, as_paths(sources), as_paths(remove), recursive, settings)
+        return _built(plan, head, int(jobs), progress or _silent)
+
+
+def _built(plan: Plan, head: dict[str, Any], jobs: int, progress: Progress) -> Built:
+    progress("looking for recordings")
+    before = _before(plan.folder, head)
+    found = listed(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
+    gone = [source for source in plan.sources if not source.exists()]
+    kept = {
+        path: source
+        for path in before
+        for source in gone
+        if path not in found and path.is_relative_to(source)
+    }
+    failed = dict.fromkeys(gone, GONE)
+    keys, new = _keys(plan, found, jobs, progress, failed)
+    keys |= {path: before[path][1] for path in kept if has_piece(plan.pieces, before[path][1])}
+    names = names_of(
+        {path: source for path, source in {**found, **kept}.items() if path in keys},
+        {path: name for path, (name, _) in before.items()},
+    )
+    wanted = {
+        "schema": SCHEMA,
+        "kineme": __version__,
+        "settings": plan.settings.to_json(),
+        "sources": [str(source) for source in plan.sources],
+        "recursive": plan.recursive,
+        "vocabulary": dict(VOCABULARY.parameters()),
+        "failed": {str(path): reason for path, reason in sorted(failed.items())},
+    }
+    entries = sorted((name, path, keys[path]) for path, name in names.items())
+    same = {path: (name, key) for name, path, key in entries} == before
+    with held(plan.folder, "build", LOCK_EDITS):
+        if same and all(head.get(name) == wanted[name] for name in ("kineme", "vocabulary")):
+            following, tables = head["following"], head["tables"]
+        else:
+            from kineme.library.compiling import compiled
+
+            progress("clusters in common")
+            following = max(head.get("following", 0), read_edits(plan.folder).following)
+            made, following = compiled(plan.folder, entries, head.get("tables"), following)
+            tables = write_tables(plan.folder, made)
+        now = {**wanted, "following": following, "tables": tables}
+        if now != head:
+            write_json(plan.folder / HEAD, now)
+    _clean(plan.folder, {key for _, _, key in entries}, tables)
+    removed = len(before.keys() - keys.keys())
+    paths = tuple(path for _, path, _ in entries)
+    failed |= dict.fromkeys(plan.missing, NOT_THERE)
+    return Built(plan.folder, paths, new, removed, plan.recursive, failed)
+
+
+def _before(folder: Path, head: Mapping[str, Any]) -> dict[Path, tuple[str, str]]:
+    """Name and piece of each recording that the library has."""
+    if not head:
+        return {}
+    table = read_table(folder, head["tables"], "recordings")
+    columns = (table.column(name).to_pylist() for name in ("path", "recording", "piece"))
+    return {Path(path): (name, key) for path, name, key in zip(*columns, strict=True)}
+
+
+def _keys(
+    plan: Plan,
+    found: Mapping[Path, Path],
+    jobs: int,
+    progress: Progress,
+    failed: dict[Path, str],
+) -> tuple[dict[Path, str], int]:
+    """The piece of each recording, made where there is none; and how many were made."""
+    seen = read_json(plan.folder / SEEN)
+    glances = Glances(plan.settings.options().skeleton)
+    looks = {path: glances.at(path) for path in found}
+    digests: dict[Path, str] = {}
+    for path in found:
+        glance, digest = seen.get(str(path), ("", ""))
+        if glance and glance == looks[path] and has_piece(plan.pieces, plan.settings.key(digest)):
+            digests[path] = digest
+    waiting = [path for path in found if path not in digests]
+    new = _described(plan, waiting, jobs, progress, digests, failed) if waiting else 0
+    told = {str(path): [looks[path], digest] for path, digest in digests.items()}
+    if told != seen:
+        write_json(plan.folder / SEEN, told)
+    return {path: plan.settings.key(digest) for path, digest in digests.items()}, new
+
+
+def _described(
+    plan: Plan,
+    waiting: Sequence[Path],
+    jobs: int,
+    progress: Progress,
+    digests: dict[Path, str],
+    failed: dict[Path, str],
+) -> int:
+    """Make the pieces of recordings, note their digests or why there are none; how many are new."""
+    from kineme.library.work import Task, outcomes_of
+
+    tasks = [Task(path, plan.pieces, plan.settings) for path in waiting]
+    new = 0
+    started = time.monotonic()
+    for done, (task, outcome) in enumerate(outcomes_of(tasks, jobs), 1):
+        if outcome.fatal:
+            raise WriteError(plan.folder, outcome.error)
+        if outcome.error:
+            failed[task.path] = outcome.error
+        else:
+            digests[task.path] = outcome.digest
+        new += outcome.new
+        progress(_told(done, len(tasks), time.monotonic() - started))
+    return new
+
+
+def _told(done: int, of: int, seconds: float) -> str:
+    left = seconds / done * (of - done)
+    shown = f"{left:.0f} s" if left < 90 else f"{left / 60:.0f} min"
+    return f"{done} of {of}" + (f", {shown} left" if done < of else "")
+
+
+def _clean(folder: Path, keys: set[str], tables: str) -> None:
+    """Remove what nothing names any more, and drafts of builds that were ended."""
+    for path in (folder / PIECES).iterdir():
+        if path.suffix not in (".npy", ".parquet") or path.stem not in keys:
+            path.unlink(missing_ok=True)
+    for path in (folder / TABLES).iterdir():
+        if path.name != tables:
+            shutil.rmtree(path, ignore_errors=True)
+    for path in folder.glob(".kineme-*"):
+        path.unlink(missing_ok=True)
+
+
+def _silent(_: str) -> None:
+    """Says nothing."""

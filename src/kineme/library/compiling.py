@@ -1,0 +1,215 @@
+"""From the pieces of a library to its tables: one vocabulary over all recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.library.constants import VOCABULARY
+from kineme.library.layout import EMBEDDED, PIECES, arrow
+from kineme.library.numbering import Spans, lasting_numbers
+from kineme.library.pieces import Piece, read_piece
+from kineme.library.tables import read_table, table_of
+from kineme.library.vocabulary import joined
+from kineme.library.words import Place, places_in, word_at
+from kineme.segments.table import COLUMNS
+
+Entry = tuple[str, Path, str]
+"""A recording: its name, where it was read from, and its piece."""
+Columns = dict[str, Any]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class _Words:
+    """The words of all recordings, and what became of them."""
+
+    places: list[Place]
+    labels: Ints
+    following: Ints
+    confidence: NDArray[np.float64]
+    spread: NDArray[np.float64]
+
+
+def compiled(
+    folder: Path, entries: Sequence[Entry], before: str | None, following: int
+) -> tuple[dict[str, Any], int]:
+    """The tables of a library.
+
+    Parameters
+    ----------
+    folder : Path
+    entries : sequence of (str, Path, str)
+        The recordings in the order of their names.
+    before : str, optional
+        The tables that were valid so far: clusters that are found again keep their numbers.
+    following : int
+        The first number of a cluster that was never given.
+
+    Returns
+    -------
+    tables : dict of str to pyarrow.Table
+    following : int
+        The first number that was not given now either.
+    """
+    pieces = [read_piece(folder / PIECES, key) for _, _, key in entries]
+    words = _joined_words(folder, entries, pieces)
+    shared = _shared(pieces, words)
+    new = {
+        name: _spans(piece.table.columns(), clusters)
+        for (name, _, _), piece, clusters in zip(entries, pieces, shared, strict=True)
+    }
+    numbers = lasting_numbers(_before(folder, before), new, following=following)
+    renumbered = np.array([*numbers.values(), -1], np.int64)  # labels are 0, 1, …
+    tables = {
+        "recordings": _recordings(entries, pieces),
+        "segments": _segments(entries, pieces, [renumbered[each] for each in shared]),
+        "words": _word_table(entries, words, renumbered),
+        "embeddings": _embeddings(entries, pieces),
+    }
+    return {name: table_of(name, columns) for name, columns in tables.items()}, max(
+        [following, *(number + 1 for number in numbers.values())]
+    )
+
+
+def _joined_words(folder: Path, entries: Sequence[Entry], pieces: Sequence[Piece]) -> _Words:
+    """The words of each vocabulary, joined; clusters are counted on from one to the next."""
+    places: list[Place] = []
+    parts: list[tuple[Ints, Ints, Any, Any]] = []
+    count = 0
+    for vocabulary in sorted({piece.facts["vocabulary"] for piece in pieces} - {""}):
+        own = [
+            place
+            for number, piece in enumerate(pieces)
+            if piece.facts["vocabulary"] == vocabulary
+            for place in places_in(piece, number)
+        ]
+        if not own:
+            continue
+        words = [
+            word_at(place, pieces[place.recording], folder / PIECES, key, VOCABULARY)
+            for place in own
+            for key in [entries[place.recording][2]]
+        ]
+        found = joined(words, VOCABULARY)
+        following = np.where(found.following < 0, -1, found.following + count)
+        places += own
+        parts.append((found.labels + count, following, found.confidence, found.spread))
+        count += int(found.labels.max()) + 1
+    if not places:
+        none = np.empty(0)
+        return _Words([], none.astype(np.int64), none.astype(np.int64), none, none)
+    return _Words(places, *map(np.concatenate, zip(*parts, strict=True)))
+
+
+def _shared(pieces: Sequence[Piece], words: _Words) -> list[Ints]:
+    """The cluster of each segment of each piece in the common vocabulary, -1 in none."""
+    label = {
+        (place.recording, place.own_cluster): cluster
+        for place, cluster in zip(words.places, words.labels.tolist(), strict=True)
+    }
+    return [
+        np.array([label.get((i, own), -1) for own in piece.table.cluster.tolist()], np.int64)
+        for i, piece in enumerate(pieces)
+    ]
+
+
+def _spans(columns: Columns, clusters: Ints) -> Spans:
+    """The activities of a recording with their clusters."""
+    own = (columns["level"] == "activity") & (columns["kind"] == "activity")
+    return columns["start_s"][own], columns["stop_s"][own], clusters[own]
+
+
+def _before(folder: Path, before: str | None) -> dict[str, Spans]:
+    """The activities of each recording with the clusters that they had."""
+    if before is None:
+        return {}
+    table = read_table(folder, before, "segments")
+    names = ("recording", "level", "kind", "start_s", "stop_s", "cluster")
+    columns = {name: np.asarray(table.column(name).to_numpy()) for name in names}
+    first = np.unique(columns["recording"], return_index=True)[1]
+    edges = [*np.sort(first).tolist(), len(table)]
+    found = {}
+    for start, stop in pairwise(edges):
+        own = {name: column[start:stop] for name, column in columns.items()}
+        found[str(own["recording"][0])] = _spans(own, own["cluster"])
+    return found
+
+
+def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
+    facts = [piece.facts for piece in pieces]
+    kept = ("vocabulary", "format", "n_frames", "fps", "features_fps")
+    columns: Columns = {name: [each[name] for each in facts] for name in kept}
+    return {
+        "recording": [name for name, _, _ in entries],
+        "path": [str(path) for _, path, _ in entries],
+        **{name: columns[name] for name in ("vocabulary", "format", "n_frames", "fps")},
+        "duration_s": [each["n_frames"] / each["fps"] for each in facts],
+        "piece": [key for _, _, key in entries],
+        "features_fps": columns["features_fps"],
+        "notes": ["\n".join(each["notes"]) for each in facts],
+    }
+
+
+def _segments(
+    entries: Sequence[Entry], pieces: Sequence[Piece], clusters: Sequence[Ints]
+) -> Columns:
+    tables = [piece.table for piece in pieces]
+    columns: Columns = {name: _all(getattr(table, name) for table in tables) for name in COLUMNS}
+    actions = [
+        own[np.flatnonzero(table.level == "activity")][table.activity]
+        for own, table in zip(clusters, tables, strict=True)
+    ]
+    return {
+        **_rows(entries, pieces),
+        **columns,
+        "cluster": _all(clusters),
+        "action": _all(actions),
+        "own_cluster": columns["cluster"],
+    }
+
+
+def _word_table(entries: Sequence[Entry], words: _Words, numbers: Ints) -> Columns:
+    return {
+        "recording": [entries[place.recording][0] for place in words.places],
+        "own_cluster": [place.own_cluster for place in words.places],
+        "cluster": numbers[words.labels],
+        "following": numbers[words.following],
+        "confidence": words.confidence,
+        "spread": words.spread,
+        "start_s": [place.start_s for place in words.places],
+        "stop_s": [place.stop_s for place in words.places],
+        "seconds": [place.seconds for place in words.places],
+    }
+
+
+def _embeddings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
+    pa, _ = arrow()
+    values = _all(piece.embeddings for piece in pieces).reshape(-1, EMBEDDED)
+    embedded = np.flatnonzero(values.any(axis=1))
+    rows = {
+        name: np.asarray(column)[embedded] if len(column) else column
+        for name, column in _rows(entries, pieces).items()
+    }
+    flat = pa.array(values[embedded].ravel().astype(np.float32))
+    return {**rows, "embedding": pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)}
+
+
+def _rows(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
+    counts = [len(piece.table) for piece in pieces]
+    return {
+        "recording": [n for (n, _, _), k in zip(entries, counts, strict=True) for _ in range(k)],
+        "segment": _all(np.arange(count) for count in counts),
+    }
+
+
+def _all(parts: Iterable[NDArray[Any]]) -> NDArray[Any]:
+    """The parts one after the other, of which there may be none."""
+    given = list(parts)
+    return np.concatenate(given) if given else np.empty(0)

@@ -1,0 +1,50 @@
+"""The constants of a vocabulary, which go into the head of a library."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from kineme.methods.constants import (
+    SHARE,
+    SOME_LENGTH,
+    SOME_TIME,
+    check,
+    constant,
+    constants_of,
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class VocabularyConstants:
+    """How the clusters of single recordings are joined; distances are those of a search."""
+
+    join: float = constant(
+        "words are joined up to this mean distance, that of a search", limits=SOME_LENGTH,
+        default=0.85,
+    )  # fmt: skip
+    farthest: float = constant(
+        "no two words are farther apart; those of one recording are as far", limits=SOME_LENGTH,
+        default=2.0, fine=True,
+    )  # fmt: skip
+    longest_example: float = constant(
+        "an example is cut to this", unit="s", limits=SOME_TIME, default=4.0, fine=True
+    )
+    longest_context: float = constant(
+        "and what it is looked for in to this", unit="s", limits=SOME_TIME, default=12.0, fine=True
+    )
+    unsure: float = constant(
+        "confidence below which a word is shown as unsure", limits=SHARE, default=0.1,
+        fine=True,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def parameters(self) -> Mapping[str, Any]:
+        """The value of each constant by name, for the head of a library."""
+        return {known.name: known.value for known in constants_of(self)}
+
+
+VOCABULARY = VocabularyConstants()

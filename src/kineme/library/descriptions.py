@@ -1,0 +1,159 @@
+"""What a recording looks like to a search: matching features, and an embedding of each segment.
+
+Bodies are described by `kineme.features.canonical`, which do not know the person. Channels are
+described by their posture and energy (`kineme.methods.hierarchy.statistics`), each divided by its
+standard deviation in the recording; they compare with recordings of the same channels only.
+
+Everything of the library that knows what features are is here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from hashlib import sha256
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import MotionError, ParameterError
+from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
+from kineme.features.effectors import Names
+from kineme.features.emg import emg_envelope
+from kineme.library.layout import EMBEDDED
+from kineme.matching.whole_segments import course, embedding
+from kineme.methods.hierarchy.preset import SENSORS
+from kineme.methods.hierarchy.statistics import channel_statistics
+from kineme.recordings import Motion, Signals
+from kineme.segmentation.channels import at_rate, standardized
+
+Float32s = NDArray[np.float32]
+Floats = NDArray[np.float64]
+
+BODIES = "bodies"
+"""The vocabulary of everything that has a body."""
+NOWHERE = 100.0
+"""In each feature of channels that were not recorded: farther from anything than a match can be."""
+
+
+@dataclass(frozen=True, eq=False)
+class Description:
+    """The features of a recording, for search.
+
+    Attributes
+    ----------
+    vocabulary : str
+        Features compare within one; empty where there are none.
+    features : (samples, dims) array
+    fps : float
+        Samples per second.
+    reason : str
+        Why there are none.
+    poses : (samples, 17) array, optional
+        Of a body, for embeddings.
+    """
+
+    vocabulary: str
+    features: Float32s
+    fps: float
+    reason: str = ""
+    poses: Floats | None = None
+
+    def between(self, start_s: float, stop_s: float) -> Float32s:
+        """The samples from one second to another, one at least."""
+        return self.features[self._samples(start_s, stop_s)]
+
+    def embedding(self, start_s: float, stop_s: float) -> Float32s:
+        """A segment in `EMBEDDED` numbers; all 0 where there are no features."""
+        samples = self._samples(start_s, stop_s)
+        if self.poses is not None:
+            return embedding(self.poses[samples])
+        found = np.zeros(EMBEDDED, np.float32)
+        if len(self.features):
+            told = course(self.features[samples].astype(np.float64))
+            found[: min(EMBEDDED, len(told))] = told[:EMBEDDED]
+        return found
+
+    def _samples(self, start_s: float, stop_s: float) -> slice:
+        first = min(round(start_s * self.fps), max(len(self.features) - 1, 0))
+        return slice(first, max(round(stop_s * self.fps), first + 1))
+
+
+def describe(
+    recording: Motion | Signals,
+    *,
+    effectors: Names | None = None,
+    emg: bool = False,
+    mirrored: bool = False,
+) -> Description:
+    """The features of a recording; none, with the reason, where it has no body.
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+    effectors : joints, optional
+        To take for head, hands and feet where names do not tell.
+    emg : bool
+        Take the envelopes of muscle signals.
+    mirrored : bool
+        Left and right exchanged; of a motion only.
+
+    Returns
+    -------
+    Description
+
+    Raises
+    ------
+    ParameterError
+        Mirrored signals.
+    """
+    if isinstance(recording, Signals):
+        if mirrored:
+            raise ParameterError("signals have no left and right to exchange: leave out mirroring")
+        vocabulary = sha256("\0".join(recording.names).encode()).hexdigest()[:8]
+        features = signal_features(recording, emg=emg)
+        named = f"{recording.n_channels} channels, {vocabulary}"
+        return Description(named, features, SENSORS.rate)
+    try:
+        features = matching_features(recording, effectors=effectors, mirrored=mirrored)
+        poses = matching_poses(recording, effectors=effectors)
+    except MotionError as error:
+        return Description("", np.empty((0, 0), np.float32), MATCHING_FPS, str(error))
+    return Description(BODIES, features, MATCHING_FPS, poses=poses)
+
+
+def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
+    """Features (samples, dims) of channels, `SENSORS.rate` a second.
+
+    Parameters
+    ----------
+    signals : Signals
+    emg : bool
+        Take the envelopes of muscle signals.
+
+    Returns
+    -------
+    ndarray of float32
+    """
+    preset = SENSORS.at_most(signals.fps)
+    values = emg_envelope(signals.values, signals.fps) if emg else signals.values
+    spans = signals.spans()
+    rows = [
+        at_rate(values[a:b], signals.fps, preset.working_fps, smoothing=preset.smoothing)
+        for a, b in spans
+    ]
+    scaled = standardized(np.concatenate(rows))
+    found = channel_statistics(
+        scaled, preset.working_fps, rate=preset.rate, window=preset.averaging, bands=preset.bands
+    ).astype(np.float32)
+    if not signals.gaps:
+        return found
+    n = int((signals.n_frames - 1) / signals.fps * preset.rate + 1e-9) + 1
+    laid = np.full((n, found.shape[1]), NOWHERE, np.float32)
+    first = 0.0  # seconds of what was seen before the span
+    for start, stop in spans:
+        at = np.arange(np.ceil(start / signals.fps * preset.rate), n)
+        at = at[at / preset.rate < stop / signals.fps].astype(np.int64)
+        seen = np.rint((at / preset.rate - start / signals.fps + first) * preset.rate)
+        laid[at] = found[np.minimum(seen.astype(np.int64), len(found) - 1)]
+        first += (stop - start) / signals.fps
+    return laid

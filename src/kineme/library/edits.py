@@ -1,0 +1,184 @@
+"""What people say of clusters: names, merges, splits; kept apart from what was computed.
+
+An edit is of numbers, which stay where a cluster is found again. It is applied whenever tables
+are read: splits first, then merges, then names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError, ReadError
+from kineme.library.layout import EDITS, read_json, write_json
+
+SCHEMA = "kineme.library.edits/1"
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Split:
+    """What a cluster has in some recordings is another cluster."""
+
+    cluster: int
+    into: int
+    recordings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Edits:
+    """What people said.
+
+    Parameters
+    ----------
+    names : Mapping of int to str
+        Of clusters.
+    merged : Mapping of int to int
+        Clusters that are another one.
+    splits : tuple of Split
+
+    Examples
+    --------
+    >>> edits = Edits().with_merge(2, [5]).with_name(2, "walk")
+    >>> edits.number(5), edits.name(5)
+    (2, 'walk')
+    """
+
+    names: Mapping[int, str] = field(default_factory=dict)
+    merged: Mapping[int, int] = field(default_factory=dict)
+    splits: tuple[Split, ...] = ()
+
+    @property
+    def following(self) -> int:
+        """The first number that no edit speaks of."""
+        return max([-1, *self.names, *self.merged, *(split.into for split in self.splits)]) + 1
+
+    def number(self, cluster: int) -> int:
+        """The cluster that a computed one belongs to now."""
+        return self.merged.get(cluster, cluster)
+
+    def name(self, cluster: int) -> str:
+        """The name of a cluster, empty where it has none."""
+        return self.names.get(self.number(cluster), "")
+
+    def with_name(self, cluster: int, name: str) -> Edits:
+        """The edits with a name; an empty one takes it away."""
+        if name != name.strip() or not name.isprintable():
+            raise ParameterError(f"a name is one line of plain text, not {name!r:.60}")
+        names = {**self.names, self.number(cluster): name}
+        return replace(self, names={number: text for number, text in names.items() if text})
+
+    def with_merge(self, cluster: int, others: Sequence[int]) -> Edits:
+        """The edits with others made part of a cluster, which keeps its number and name."""
+        target = self.number(cluster)
+        moved = {self.number(other) for other in others} - {target}
+        merged = {old: target if new in moved else new for old, new in self.merged.items()}
+        names = {number: text for number, text in self.names.items() if number not in moved}
+        return replace(self, merged={**merged, **dict.fromkeys(sorted(moved), target)}, names=names)
+
+    def with_split(self, cluster: int, into: int, recordings: Sequence[str]) -> Edits:
+        """The edits with what a cluster has in some recordings as a cluster of its own."""
+        target = self.number(cluster)
+        parts = [target, *(old for old, new in self.merged.items() if new == target)]
+        splits = tuple(Split(part, into, tuple(recordings)) for part in sorted(parts))
+        return replace(self, splits=(*self.splits, *splits))
+
+    def applied(self, clusters: Ints, recordings: NDArray[Any]) -> Ints:
+        """Computed cluster numbers as they are now.
+
+        Parameters
+        ----------
+        clusters : (rows,) array
+        recordings : (rows,) array of str
+            The recording that each row is of.
+        """
+        now = clusters.copy()
+        for split in self.splits:
+            now[(now == split.cluster) & np.isin(recordings, split.recordings)] = split.into
+        for old, new in self.merged.items():
+            now[now == old] = new
+        return now
+
+    def write(self, folder: Path) -> None:
+        """Leave them in the folder of a library."""
+        told = {
+            "schema": SCHEMA,
+            "names": {str(number): name for number, name in sorted(self.names.items())},
+            "merged": {str(old): new for old, new in sorted(self.merged.items())},
+            "splits": [
+                {"cluster": split.cluster, "into": split.into, "recordings": [*split.recordings]}
+                for split in self.splits
+            ],
+        }
+        write_json(folder / EDITS, told)
+
+
+def read_edits(folder: Path) -> Edits:
+    """What people said of a library so far.
+
+    Raises
+    ------
+    ReadError
+        The file is damaged, or of another schema.
+    """
+    path = folder / EDITS
+    told = read_json(path)
+    if not told:
+        return Edits()
+    if told.get("schema") != SCHEMA:
+        raise ReadError(path, f"is of the schema {told.get('schema')!r:.40}, not {SCHEMA}")
+    try:
+        return Edits(
+            {int(number): str(name) for number, name in told["names"].items()},
+            {int(old): int(new) for old, new in told["merged"].items()},
+            tuple(
+                Split(int(one["cluster"]), int(one["into"]), tuple(map(str, one["recordings"])))
+                for one in told["splits"]
+            ),
+        )
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise ReadError(path, "is damaged: names, merges or splits are not as written") from error
+
+
+def edited(table: Any, edits: Edits) -> Any:
+    """A table of a library as it is now: clusters split and merged, names beside them.
+
+    Parameters
+    ----------
+    table : pyarrow.Table
+        As it was computed.
+    edits : Edits
+
+    Returns
+    -------
+    pyarrow.Table
+        With ``label`` for ``cluster``, and ``action_label`` for ``action`` where there is one.
+    """
+    recordings = np.asarray(table.column("recording").to_numpy())
+    for name, label in (("cluster", "label"), ("following", None), ("action", "action_label")):
+        if name not in table.column_names:
+            continue
+        clusters = edits.applied(table.column(name).to_numpy(), recordings)
+        table = table.set_column(table.column_names.index(name), name, [clusters])
+        if label is not None:
+            column = [_names(clusters, edits)]
+            at = table.column_names.index(name)
+            table = (
+                table.set_column(table.column_names.index(label), label, column)
+                if label in table.column_names
+                else table.append_column(label, column)
+                if label == "action_label"
+                else table.add_column(at + 1, label, column)
+            )
+    return table
+
+
+def _names(clusters: Ints, edits: Edits) -> NDArray[Any]:
+    unique, inverse = np.unique(clusters, return_inverse=True)
+    names = np.array([edits.name(number) for number in unique.tolist()], dtype=object)
+    return names[inverse]

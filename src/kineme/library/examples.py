@@ -1,0 +1,126 @@
+"""Examples of a search as features: read from a file, or taken from the library."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError, ReadError
+from kineme.formats import read
+from kineme.library.descriptions import Description, describe
+from kineme.library.layout import PIECES
+from kineme.library.pieces import read_features
+from kineme.library.searching import Example
+from kineme.library.settings import Settings
+from kineme.recordings import Motion, Signals
+
+AnyPath = str | PathLike[str]
+Float32s = NDArray[np.float32]
+
+
+class Home(Protocol):
+    """What a library tells of its recordings."""
+
+    folder: Path
+
+    @property
+    def recordings(self) -> dict[str, list[Any]]: ...
+    @property
+    def settings(self) -> Settings: ...
+    def path_of(self, recording: str) -> Path: ...
+
+
+def as_examples(
+    like: AnyPath | Motion | Signals | Example | Sequence[Example] | None,
+    start_s: float,
+    stop_s: float | None,
+) -> list[Example]:
+    """What is searched for as examples."""
+    if like is None:
+        return []
+    if isinstance(like, str | PathLike | Motion | Signals):
+        return [Example(like, start_s, stop_s)]
+    given = list(like) if isinstance(like, Iterable) else [like]
+    for example in given:
+        if not isinstance(example, Example):
+            raise ParameterError(
+                f"an example is a file, a name, a recording or an Example, not {example!r:.60}"
+            )
+    return given
+
+
+def features_of(
+    library: Home, examples: Sequence[Example], *, mirror: bool = False
+) -> list[tuple[str, Float32s]]:
+    """Vocabulary and features of each example, and of its mirror image.
+
+    Parameters
+    ----------
+    library : Home
+    examples : sequence of Example
+    mirror : bool
+        The mirror images, too.
+
+    Raises
+    ------
+    ParameterError
+        An example starts where its recording has ended.
+    ReadError
+        It cannot be read, or has no body.
+    """
+    found = []
+    for example in examples:
+        for mirrored in (False, True)[: 1 + mirror]:
+            described = _description(library, example.recording, mirrored=mirrored)
+            lasts = len(described.features) / described.fps
+            stop_s = lasts if example.stop_s is None else min(example.stop_s, lasts)
+            if example.start_s >= stop_s:
+                raise ParameterError(
+                    f"the example starts at {example.start_s:g} s, its recording lasts "
+                    f"{lasts:.2f} s"
+                )
+            found.append((described.vocabulary, described.between(example.start_s, stop_s)))
+    return found
+
+
+def one_vocabulary(wanted: Sequence[tuple[str, Float32s]]) -> str:
+    """What all examples are of; ParameterError where they do not compare."""
+    kinds = sorted({kind for kind, _ in wanted})
+    if len(kinds) > 1:
+        raise ParameterError(f"the examples do not compare with each other: {'; '.join(kinds)}")
+    return kinds[0]
+
+
+def _description(
+    library: Home, recording: AnyPath | Motion | Signals, *, mirrored: bool
+) -> Description:
+    """The features of a recording, from the library where it is one of it."""
+    told, settings = library.recordings, library.settings
+    if isinstance(recording, str) and not Path(recording).exists():
+        if recording not in told["recording"]:
+            raise ReadError(recording, "there is no such file, and no recording of that name")
+        if not mirrored:
+            row = told["recording"].index(recording)
+            features = read_features(library.folder / PIECES, told["piece"][row])
+            known = Description(told["vocabulary"][row], features, told["features_fps"][row])
+            return _comparable(known, recording)
+        recording = library.path_of(recording)
+    seen = recording
+    if not isinstance(seen, Motion | Signals):
+        seen = read(seen, **settings.reading)
+    emg = settings.options().emg
+    described = describe(seen, effectors=settings.effectors, emg=emg, mirrored=mirrored)
+    return _comparable(described, seen.provenance.path or "the example")
+
+
+def _comparable(described: Description, name: str) -> Description:
+    """The description, where there are features."""
+    if not described.vocabulary:
+        reason = described.reason or "it has no body that could be told"
+        raise ReadError(name, f"cannot be searched for: {reason}")
+    return described

@@ -1,0 +1,132 @@
+"""Where everything lies in the folder of a library, and how its JSON files are read and written."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from kineme._files import atomic_write
+from kineme.errors import MissingDependencyError, ReadError, WriteError
+
+if sys.platform != "win32":
+    import fcntl
+
+SCHEMA = "kineme.library/1"
+"""Of the folder; a change that old readers would misunderstand gets the next number."""
+HEAD, EDITS, SEEN = "library.json", "edits.json", "seen.json"
+LOCK, LOCK_EDITS = ".lock", ".edits.lock"
+TABLES, PIECES = "tables", "pieces"
+EMBEDDED = 32
+"""Numbers in an embedding."""
+EXTRA = "library"
+"""The extra that installs what libraries need."""
+
+
+def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
+    """What ``library.json`` says.
+
+    Parameters
+    ----------
+    folder : path-like
+        Of the library.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ReadError
+        There is no library, or one of another schema.
+    """
+    path = Path(folder) / HEAD
+    if not path.is_file():
+        raise ReadError(folder, "is no library: kineme library build FOLDER --into LIB makes one")
+    head = read_json(path)
+    if head.get("schema") != SCHEMA:
+        raise ReadError(
+            path,
+            f"is of the schema {head.get('schema')!r:.40}, this version of kineme reads "
+            f"{SCHEMA}: build the library anew",
+        )
+    return head
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """The object in a JSON file; an empty one where there is no file."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return {}
+    except OSError as error:
+        raise ReadError(path, f"cannot be read: {error.strerror or error}") from error
+    except (ValueError, RecursionError) as error:
+        raise ReadError(path, "is damaged: it is not JSON") from error
+    if not isinstance(found, dict):
+        raise ReadError(path, "is damaged: it is no JSON object")
+    return found
+
+
+def write_json(path: Path, content: dict[str, Any]) -> None:
+    """Leave an object at ``path``, whole or not at all."""
+    text = json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False)
+    with atomic_write(path) as draft:
+        draft.write_text(text + "\n", encoding="utf-8")
+
+
+@contextmanager
+def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
+    """The library, for one writer alone.
+
+    Parameters
+    ----------
+    folder : Path
+    what : str
+        What the user is to do once the other writer is done.
+    name : str
+        Of the lock: that of builds, or that of edits.
+
+    Raises
+    ------
+    WriteError
+        Another process holds it, or the folder cannot be written.
+    """
+    try:
+        lock = os.open(folder / name, os.O_CREAT | os.O_RDWR | getattr(os, "O_CLOEXEC", 0), 0o666)
+    except OSError as error:
+        raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error
+    try:
+        if sys.platform != "win32":
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise WriteError(
+                    folder, f"another process is changing this library: {what} when it is done"
+                ) from None
+            except OSError:  # file systems without locks
+                pass
+        yield
+    finally:
+        os.close(lock)
+
+
+def arrow() -> tuple[Any, Any]:
+    """The modules pyarrow and pyarrow.parquet.
+
+    Raises
+    ------
+    MissingDependencyError
+        They are not installed.
+    """
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ImportError as error:
+        raise MissingDependencyError("pyarrow", EXTRA) from error
+    return pa, parquet

@@ -1,0 +1,62 @@
+"""Numbers that stay: a cluster that is found again has the number that it had.
+
+A new cluster takes the number of the old one whose time it shares most, seconds of activities in
+recordings that both know; each number goes to one of them. All others get numbers that were never
+given.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+Spans = tuple[Floats, Floats, Ints]
+"""Starts and stops in seconds, and clusters, of the activities of a recording; apart."""
+
+
+def lasting_numbers(
+    old: Mapping[str, Spans], new: Mapping[str, Spans], *, following: int
+) -> dict[int, int]:
+    """The number of each new cluster.
+
+    Parameters
+    ----------
+    old, new : mapping of str to (starts, stops, clusters)
+        By recording, those of -1 in no cluster.
+    following : int
+        The first number that was never given.
+
+    Returns
+    -------
+    dict of int to int
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> starts, stops = np.array([0.0, 5.0]), np.array([5.0, 9.0])
+    >>> old = {"a": (starts, stops, np.array([4, 2]))}
+    >>> new = {"a": (starts, stops, np.array([0, 1])), "b": (starts, stops, np.array([1, 2]))}
+    >>> lasting_numbers(old, new, following=7)
+    {0: 4, 1: 2, 2: 7}
+    """
+    shared: defaultdict[tuple[int, int], float] = defaultdict(float)
+    for recording in old.keys() & new.keys():
+        (starts, stops, before), (begins, ends, now) = old[recording], new[recording]
+        first = np.maximum(starts[:, None], begins[None])
+        overlap = np.minimum(stops[:, None], ends[None]) - first
+        for i, j in np.argwhere((overlap > 0) & (before[:, None] >= 0) & (now[None] >= 0)):
+            shared[int(before[i]), int(now[j])] += round(float(overlap[i, j]), 6)
+    numbers: dict[int, int] = {}
+    for (number, cluster), _ in sorted(shared.items(), key=lambda pair: (-pair[1], pair[0])):
+        if cluster not in numbers and number not in numbers.values():
+            numbers[cluster] = number
+    for cluster in sorted({int(c) for _, _, clusters in new.values() for c in clusters} - {-1}):
+        if cluster not in numbers:
+            numbers[cluster], following = following, following + 1
+    return dict(sorted(numbers.items()))

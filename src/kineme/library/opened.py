@@ -1,0 +1,94 @@
+"""The tables of a library, edits applied: as pyarrow has them, and as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ReadError
+from kineme.library.edits import Edits, edited, read_edits
+from kineme.library.layout import LOCK_EDITS, held, read_head
+from kineme.library.tables import DESCRIBED, read_table
+
+Columns = dict[str, NDArray[Any]]
+
+
+class OpenTables:
+    """The tables that were valid when a library was opened, and the edits so far.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the library.
+
+    Attributes
+    ----------
+    head : dict
+        What ``library.json`` says.
+    edits : Edits
+    """
+
+    def __init__(self, folder: Path):
+        self._folder = folder
+        self.head = read_head(folder)
+        try:
+            self._computed = self._read()
+        except ReadError:  # a build may have ended between the head and the tables
+            self.head = read_head(folder)
+            self._computed = self._read()
+        self._take(read_edits(folder))
+
+    def table(self, name: str) -> Any:
+        """A table, one of `kineme.library.tables.DESCRIBED`, as a pyarrow.Table."""
+        if name not in self._computed:
+            self._computed[name] = read_table(self._folder, self.head["tables"], name)
+        if name not in self._edited:
+            self._edited[name] = edited(self._computed[name], self.edits)
+        return self._edited[name]
+
+    def columns(self, name: str) -> Columns:
+        """The same as arrays."""
+        if name not in self._arrays:
+            table = self.table(name)
+            self._arrays[name] = {
+                column: np.asarray(table.column(column).to_numpy()) for column in table.column_names
+            }
+        return self._arrays[name]
+
+    @cached_property
+    def rows(self) -> dict[str, tuple[int, int]]:
+        """First row and end of the segments of each recording."""
+        names = self.table("segments").column("recording").combine_chunks().dictionary_encode()
+        codes = names.indices.to_numpy()
+        edges = [*np.flatnonzero(np.diff(codes, prepend=-1)).tolist(), len(codes)]
+        called = names.dictionary.to_pylist()
+        return {called[codes[a]]: (a, b) for a, b in pairwise(edges)}
+
+    @contextmanager
+    def editing(self) -> Iterator[None]:
+        """A block in which `edits` are all that were made, and nobody else makes any."""
+        with held(self._folder, "try again", LOCK_EDITS):
+            self._take(read_edits(self._folder))
+            yield
+
+    def write(self, edits: Edits) -> None:
+        """Keep edits, and go on with them."""
+        edits.write(self._folder)
+        self._take(edits)
+
+    def _take(self, edits: Edits) -> None:
+        self.edits = edits
+        self._edited: dict[str, Any] = {}
+        self._arrays: dict[str, Columns] = {}
+
+    def _read(self) -> dict[str, Any]:
+        """All tables but the embeddings, which few need."""
+        names = (name for name in DESCRIBED if name != "embeddings")
+        return {name: read_table(self._folder, self.head["tables"], name) for name in names}

@@ -1,0 +1,122 @@
+"""What a build is asked for: which sources, read how, into which folder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from kineme._checks import check_path
+from kineme.errors import ParameterError, WriteError
+from kineme.library.layout import HEAD, PIECES, read_head, read_json
+from kineme.library.settings import Settings
+
+AnyPath = str | PathLike[str]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a build is asked for.
+
+    Attributes
+    ----------
+    folder : Path
+        Of the library.
+    sources : tuple of Path
+        Recordings and folders of them, those that it knew before among them.
+    missing : tuple of Path
+        Those named that are not there, and never were.
+    recursive : bool
+        Whether folders in folders are looked into.
+    settings : Settings
+    """
+
+    folder: Path
+    sources: tuple[Path, ...]
+    missing: tuple[Path, ...]
+    recursive: bool
+    settings: Settings
+
+    @property
+    def pieces(self) -> Path:
+        return self.folder / PIECES
+
+
+def plan_of(
+    folder: Path,
+    head: Mapping[str, Any],
+    sources: Iterable[Path],
+    remove: Iterable[Path],
+    recursive: bool | None,
+    settings: Settings | None,
+) -> Plan:
+    """The plan of a build; what was not said is as it was the last time.
+
+    Raises
+    ------
+    ParameterError
+        There is nothing to build from, or what is to be removed is not known.
+    """
+    known = known_sources(folder, sources, remove)
+    if not known and not head:
+        raise ParameterError(f"{folder}: nothing to build from: name recordings or folders")
+    before = head.get("sources", ())
+    missing = [each for each in known if not each.exists() and str(each) not in before]
+    return Plan(
+        folder,
+        tuple(each for each in known if each not in missing),
+        tuple(missing),
+        bool(head.get("recursive")) if recursive is None else recursive,
+        settings or (Settings.from_json(head["settings"]) if head else Settings()),
+    )
+
+
+def known_sources(
+    into: AnyPath, sources: Iterable[Path] = (), remove: Iterable[Path] = ()
+) -> list[Path]:
+    """The sources of a library after these were added and removed, as absolute paths."""
+    head = read_json(Path(into) / HEAD)
+    sources = [Path(each) for each in head.get("sources", ())] + [*map(absolute, sources)]
+    removed = {*map(absolute, remove)}
+    unknown = removed - set(sources)
+    if unknown:
+        raise ParameterError(
+            f"{min(unknown)} is no source of the library; there are "
+            f"{', '.join(map(str, sources)) or 'none'}"
+        )
+    return [path for path in dict.fromkeys(sources) if path not in removed]
+
+
+def opened(into: AnyPath) -> Path:
+    """The folder of a library, made where there is none."""
+    check_path(into, "build")
+    folder = Path(into)
+    if (folder / HEAD).is_file():
+        read_head(folder)
+        return folder
+    begun = (folder / PIECES).is_dir()  # by a build that was ended before its first head
+    try:
+        if folder.exists() and not begun and (not folder.is_dir() or any(folder.iterdir())):
+            raise WriteError(into, "is there already and is no library: name a new folder")
+        (folder / PIECES).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise WriteError(into, f"cannot be made: {error.strerror or error}") from error
+    return folder
+
+
+def as_paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
+    """One path or several as a list; ParameterError where one is none."""
+    if isinstance(given, str | PathLike):
+        return [Path(given)]
+    paths = list(given)
+    for path in paths:
+        check_path(path, "build")
+    return [Path(path) for path in paths]
+
+
+def absolute(path: Path) -> Path:
+    """The path from the root; links are not followed."""
+    return Path(os.path.abspath(path))  # noqa: PTH100

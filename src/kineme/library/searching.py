@@ -1,0 +1,171 @@
+"""Where recordings are like examples, and not like counter-examples."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._checks import is_number
+from kineme.errors import ParameterError
+from kineme.matching import Matches, search
+from kineme.recordings import Motion, Signals
+
+Float32s = NDArray[np.float32]
+Ints = NDArray[np.int64]
+
+REFUSED = 0.5
+"""Share of a match that one of a counter-example covers where it takes its place."""
+
+
+@dataclass(frozen=True)
+class Example:
+    """A span of a recording that is searched for.
+
+    Parameters
+    ----------
+    recording : path-like, Motion or Signals
+        A file, the name of a recording of the library, or a recording in hand.
+    start_s, stop_s : float, optional
+        Seconds; from the beginning and to the end by default.
+
+    Examples
+    --------
+    >>> Example("walk.bvh", 2.1, 3.4).stop_s
+    3.4
+    """
+
+    recording: str | PathLike[str] | Motion | Signals
+    start_s: float = 0.0
+    stop_s: float | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.recording, str | PathLike | Motion | Signals):
+            raise ParameterError(
+                f"an example is a file, a name or a recording, not {self.recording!r:.60}"
+            )
+        stop = np.inf if self.stop_s is None else self.stop_s
+        numbers = is_number(self.start_s) and (self.stop_s is None or is_number(stop))
+        if not numbers or not 0 <= self.start_s < stop:
+            raise ParameterError(
+                f"an example lasts from one second to a later one, not from {self.start_s!r:.20} "
+                f"to {self.stop_s!r:.20}"
+            )
+
+
+class Hit(NamedTuple):
+    """A span of a recording that is like an example.
+
+    Attributes
+    ----------
+    recording : str
+    start_s, stop_s : float
+    distance : float
+        0 is equal.
+    cluster : int
+        Of the segment that covers most of it, -1 in none.
+    label : str
+        The name of that cluster.
+    """
+
+    recording: str
+    start_s: float
+    stop_s: float
+    distance: float
+    cluster: int
+    label: str
+
+
+def spans_like(
+    features: Float32s,
+    examples: Sequence[Float32s],
+    counterexamples: Sequence[Float32s],
+    *,
+    threshold: float,
+    top: int | None,
+) -> Matches:
+    """Spans of a recording that are like one of the examples, apart from each other.
+
+    A span goes that is more like a counter-example.
+
+    Parameters
+    ----------
+    features : (samples, dims) array
+        Of the recording.
+    examples, counterexamples : sequence of (samples, dims) array
+    threshold : float
+        Largest distance.
+    top : int, optional
+        Spans at most.
+    """
+    found = _together(features, examples, threshold, None if counterexamples else top)
+    if counterexamples and len(found.starts):
+        others = _together(features, counterexamples, threshold, None)
+        first = np.maximum(found.starts[:, None], others.starts[None])
+        shared = np.minimum(found.stops[:, None], others.stops[None]) - first
+        covers = shared >= REFUSED * (found.stops - found.starts)[:, None]
+        nearer = others.distances[None] < found.distances[:, None]
+        kept = np.flatnonzero(~(covers & nearer).any(axis=1))
+        found = _picked(found, kept)
+    return _picked(found, slice(top))
+
+
+def best(hits: Iterable[Hit], *, top: int | None, max_per_recording: int | None) -> list[Hit]:
+    """The nearest hits, no more of a recording than are wanted."""
+    order = sorted(hits, key=lambda hit: (hit.distance, hit.recording, hit.start_s))
+    counts: Counter[str] = Counter()
+    chosen = []
+    for hit in order:
+        counts[hit.recording] += 1
+        if max_per_recording is None or counts[hit.recording] <= max_per_recording:
+            chosen.append(hit)
+        if len(chosen) == top:
+            break
+    return chosen
+
+
+def cover_of(
+    starts: NDArray[np.float64], stops: NDArray[np.float64], levels: NDArray[np.bool_]
+) -> Callable[[float, float], int]:
+    """What tells the row of a table that covers most of a span; the finer level where equal.
+
+    Parameters
+    ----------
+    starts, stops : (rows,) array
+        Seconds.
+    levels : (rows,) array of bool
+        Whether a row is of the finer level.
+    """
+
+    def row(start_s: float, stop_s: float) -> int:
+        shared = np.minimum(stops, stop_s) - np.maximum(starts, start_s)
+        return int(np.lexsort((levels, np.round(shared, 6)))[-1])
+
+    return row
+
+
+def _together(
+    features: Float32s, examples: Sequence[Float32s], threshold: float, top: int | None
+) -> Matches:
+    """The spans that are like any of the examples, apart from each other, the best first."""
+    found = [search(example, features, threshold=threshold, top=top) for example in examples]
+    if len(found) == 1:
+        return found[0]
+    starts, stops, distances = (np.concatenate(column) for column in zip(*found, strict=True))
+    taken = np.zeros(len(features), np.bool_)
+    chosen = []
+    for i in np.lexsort((starts, distances)).tolist():
+        span = slice(starts[i], stops[i])
+        if not taken[span].any():
+            taken[span] = True
+            chosen.append(i)
+    return Matches(starts[chosen], stops[chosen], distances[chosen])
+
+
+def _picked(found: Matches, which: slice | Ints) -> Matches:
+    return Matches(found.starts[which], found.stops[which], found.distances[which])

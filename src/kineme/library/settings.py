@@ -1,0 +1,101 @@
+"""How the recordings of a library are read and segmented: the same for all of them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import asdict, dataclass, field
+from hashlib import sha256
+from os import PathLike, fspath
+from typing import Any
+
+from kineme._version import __version__
+from kineme.errors import ParameterError
+from kineme.formats import ReadOptions
+from kineme.methods.presets import DEFAULT, resolve_preset
+
+PIECE = "kineme.library.piece/1"
+"""Schema of a piece: a change of what is kept of a recording gets the next number."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How recordings are read and segmented.
+
+    Parameters
+    ----------
+    preset : str
+        Name of a preset.
+    constants : Mapping of str to object
+        Of the preset, where they are others.
+    reading : Mapping of str to object
+        Keywords of `kineme.read`, such as ``fps`` and ``unit``.
+    effectors : mapping or sequence of str, optional
+        Joints to take for head, hands and feet where names do not tell.
+
+    Raises
+    ------
+    ParameterError
+        No such preset, constant or keyword, or a value that it cannot take.
+
+    Examples
+    --------
+    >>> Settings(constants={"min_action": 2.0}).constants["min_action"]
+    2.0
+    """
+
+    preset: str = DEFAULT
+    constants: Mapping[str, Any] = field(default_factory=dict)
+    reading: Mapping[str, Any] = field(default_factory=dict)
+    effectors: Mapping[str, str] | Sequence[str] | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.preset, str):
+            raise ParameterError(f"a library takes the name of a preset, not {self.preset!r:.60}")
+        resolve_preset(self.preset, **self.constants)
+        self.options()
+
+    def options(self) -> ReadOptions:
+        """Those of the reader."""
+        try:
+            return ReadOptions(**self.reading)
+        except TypeError:
+            known = ", ".join(ReadOptions.__dataclass_fields__)
+            raise ParameterError(
+                f"recordings are read with {known}, not with {', '.join(self.reading)}"
+            ) from None
+
+    def to_json(self) -> dict[str, Any]:
+        """What JSON can hold of them; ``Settings.from_json`` takes it back."""
+        held: dict[str, Any] = json.loads(json.dumps(asdict(self), default=_plain))
+        return held
+
+    @classmethod
+    def from_json(cls, held: Mapping[str, Any]) -> Settings:
+        """Settings as `to_json` gave them."""
+        constants = {name: _tupled(value) for name, value in held["constants"].items()}
+        reading = {name: _tupled(value) for name, value in held["reading"].items()}
+        return cls(held["preset"], constants, reading, held["effectors"])
+
+    def key(self, digest: str) -> str:
+        """The name of the piece of a recording whose files have this digest."""
+        return sha256(f"{self._digest()} {digest}".encode()).hexdigest()[:32]
+
+    def _digest(self) -> str:
+        """A digest of the version and of everything that decides what is found."""
+        presets = []
+        for signals in (False, True):
+            with suppress(ParameterError):  # constants of one that the other does not have
+                chosen = resolve_preset(self.preset, signals=signals, **self.constants)
+                presets.append([chosen.name, dict(chosen.parameters())])
+        told = [PIECE, __version__, presets, self.to_json()]
+        return sha256(json.dumps(told, sort_keys=True, default=_plain).encode()).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    return fspath(value) if isinstance(value, PathLike) else list(value)
+
+
+def _tupled(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value

@@ -1,0 +1,144 @@
+"""Which files a recording is read from, whether they changed, and what it is called."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+
+from kineme.errors import ReadError
+from kineme.formats.keypoints.openpose import frame_files
+from kineme.formats.listing import recordings_in
+from kineme.formats.options import AnyPath
+from kineme.formats.skeletons.amc import find_skeleton
+
+CHUNK = 1 << 20
+"""Bytes that are digested at a time."""
+_AMC = ".amc"
+
+
+def files_of(path: Path, skeleton: AnyPath | None) -> list[Path]:
+    """The files that a recording is read from, its own first."""
+    if path.is_dir():
+        return [file for _, file in frame_files(path)]
+    if skeleton is not None:
+        return [path, Path(skeleton)]
+    if path.suffix.lower() != _AMC:
+        return [path]
+    try:
+        return [path, find_skeleton(path)]
+    except ReadError:  # its reader will say so
+        return [path]
+
+
+def content_digest(path: Path, skeleton: AnyPath | None) -> str:
+    """SHA-256 of what a recording is read from, and of its suffix, which tells the format.
+
+    Raises
+    ------
+    ReadError
+        A file cannot be opened.
+    """
+    told = sha256(path.suffix.lower().encode())
+    try:
+        for file in files_of(path, skeleton):
+            own = sha256()
+            with file.open("rb") as content:
+                while chunk := content.read(CHUNK):
+                    own.update(chunk)
+            told.update(own.digest())
+    except OSError as error:
+        raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
+    return told.hexdigest()
+
+
+class Glances:
+    """What files look like from outside: whether they changed is told without reading them."""
+
+    def __init__(self, skeleton: AnyPath | None):
+        self._skeleton = None if skeleton is None else Path(skeleton)
+        self._near = cache(_skeletons_in)
+
+    def at(self, path: Path) -> str:
+        """Sizes and times of a recording's files, and of the skeletons near an AMC."""
+        try:
+            if path.is_dir():
+                return _looks(sorted(path.iterdir()))
+            if self._skeleton is not None:
+                return _looks([path, self._skeleton])
+            if path.suffix.lower() != _AMC:
+                return _looks([path])
+            home = path.parent
+            near = [self._near(each) for each in (home, home / "asf", home.parent / "asf")]
+            return " ".join([_looks([path]), *near]).strip()
+        except OSError:
+            return ""
+
+
+def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:
+    """Each recording in the sources that are there, and the source it was found in.
+
+    Parameters
+    ----------
+    sources : iterable of Path
+        Recordings, and folders of them.
+    recursive : bool
+        Look into the folders of a folder, too.
+    without : Path
+        A folder whose files are none: the library itself.
+
+    Returns
+    -------
+    dict of Path to Path
+        Absolute paths; the first source counts.
+    """
+    found: dict[Path, Path] = {}
+    for source in sources:
+        inside = [source]
+        if source.is_dir():
+            inside = recordings_in(source, recursive=recursive).recordings
+        for path in inside:
+            if path.exists() and not path.is_relative_to(without):
+                found.setdefault(path, source)
+    return found
+
+
+def names_of(found: Mapping[Path, Path], known: Mapping[Path, str]) -> dict[Path, str]:
+    """A name for each recording: its path in its source, with more folders where two are equal.
+
+    Parameters
+    ----------
+    found : mapping of Path to Path
+        Recordings and their sources.
+    known : mapping of Path to str
+        Names that are given already; they stay.
+
+    Returns
+    -------
+    dict of Path to str
+    """
+    names = {path: known[path] for path in found if path in known}
+    taken = set(names.values())
+    for path, source in found.items():
+        if path in names:
+            continue
+        depth = 1 if path == source else len(path.parts) - len(source.parts)
+        while (name := "/".join(path.parts[-depth:])) in taken and depth < len(path.parts):
+            depth += 1
+        names[path] = name
+        taken.add(name)
+    return {path: names[path] for path in found}
+
+
+def _looks(files: Iterable[Path]) -> str:
+    stats = ((file.name, file.stat()) for file in files)
+    return " ".join(f"{name}:{seen.st_size}:{seen.st_mtime_ns}" for name, seen in stats)
+
+
+def _skeletons_in(folder: Path) -> str:
+    try:
+        files = sorted(file for file in folder.iterdir() if file.suffix.lower() == ".asf")
+    except OSError:
+        return ""
+    return sha256(_looks(files).encode()).hexdigest()[:16] if files else ""

@@ -1,0 +1,97 @@
+"""``kineme library`` as people type it."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from kineme.datasets import bundled_recording
+
+Kineme = Callable[..., object]
+
+
+@pytest.fixture
+def home(tmp_path: Path, kineme_here) -> Path:
+    (tmp_path / "takes").mkdir()
+    shutil.copy(bundled_recording(), tmp_path / "takes" / "take.bvh")
+    (tmp_path / "takes" / "broken.bvh").write_text("HIERARCHY\n")
+    built = kineme_here("library", "build", "takes", "--into", "lib", "--jobs", 1)
+    assert built.returncode == 0, built.stderr
+    assert built.stdout == "1 recording in lib, 1 new, 1 failed\n"
+    assert built.stderr.startswith("skipped: ")
+    assert "broken.bvh" in built.stderr
+    return tmp_path
+
+
+def test_from_a_folder_to_all_the_walks_in_it(home: Path, kineme_here) -> None:
+    example = ("--like", "takes/take.bvh", "--start", 0.5, "--stop", 1.6)
+    found = kineme_here("library", "search", "lib", *example, "--top", 5, "--json")
+    hits = [json.loads(line) for line in found.stdout.splitlines()]
+    assert len(hits) == 5
+    assert list(hits[0]) == ["recording", "start_s", "stop_s", "distance", "cluster", "label"]
+    (cluster,) = {hit["cluster"] for hit in hits}
+    assert kineme_here("library", "name", "lib", cluster, "walk").returncode == 0
+    named = kineme_here("library", "search", "lib", "--cluster", "walk", "--export", "clips")
+    assert "walk" in named.stdout
+    assert "clips in clips" in named.stdout
+    assert (home / "clips" / "manifest.csv").is_file()
+    asked = kineme_here(
+        "library", "query", "lib", "--json",
+        "select count(*) n from segments where label = 'walk' and level = 'primitive'",
+    )  # fmt: skip
+    assert json.loads(asked.stdout)["n"] >= 5
+    assert kineme_here("library", "export", "lib", "--to", "table.csv").returncode == 0
+    with (home / "table.csv").open(newline="") as file:
+        assert {row["recording"] for row in csv.DictReader(file)} == {"take.bvh"}
+    shown = kineme_here("library", "show", "lib")
+    assert "1 recording, 0.01 h" in shown.stdout
+    assert "walk" in shown.stdout
+    assert "failed: " in shown.stdout
+    facts = json.loads(kineme_here("library", "show", "lib", "--json").stdout)
+    assert "walk" in [each["label"] for each in facts["clusters"]]
+
+
+def test_clusters_are_merged_and_split(home: Path, kineme_here) -> None:
+    shutil.copy(home / "takes" / "take.bvh", home / "takes" / "again.bvh")
+    kineme_here("library", "build", "--into", "lib", "--jobs", 1)
+    kineme_here("library", "merge", "lib", 0, 1)
+    facts = json.loads(kineme_here("library", "show", "lib", "--json").stdout)
+    assert 1 not in [each["cluster"] for each in facts["clusters"]]
+    new = int(kineme_here("library", "split", "lib", 0, "again.bvh").stdout)
+    facts = json.loads(kineme_here("library", "show", "lib", "--json").stdout)
+    assert new in [each["cluster"] for each in facts["clusters"]]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (("build", "takes/none.bvh", "--into", "lib"), 1, "no such file"),
+        (("build", "takes", "--into", "takes"), 1, "is no library"),
+        (("build", "--into", "new"), 1, "nothing to build from"),
+        (("build", "takes", "--into", "lib", "--remove", "elsewhere"), 1, "is no source"),
+        (("build", "takes", "--into", "lib", "--preset", "none"), 2, "no preset"),
+        (("search", "takes", "--like", "takes/take.bvh"), 1, "is no library"),
+        (("search", "lib"), 2, "nothing to search for"),
+        (("search", "lib", "--like", "nobody.bvh"), 1, "no such file"),
+        (("search", "lib", "--like", "a.bvh", "--like", "b.bvh", "--start", "1"), 2, "single"),
+        (("search", "lib", "--like", "take.bvh", "--start", "2", "--stop", "1"), 2, "lasts from"),
+        (("search", "lib", "--like", "take.bvh", "--threshold", "-1"), 1, "threshold"),
+        (("search", "lib", "--cluster", "swim"), 1, "no cluster is called swim"),
+        (("query", "lib", "select nothing"), 1, "nothing"),
+        (("export", "lib", "--to", "table.xlsx"), 1, "suffix"),
+        (("name", "lib", "99", "walk"), 1, "no cluster is called 99"),
+        (("split", "lib", "0", "nobody.bvh"), 1, "is split by naming some"),
+    ],
+)  # fmt: skip
+def test_what_makes_no_sense_is_one_sentence(
+    home: Path, kineme_here, arguments: tuple[str, ...], code: int, said: str
+) -> None:
+    done = kineme_here("library", *arguments)
+    assert done.returncode == code, done.stdout + done.stderr
+    assert said in " ".join(done.stderr.replace("│", " ").split())
+    assert "Traceback" not in done.stderr

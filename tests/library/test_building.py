@@ -1,0 +1,222 @@
+"""What a build leaves, whatever happens to it on the way."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import kineme
+from kineme.errors import ParameterError, ReadError, WriteError
+from kineme.library import Library, Settings, build
+from kineme.library import work as work_module
+from library_folders import contents
+
+
+def test_one_bad_file_costs_itself_only(built: Path, takes: Path) -> None:
+    library = Library(built)
+    assert library.recordings["recording"] == ["jacks.bvh", "walk.bvh", "wrist.csv"]
+    assert list(library.failed) == [str(takes / "broken.bvh")]
+    assert "broken.bvh" in library.failed[str(takes / "broken.bvh")]
+
+
+def test_an_unchanged_library_is_left_as_it_is(folder: Path) -> None:
+    before = {path: path.stat().st_mtime_ns for path in folder.rglob("*.*")}
+    again = build((), folder)
+    assert (again.new, again.removed) == (0, 0)
+    assert {path: path.stat().st_mtime_ns for path in folder.rglob("*.*")} == before
+
+
+def test_a_file_that_was_only_touched_is_not_segmented_again(
+    built: Path, takes: Path, tmp_path: Path
+) -> None:
+    own = shutil.copytree(takes, tmp_path / "takes")
+    folder = tmp_path / "library"
+    build(own / "wrist.csv", folder)
+    os.utime(own / "wrist.csv", (1, 1))
+    assert build((), folder).new == 0
+
+
+def test_recordings_come_and_go(takes: Path, tmp_path: Path) -> None:
+    own = tmp_path / "takes"
+    own.mkdir()
+    shutil.copy(takes / "wrist.csv", own / "a.csv")
+    folder = tmp_path / "library"
+    assert build(own, folder).new == 1
+    shutil.copy(takes / "walk.bvh", own / "b.bvh")
+    assert build((), folder).new == 1
+    (own / "a.csv").unlink()
+    gone = build((), folder)
+    assert (gone.new, gone.removed) == (0, 1)
+    assert Library(folder).recordings["recording"] == ["b.bvh"]
+    assert len(list((folder / "pieces").iterdir())) == 2
+
+
+def test_another_skeleton_makes_another_recording(tmp_path: Path) -> None:
+    motion = kineme.read(kineme.bundled_recording())[:200]
+    kineme.write(motion, tmp_path / "take.amc")
+    folder = tmp_path / "library"
+    assert build(tmp_path / "take.amc", folder).new == 1
+    skeleton = next(tmp_path.glob("*.asf"))
+    skeleton.write_text(skeleton.read_text() + "\n# another one\n")
+    assert build((), folder).new == 1
+
+
+def test_settings_stay_until_others_are_given(takes: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "library"
+    said = Settings(constants={"min_action": 3.0}, reading={"fps": 25.0})
+    assert build(takes / "wrist.csv", folder, settings=said).new == 1
+    assert build((), folder).new == 0
+    assert Library(folder).settings == said
+    assert build((), folder, settings=Settings()).new == 1
+
+
+def test_a_source_that_is_gone_keeps_its_recordings_until_it_is_removed(
+    takes: Path, tmp_path: Path
+) -> None:
+    own = tmp_path / "takes"
+    own.mkdir()
+    shutil.copy(takes / "wrist.csv", own)
+    folder = tmp_path / "library"
+    build(own, folder)
+    own.rename(tmp_path / "elsewhere")
+    kept = build((), folder)
+    assert [path.name for path in kept.paths] == ["wrist.csv"]
+    assert "recordings are kept" in kept.failed[own]
+    build(tmp_path / "elsewhere", folder, remove=[own])
+    assert Library(folder).recordings["path"] == [str(tmp_path / "elsewhere" / "wrist.csv")]
+
+
+def test_a_mistyped_source_is_said_and_forgotten(folder: Path, tmp_path: Path) -> None:
+    assert tmp_path / "takse" in build(tmp_path / "takse", folder).failed
+    assert tmp_path / "takse" not in build((), folder).failed
+
+
+def test_recordings_of_one_name_are_told_apart_and_keep_their_names(
+    takes: Path, tmp_path: Path
+) -> None:
+    for place in ("a", "b"):
+        (tmp_path / place).mkdir()
+        shutil.copy(takes / "wrist.csv", tmp_path / place)
+    folder = tmp_path / "library"
+    build(tmp_path / "b", folder)
+    build(tmp_path / "a", folder)
+    paths = dict(zip(Library(folder).recordings["recording"], Library(folder).recordings["path"]))
+    assert paths == {
+        "wrist.csv": str(tmp_path / "b" / "wrist.csv"),
+        "a/wrist.csv": str(tmp_path / "a" / "wrist.csv"),
+    }
+
+
+def test_the_number_of_processes_changes_no_byte(built: Path, takes: Path, tmp_path: Path) -> None:
+    build(takes, tmp_path / "library", jobs=2)
+    assert contents(tmp_path / "library") == contents(built)
+
+
+def test_a_build_that_was_killed_goes_on_to_the_same_bytes(
+    built: Path, takes: Path, tmp_path: Path
+) -> None:
+    folder = tmp_path / "library"
+    command = [sys.executable, "-m", "kineme", "library", "build", takes, "--into", folder]
+    process = subprocess.Popen([*map(str, command), "--jobs", "2"], start_new_session=True)
+    while process.poll() is None and not list(folder.glob("pieces/*.parquet")):
+        time.sleep(0.01)
+    os.kill(process.pid, signal.SIGKILL)  # its workers end by themselves
+    process.wait()
+    with pytest.raises(ReadError, match="is no library"):
+        Library(folder)
+    made = len(list(folder.glob("pieces/*.parquet")))
+    deadline = time.monotonic() + 60
+    while made < 3:  # the worker may be at its next piece: it ends before or after it
+        try:
+            os.killpg(process.pid, 0)
+        except ProcessLookupError:
+            break
+        assert time.monotonic() < deadline, "workers outlive the build"
+        time.sleep(0.05)
+    made = len(list(folder.glob("pieces/*.parquet")))
+    assert build(takes, folder).new == 3 - made
+    assert contents(folder) == contents(built)
+
+
+DEADLY = """
+import os
+from kineme.formats import Format
+
+def read(content, options):
+    os._exit(1)
+
+FORMAT = Format("DEADLY", (".deadly",), lambda head: False, read)
+"""
+
+
+def test_a_worker_that_dies_costs_its_recording_only(takes: Path, tmp_path: Path) -> None:
+    site = tmp_path / "site"
+    (site / "deadly-1.0.dist-info").mkdir(parents=True)
+    (site / "deadly.py").write_text(DEADLY)
+    info = site / "deadly-1.0.dist-info"
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: deadly\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[kineme.formats]\ndeadly = deadly:FORMAT\n")
+    own = tmp_path / "takes"
+    own.mkdir()
+    for name in ("a.csv", "c.csv", "d.csv"):
+        shutil.copy(takes / "wrist.csv", own / name)
+        with (own / name).open("a") as file:
+            file.write("\n" * len(list(own.iterdir())))
+    (own / "b.deadly").write_text("b")
+    ours = Path(kineme.__file__).parents[1]
+    done = subprocess.run(
+        [sys.executable, "-m", "kineme", "library", "build", str(own), "--into",
+         str(tmp_path / "library"), "--jobs", "2"],
+        capture_output=True, text=True, check=False,
+        env={**os.environ, "PYTHONPATH": f"{site}{os.pathsep}{ours}"},
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "3 recordings" in done.stdout
+    assert "b.deadly: the process that worked on it died" in done.stderr
+
+
+def test_a_full_disk_ends_the_build_and_leaves_what_was_there(
+    folder: Path, takes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = contents(folder)
+
+    def full(*_: object) -> None:
+        raise WriteError(folder, "cannot be written: No space left on device")
+
+    monkeypatch.setattr(work_module, "write_piece", full)
+    with pytest.raises(WriteError, match="No space left"):
+        build((), folder, settings=Settings(constants={"min_action": 3.0}))
+    assert contents(folder) == before
+    assert len(Library(folder)) == 3
+
+
+def test_one_build_at_a_time(folder: Path) -> None:
+    from kineme.library.layout import held
+
+    with held(folder, "build"), pytest.raises(WriteError, match="another process"):
+        build((), folder)
+
+
+def test_what_is_no_library_is_not_written_into(takes: Path, tmp_path: Path) -> None:
+    with pytest.raises(WriteError, match="is no library"):
+        build(takes, takes)
+    with pytest.raises(ParameterError, match="nothing to build from"):
+        build((), tmp_path / "library")
+    with pytest.raises(ParameterError, match="is no source"):
+        build((), tmp_path / "other", remove=[takes])
+
+
+def test_progress_tells_how_far_it_is_and_what_is_left(takes: Path, tmp_path: Path) -> None:
+    told: list[str] = []
+    build(takes, tmp_path / "library", progress=told.append)
+    assert told[0] == "looking for recordings"
+    assert told[1].startswith("1 of 4, ")
+    assert told[1].endswith(" left")
+    assert told[4:] == ["4 of 4", "clusters in common"]

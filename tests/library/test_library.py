@@ -1,0 +1,243 @@
+"""A library, asked, searched and edited."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from pyarrow import parquet
+
+import kineme
+from kineme.errors import ParameterError, ReadError, WriteError
+from kineme.library import Example, Library, build
+from kineme.library.constants import VOCABULARY
+from kineme.library.tables import DESCRIBED
+from kineme.matching import THRESHOLD
+from kineme.segments.table import COLUMNS
+
+
+def test_columns_are_those_described(library: Library) -> None:
+    for name, columns in DESCRIBED.items():
+        assert sorted(library.table(name).column_names) == sorted(columns)
+    pieces = {path.stem for path in (library.folder / "pieces").iterdir()}
+    assert pieces == set(library.recordings["piece"])
+
+
+def test_segments_are_those_of_each_recording_alone(library: Library) -> None:
+    alone = kineme.segment(library.read("walk.bvh"))
+    rows = library.query("from segments where recording = 'walk.bvh' order by segment").to_pydict()
+    for name in COLUMNS:
+        if name not in ("cluster", "action"):
+            own = getattr(alone.table, name).tolist()
+            assert [x for x in rows[name] if x == x] == [x for x in own if x == x]
+    assert rows["own_cluster"] == alone.table.cluster.tolist()
+
+
+def test_a_movement_in_two_recordings_is_one_cluster(library: Library) -> None:
+    # Both hold the frames 1200 to 1500 of the bundled recording, in which somebody waves.
+    both = [each for each in library.clusters() if each.recordings == 2]
+    assert both
+    assert {each.vocabulary for each in library.clusters()} == {
+        "bodies", library.recordings["vocabulary"][2]
+    }  # fmt: skip
+
+
+def test_search_finds_the_example_and_its_like_wherever_it_is(library: Library) -> None:
+    hits = library.search("walk.bvh", 0.5, 1.6)
+    assert hits[0].recording == "walk.bvh"
+    assert (hits[0].start_s, hits[0].stop_s) == pytest.approx((0.5, 1.6), abs=0.1)
+    assert hits[0].distance < 0.01
+    assert [hit.distance for hit in hits] == sorted(hit.distance for hit in hits)
+    assert len(library.search("walk.bvh", 0.5, 1.6, top=3)) == 3
+    one = library.search("walk.bvh", 0.5, 1.6, max_per_recording=1)
+    assert len({hit.recording for hit in one}) == len(one)
+    assert all(hit.distance <= 0.3 for hit in library.search("walk.bvh", 0.5, 1.6, threshold=0.3))
+
+
+def test_a_recording_in_hand_or_a_file_is_searched_for_as_well(library: Library) -> None:
+    motion = kineme.read(kineme.bundled_recording())
+    known = library.search("walk.bvh", 0.5, 1.6, top=5)
+    for example in (motion, kineme.bundled_recording()):
+        found = library.search(example, 0.5, 1.6, top=5)
+        assert [hit[:3] for hit in found] == [hit[:3] for hit in known]
+
+
+def test_channels_are_searched_in_their_own_features(library: Library) -> None:
+    hits = library.search("wrist.csv", 2.0, 6.0)
+    assert {hit.recording for hit in hits} == {"wrist.csv"}
+    assert all(hit.stop_s < 22 for hit in hits[:3])
+    with pytest.raises(ParameterError, match="do not compare"):
+        library.search([Example("wrist.csv", 2.0, 6.0), Example("walk.bvh", 0.5, 1.6)])
+    with pytest.raises(ParameterError, match="the library has"):
+        library.search(kineme.Signals([[0.0, 1.0, 2.0]] * 300, 30.0))
+
+
+def test_several_examples_find_what_each_finds(library: Library) -> None:
+    one, other = Example("walk.bvh", 0.5, 1.6), Example("jacks.bvh", 20.0, 21.5)
+    both = library.search([one, other], top=None)
+    for example in (one, other):
+        best = library.search(example, top=1)[0]
+        assert best in both
+    for hit, after in pairwise(both):
+        assert hit.distance <= after.distance
+    spans = sorted((hit.recording, hit.start_s, hit.stop_s) for hit in both)
+    assert all(a[0] != b[0] or a[2] <= b[1] + 1e-9 for a, b in pairwise(spans))
+
+
+def test_counterexamples_take_away_what_is_more_like_them(library: Library) -> None:
+    example = Example("walk.bvh", 0.5, 1.6)
+    hits = library.search(example, threshold=1.2, top=None)
+    worst = hits[-1]
+    refused = Example(worst.recording, worst.start_s, worst.stop_s)
+    kept = library.search(example, unlike=[refused], threshold=1.2, top=None)
+    assert kept[0] == hits[0]
+    assert worst not in kept
+    assert set(kept) <= set(hits)
+
+
+def test_a_cluster_is_searched_for_by_number_and_name(library: Library) -> None:
+    largest = library.clusters()[0]
+    library.name(largest.cluster, "most of it")
+    hits = library.search(cluster="most of it", top=5)
+    assert hits == library.search(cluster=largest.cluster, top=5)
+    assert hits[0].label == "most of it"
+    with pytest.raises(ParameterError, match="no cluster is called swim"):
+        library.search(cluster="swim")
+    with pytest.raises(ParameterError, match="nothing to search for"):
+        library.search()
+
+
+def test_the_mirror_image_is_found_on_request(library: Library, tmp_path: Path) -> None:
+    mirrored = kineme.mirror(kineme.read(kineme.bundled_recording())[0:300])
+    plain = library.search(mirrored, 0.5, 1.6, top=1)[0]
+    found = library.search(mirrored, 0.5, 1.6, top=1, mirror=True)[0]
+    assert found.distance < 0.02 < plain.distance
+
+
+@pytest.mark.parametrize(
+    ("example", "error"),
+    [
+        (("nowhere.bvh", 0.0, 1.0), ReadError),
+        (("walk.bvh", 500.0, None), ParameterError),
+        (("walk.bvh", 2.0, 1.0), ParameterError),
+        (("walk.bvh", float("nan"), 1.0), ParameterError),
+        ((3,), ParameterError),
+    ],
+)
+def test_an_example_that_is_none_is_refused(
+    library: Library, example: tuple[object, ...], error: type[Exception]
+) -> None:
+    with pytest.raises(error):
+        library.search(*example)
+
+
+def test_names_merges_and_splits_outlast_a_build(folder: Path, takes: Path, tmp_path: Path) -> None:
+    library = Library(folder)
+    bodies = [each for each in library.clusters() if each.vocabulary == "bodies"]
+    first, second = bodies[0].cluster, bodies[1].cluster
+    library.name(first, "walk").merge("walk", second)
+    shared = next(each for each in bodies if each.recordings == 2)
+    part = library.split(shared.cluster, ["walk.bvh"])
+    before = {each.cluster: each for each in library.clusters()}
+    shutil.copy(takes / "walk.bvh", tmp_path / "again.bvh")
+    build(tmp_path / "again.bvh", folder)
+    after = {each.cluster: each for each in Library(folder).clusters()}
+    assert after.keys() == before.keys()
+    assert second not in after
+    assert after[part].recordings == 1
+    assert after[Library(folder).numbers("walk")[0]].label == "walk"
+    labels = Library(folder).query("select distinct label, action_label from segments").to_pylist()
+    assert {"label": "walk", "action_label": "walk"} in labels
+
+
+def test_a_number_is_never_given_twice(folder: Path, takes: Path) -> None:
+    used = {each.cluster for each in Library(folder).clusters()}
+    build((), folder, remove=[takes])
+    assert len(Library(folder)) == 0
+    assert Library(folder).table().num_rows == len(Library(folder).clusters()) == 0
+    build(takes / "wrist.csv", folder)
+    assert not used & {each.cluster for each in Library(folder).clusters()}
+
+
+def test_splits_that_make_no_sense_are_refused(library: Library) -> None:
+    number = library.clusters()[0].cluster
+    for recordings in ([], ["wrist.csv", "walk.bvh", "jacks.bvh"], ["nobody.bvh"]):
+        with pytest.raises(ParameterError, match="is split by naming some"):
+            library.split(number, recordings)
+    with pytest.raises(ParameterError, match="one line of plain text"):
+        library.name(number, "two\nlines")
+
+
+def test_questions_in_sql(library: Library) -> None:
+    answer = library.query(
+        "select recording, sum(stop_s - start_s) s from segments where level = 'activity' "
+        "group by recording order by recording"
+    ).to_pydict()
+    assert answer["recording"] == library.recordings["recording"]
+    assert answer["s"] == pytest.approx(library.recordings["duration_s"])
+    near = library.query("select count(*) n from embeddings").to_pylist()[0]["n"]
+    assert near == library.query(
+        "select count(*) n from segments where kind = 'activity' and recording != 'none'"
+    ).to_pylist()[0]["n"]  # fmt: skip
+    for wrong in ("select", "from nowhere", "select * from '/etc/passwd'"):
+        with pytest.raises(ParameterError):
+            library.query(wrong)
+
+
+def test_tables_are_taken_along(library: Library, tmp_path: Path) -> None:
+    library.name(library.clusters()[0].cluster, "most of it")
+    library.export(tmp_path / "table.parquet")
+    library.export(tmp_path / "table.csv")
+    rows = parquet.read_table(tmp_path / "table.parquet").to_pylist()
+    with (tmp_path / "table.csv").open(newline="") as file:
+        texts = list(csv.DictReader(file))
+    assert [row["recording"] for row in rows] == [row["recording"] for row in texts]
+    assert {"most of it", ""} == {row["label"] for row in texts}
+    assert library.table().to_pandas().recording.nunique() == 3
+    with pytest.raises(WriteError, match="suffix"):
+        library.export(tmp_path / "table.xlsx")
+
+
+def test_hits_become_clips(library: Library, tmp_path: Path) -> None:
+    hits = library.search("walk.bvh", 0.5, 1.6, top=3)
+    clips = library.clips(hits, tmp_path / "clips")
+    assert len(clips) == 3
+    assert kineme.read(clips[0]).duration == pytest.approx(
+        hits[0].stop_s - hits[0].start_s, abs=0.1
+    )
+    assert (tmp_path / "clips" / "manifest.csv").is_file()
+
+
+def test_readers_of_another_schema_are_told_to_build_anew(folder: Path) -> None:
+    head = json.loads((folder / "library.json").read_text())
+    (folder / "library.json").write_text(json.dumps({**head, "schema": "kineme.library/9"}))
+    with pytest.raises(ReadError, match="kineme.library/9"):
+        Library(folder)
+
+
+def test_a_damaged_file_is_one_error(folder: Path) -> None:
+    key = Library(folder).recordings["piece"][0]
+    (folder / "pieces" / f"{key}.npy").write_bytes(b"nothing")
+    with pytest.raises(ReadError, match="damaged"):
+        Library(folder).search("walk.bvh", 0.5, 1.6)
+    for path in (folder / "tables").rglob("segments.parquet"):
+        path.write_bytes(b"nothing")
+    with pytest.raises(ReadError):
+        Library(folder)
+
+
+def test_columns_of_the_docs_are_those_of_the_tables() -> None:
+    text = (Path(__file__).parents[2] / "docs" / "library.md").read_text(encoding="utf-8")
+    types = {str: "text", int: "whole number", float: "number"}
+    for name, columns in DESCRIBED.items():
+        for column, known in columns.items():
+            if (name, column) != ("embeddings", "embedding") and column not in COLUMNS:
+                assert f"| `{column}` | {types[known.type]} | {known.meaning} |" in text
+
+
+def test_words_are_joined_as_far_as_a_search_reaches() -> None:
+    assert VOCABULARY.join == THRESHOLD
