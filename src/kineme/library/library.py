@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from kineme._checks import check_path, is_number
 from kineme._files import atomic_write
@@ -22,15 +22,14 @@ from kineme.library.examples import as_examples, features_of, one_vocabulary
 from kineme.library.layout import EXTRA, PIECES, arrow
 from kineme.library.opened import OpenTables
 from kineme.library.pieces import read_features
-from kineme.library.searching import Example, Hit, best, cover_of, spans_like
+from kineme.library.searching import Example, Hit, best, spans_like
 from kineme.library.settings import Settings
 from kineme.library.tables import DESCRIBED
-from kineme.matching import THRESHOLD
+from kineme.matching import THRESHOLD, Matches
 from kineme.recordings import Motion, Signals
 from kineme.segments.table import Segment
 
 AnyPath = str | PathLike[str]
-Float32s = NDArray[np.float32]
 TYPICAL = 5
 """Words that stand for a cluster in a search, the most typical ones."""
 
@@ -225,15 +224,15 @@ class Library:
             )
         examples = [part for _, part in wanted]
 
-        def hits_in(row: int) -> list[Hit]:
+        def spans_in(row: int) -> Matches:
             features = read_features(self.folder / PIECES, self.recordings["piece"][row])
-            spans = spans_like(
-                features, examples, refused, threshold=threshold, top=max_per_recording or top
-            )
-            return self._hits(row, *spans)
+            most = max_per_recording or top
+            return spans_like(features, examples, refused, threshold=threshold, top=most)
 
-        found = (hit for hits in map_threads(hits_in, rows) for hit in hits)
-        return best(found, top=top, max_per_recording=max_per_recording)
+        with threadpool_limits(1):  # recordings are searched side by side
+            found = map_threads(spans_in, rows)
+        chosen = best(found, top=top, most=max_per_recording)
+        return [self._hit(rows[i], *span) for i, span in chosen]
 
     def clips(self, hits: Sequence[Hit], folder: AnyPath) -> list[Path]:
         """Write what a search found as clips, with a manifest; see `kineme.clips.split`.
@@ -443,23 +442,22 @@ class Library:
         columns = (words[name][rows].tolist() for name in ("recording", "start_s", "stop_s"))
         return [Example(*one) for one in zip(*columns, strict=True)]
 
-    def _hits(
-        self, row: int, starts: NDArray[np.int64], stops: NDArray[np.int64], distances: Float32s
-    ) -> list[Hit]:
-        """Spans of a recording in seconds, with the clusters that they lie in."""
+    def _hit(self, row: int, start: int, stop: int, distance: float) -> Hit:
+        """A span of a recording, samples, with the cluster of the segment that covers most of it.
+
+        Of segments that cover as much, that of the finer level counts.
+        """
         recording = self.recordings["recording"][row]
         fps, lasts = (self.recordings[name][row] for name in ("features_fps", "duration_s"))
+        start_s, stop_s = start / fps, min(stop / fps, lasts)
         segments = self._tables.columns("segments")
-        first, last = self._tables.rows[recording]
-        own = {name: column[first:last] for name, column in segments.items()}
-        covers = cover_of(own["start_s"], own["stop_s"], own["level"] == "primitive")
-        hits = []
-        for start, stop, distance in zip(starts, stops, distances, strict=True):
-            start_s, stop_s = float(start / fps), min(float(stop / fps), lasts)
-            cluster = int(own["cluster"][covers(start_s, stop_s)])
-            label = self._tables.edits.name(cluster) if cluster >= 0 else ""
-            hits.append(Hit(recording, start_s, stop_s, round(float(distance), 4), cluster, label))
-        return hits
+        rows = slice(*self._tables.rows[recording])
+        shared = np.minimum(segments["stop_s"][rows], stop_s)
+        shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)
+        covers = int(np.lexsort((segments["level"][rows] == "primitive", shared))[-1])
+        cluster = int(segments["cluster"][rows][covers])
+        label = self._tables.edits.name(cluster) if cluster >= 0 else ""
+        return Hit(recording, start_s, stop_s, round(distance, 4), cluster, label)
 
 
 def _cell(value: object) -> object:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from typing import NamedTuple
@@ -115,38 +114,31 @@ def spans_like(
     return _picked(found, slice(top))
 
 
-def best(hits: Iterable[Hit], *, top: int | None, max_per_recording: int | None) -> list[Hit]:
-    """The nearest hits, no more of a recording than are wanted."""
-    order = sorted(hits, key=lambda hit: (hit.distance, hit.recording, hit.start_s))
-    counts: Counter[str] = Counter()
-    chosen = []
-    for hit in order:
-        counts[hit.recording] += 1
-        if max_per_recording is None or counts[hit.recording] <= max_per_recording:
-            chosen.append(hit)
-        if len(chosen) == top:
-            break
-    return chosen
-
-
-def cover_of(
-    starts: NDArray[np.float64], stops: NDArray[np.float64], levels: NDArray[np.bool_]
-) -> Callable[[float, float], int]:
-    """What tells the row of a table that covers most of a span; the finer level where equal.
+def best(
+    found: Sequence[Matches], *, top: int | None, most: int | None
+) -> list[tuple[int, tuple[int, int, float]]]:
+    """The nearest spans of several recordings.
 
     Parameters
     ----------
-    starts, stops : (rows,) array
-        Seconds.
-    levels : (rows,) array of bool
-        Whether a row is of the finer level.
+    found : sequence of Matches
+        Of each recording.
+    top : int, optional
+        Spans at most.
+    most : int, optional
+        Of one recording at most.
+
+    Returns
+    -------
+    list of (int, (int, int, float))
+        Which recording, and start, stop and distance; the nearest first.
     """
-
-    def row(start_s: float, stop_s: float) -> int:
-        shared = np.minimum(stops, stop_s) - np.maximum(starts, start_s)
-        return int(np.lexsort((levels, np.round(shared, 6)))[-1])
-
-    return row
+    spans = [
+        (distance, i, start, stop)
+        for i, each in enumerate(found)
+        for start, stop, distance in zip(*(column[:most].tolist() for column in each), strict=True)
+    ]
+    return [(i, (start, stop, distance)) for distance, i, start, stop in sorted(spans)[:top]]
 
 
 def _together(

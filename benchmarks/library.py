@@ -1,0 +1,162 @@
+"""What a library costs: building it, building it again, and searching it.
+
+    python benchmarks/library.py [--files 1000] [--hours 10]
+
+1. Forty copies of trial 86_10 as AMC, each with a comment of its own so that no two are equal:
+   ``library build`` beside ``segment FOLDER``, as commands, on all cores.
+2. A library of so many short recordings, built again with nothing changed.
+3. A walk searched in so many hours of recording: pieces of subject 86, shaken anew for each
+   recording; in a library that is open, and as a command.
+
+Each line says what was promised.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+import numpy as np
+
+from _measure import verdict
+from _recordings import DATA
+from kineme import Library, read
+from kineme._version import __version__
+from kineme.library import Settings
+from kineme.library.compiling import compiled
+from kineme.library.constants import VOCABULARY
+from kineme.library.layout import HEAD, PIECES, SCHEMA, write_json
+from kineme.library.pieces import Piece, write_piece
+from kineme.library.tables import write_tables
+from kineme.library.work import make_piece
+
+COPIES = 40
+SHAKEN = 0.05
+"""Deviation of what is added to each feature of a copy."""
+LASTS_S = 360.0
+"""Of a simulated recording, seconds."""
+WALK = ("86_01.amc", 2.0, 3.2)
+
+
+def kineme(*arguments: object) -> tuple[float, float, float]:
+    """Seconds that a command takes, of clock and processors; gigabytes of its largest process."""
+    start = perf_counter()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "kineme", *map(str, arguments)], stdout=subprocess.DEVNULL
+    )
+    _, status, usage = os.wait4(process.pid, 0)
+    if status:
+        raise SystemExit(f"{arguments} ended with {status}")
+    used = usage.ru_utime + usage.ru_stime
+    return perf_counter() - start, used, usage.ru_maxrss / 1e6
+
+
+def copies(folder: Path, n: int, *, frames: int | None = None) -> None:
+    """Copies of trial 86_10 that differ in a comment, on the skeleton of the subject."""
+    folder.mkdir()
+    (folder / "86.asf").write_bytes((DATA / "cmu86" / "86.asf").read_bytes())
+    text = (DATA / "cmu86" / "86_10.amc").read_text()
+    if frames is not None:
+        text = text[: text.index(f"\n{frames + 1}\n") + 1]
+    for i in range(n):
+        (folder / f"86_10_{i:04d}.amc").write_text(f"# copy {i}\n{text}")
+
+
+def show_build(home: Path) -> None:
+    copies(home / "copies", COPIES)
+    alone, alone_used, _ = kineme("segment", home / "copies", "--quiet")
+    built, used, memory = kineme(
+        "library", "build", home / "copies", "--into", home / "lib", "--quiet"
+    )
+    print(
+        f"{COPIES} copies of 86_10: segment FOLDER {alone:.1f} s, library build {built:.1f} s, "
+        f"{alone / built:.2f} times as fast (1.6 promised); processors {alone_used:.1f} and "
+        f"{used:.1f} s"
+    )
+    print(f"largest process {memory:.2f} GB, {verdict(memory, 1.0)}")
+    kept = sum(path.stat().st_size for path in (home / "lib").rglob("*") if path.is_file())
+    hours = Library(home / "lib").hours
+    print(f"kept: {kept / 1e6 / hours:.1f} MB an hour of recording")
+
+
+def show_second_build(home: Path, files: int) -> None:
+    copies(home / "short", files, frames=60)
+    first, *_ = kineme("library", "build", home / "short", "--into", home / "many", "--quiet")
+    again, used, _ = kineme("library", "build", "--into", home / "many", "--quiet")
+    print(
+        f"{files} short recordings: {first:.1f} s; again {again:.2f} s, "
+        f"{verdict(again, 2.0)}; processor {used:.2f} s"
+    )
+
+
+def simulated(folder: Path, hours: float) -> None:
+    """A library of recordings that are shaken pieces of subject 86."""
+    (folder / PIECES).mkdir(parents=True)
+    rng = np.random.default_rng(0)
+    made = [make_piece(read(path), Settings()) for path in sorted((DATA / "cmu86").glob("*.amc"))]
+    entries = []
+    for number in range(round(hours * 3600 / LASTS_S)):
+        piece, own = made[number % len(made)]
+        n = round(LASTS_S * piece.facts["features_fps"])
+        parts = [features for _, features in made]
+        whole = np.concatenate([own, *parts, *parts])[:n]
+        shaken = whole + SHAKEN * rng.normal(size=whole.shape).astype(np.float32)
+        shaken /= np.linalg.norm(shaken, axis=1, keepdims=True)
+        facts = {**piece.facts, "n_frames": round(LASTS_S * piece.facts["fps"])}
+        write_piece(
+            folder / PIECES, f"{number:032x}", Piece(facts, piece.table, piece.embeddings), shaken
+        )
+        entries.append((f"{number:05d}", folder / f"{number:05d}", f"{number:032x}"))
+    start = perf_counter()
+    tables, following = compiled(folder, entries, None, 0)
+    print(f"clusters in common of {len(entries)} recordings: {perf_counter() - start:.1f} s")
+    head = {
+        "schema": SCHEMA,
+        "kineme": __version__,
+        "settings": Settings().to_json(),
+        "sources": [],
+        "recursive": False,
+        "vocabulary": dict(VOCABULARY.parameters()),
+        "failed": {},
+        "following": following,
+        "tables": write_tables(folder, tables),
+    }
+    write_json(folder / HEAD, head)
+
+
+def show_search(home: Path, hours: float) -> None:
+    simulated(home / "hours", hours)
+    library = Library(home / "hours")
+    name, start_s, stop_s = WALK
+    example = read(DATA / "cmu86" / name)
+    seconds = []
+    for _ in range(5):
+        start = perf_counter()
+        library.search(example, start_s, stop_s)
+        seconds.append(perf_counter() - start)
+    warm = sorted(seconds)[len(seconds) // 2]
+    print(f"search in {library.hours:.0f} h: {warm:.2f} s, {verdict(warm, 0.02 * hours)}")
+    like = ("--like", DATA / "cmu86" / name, "--start", start_s, "--stop", stop_s)
+    command, used, _ = kineme("library", "search", home / "hours", *like, "--quiet")
+    print(f"as a command {command:.2f} s, {verdict(command, 2.0)}; processor {used:.2f} s")
+
+
+def main() -> None:
+    options = argparse.ArgumentParser()
+    options.add_argument("--files", type=int, default=1000)
+    options.add_argument("--hours", type=float, default=10.0)
+    given = options.parse_args()
+    with TemporaryDirectory() as folder:
+        home = Path(folder)
+        show_build(home)
+        show_second_build(home, given.files)
+        show_search(home, given.hours)
+
+
+if __name__ == "__main__":
+    main()
