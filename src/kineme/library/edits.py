@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
-from kineme.library.layout import EDITS, read_json, write_json
+from kineme.library.layout import EDITS, arrow, as_array, read_json, write_json
 
 SCHEMA = "kineme.library.edits/1"
 Ints = NDArray[np.int64]
@@ -159,11 +159,11 @@ def edited(table: Any, edits: Edits) -> Any:
     pyarrow.Table
         With ``label`` for ``cluster``, and ``action_label`` for ``action`` where there is one.
     """
-    recordings = np.asarray(table.column("recording").to_numpy())
+    recordings = as_array(table.column("recording"))
     for name, label in (("cluster", "label"), ("following", None), ("action", "action_label")):
         if name not in table.column_names:
             continue
-        clusters = edits.applied(table.column(name).to_numpy(), recordings)
+        clusters = edits.applied(as_array(table.column(name)), recordings)
         table = table.set_column(table.column_names.index(name), name, [clusters])
         if label is not None:
             column = [_names(clusters, edits)]
@@ -178,7 +178,9 @@ def edited(table: Any, edits: Edits) -> Any:
     return table
 
 
-def _names(clusters: Ints, edits: Edits) -> NDArray[Any]:
+def _names(clusters: Ints, edits: Edits) -> Any:
+    """The name of each cluster, as pyarrow has texts."""
+    pa, _ = arrow()
     unique, inverse = np.unique(clusters, return_inverse=True)
-    names = np.array([edits.name(number) for number in unique.tolist()], dtype=object)
-    return names[inverse]
+    names = pa.array([edits.name(number) for number in unique.tolist()], pa.string())
+    return names.take(pa.array(inverse))

@@ -11,6 +11,9 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 
@@ -130,3 +133,18 @@ def arrow() -> tuple[Any, Any]:
     except ImportError as error:
         raise MissingDependencyError("pyarrow", EXTRA) from error
     return pa, parquet
+
+
+def as_array(column: Any) -> NDArray[Any]:
+    """A column of a pyarrow.Table as an array, of objects where it holds texts.
+
+    By way of DLPack: pyarrow's own way imports pandas.
+    """
+    pa, _ = arrow()
+    whole = column.combine_chunks()
+    if not pa.types.is_string(whole.type):
+        return np.from_dlpack(whole)
+    coded = whole.dictionary_encode()
+    texts = np.array(coded.dictionary.to_pylist(), dtype=object)
+    found: NDArray[Any] = texts[np.from_dlpack(coded.indices)]
+    return found

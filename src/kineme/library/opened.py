@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from kineme.errors import ReadError
 from kineme.library.edits import Edits, edited, read_edits
-from kineme.library.layout import LOCK_EDITS, held, read_head
+from kineme.library.layout import LOCK_EDITS, as_array, held, read_head
 from kineme.library.tables import DESCRIBED, read_table
 
 Columns = dict[str, NDArray[Any]]
@@ -58,7 +58,7 @@ class OpenTables:
         if name not in self._arrays:
             table = self.table(name)
             self._arrays[name] = {
-                column: np.asarray(table.column(column).to_numpy()) for column in table.column_names
+                column: as_array(table.column(column)) for column in table.column_names
             }
         return self._arrays[name]
 
@@ -66,7 +66,7 @@ class OpenTables:
     def rows(self) -> dict[str, tuple[int, int]]:
         """First row and end of the segments of each recording."""
         names = self.table("segments").column("recording").combine_chunks().dictionary_encode()
-        codes = names.indices.to_numpy()
+        codes = np.from_dlpack(names.indices)
         edges = [*np.flatnonzero(np.diff(codes, prepend=-1)).tolist(), len(codes)]
         called = names.dictionary.to_pylist()
         return {called[codes[a]]: (a, b) for a, b in pairwise(edges)}

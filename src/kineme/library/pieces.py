@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.library.layout import EMBEDDED, arrow
+from kineme.library.layout import EMBEDDED, arrow, as_array
 from kineme.segments.table import COLUMNS, SegmentTable
 
 METADATA = b"kineme.library"
@@ -77,7 +77,7 @@ def read_piece(folder: Path, key: str) -> Piece:
         table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
         facts = json.loads(table.schema.metadata[METADATA])
         columns = {name: _column(table, name) for name in COLUMNS}
-        flat = table.column("embedding").combine_chunks().flatten().to_numpy()
+        flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
     return Piece(facts, SegmentTable(**columns), flat.reshape(-1, EMBEDDED))
 
 
@@ -100,5 +100,5 @@ def read_features(folder: Path, key: str) -> NDArray[np.float32]:
 
 
 def _column(table: Any, name: str) -> NDArray[Any]:
-    column: NDArray[Any] = table.column(name).to_numpy()
+    column = as_array(table.column(name))
     return column.astype(np.str_) if column.dtype == object else column
