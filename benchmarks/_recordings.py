@@ -35,7 +35,7 @@ CONDITIONS = ("as it is", "speed", "size", "noise", "one hand", "all")
 
 @dataclass(frozen=True)
 class Case:
-    """A recording and its truth."""
+    """A recording and its truth; where the maker knows them, every repetition, too."""
 
     name: str
     motion: Motion

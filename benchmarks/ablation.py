@@ -23,8 +23,7 @@ from kineme.methods.recurrence import (
     analysis as action_analysis,
 )
 from kineme.methods.recurrence import (
-    recurrence,
-    stretches,
+    change_points,
     transitions,
 )
 from kineme.methods.recurrence.actions import Actions
@@ -34,7 +33,7 @@ from sensitivity import at_working_rate, scores
 
 
 def not_refined(borders: Any, labels: Any, *_: Any, **__: Any) -> Actions:
-    """The stretches as they are, neighbours of one action as one."""
+    """The segments as they are, neighbours of one action as one."""
     first = np.concatenate([[True], labels[1:] != labels[:-1]])
     kept = by_first_appearance(labels[first])
     return Actions(np.append(borders[:-1][first], borders[-1]), kept, np.ones(len(kept)))
@@ -46,15 +45,20 @@ def not_slowest(_: Any, first: int, last: int) -> int:
 
 STAGES: dict[str, tuple[dict[str, Any], list[Any]]] = {
     "as it is": ({}, []),
-    "one phase window": ({}, [patch.object(recurrence, "PHASE_SHARES", (1.0,))]),
+    "one phase window": ({"phase_shares": (1.0,)}, []),
     "no phase window": ({"phase": 0.0}, []),
     "one scale for all": ({"min_scale": 0.12, "max_scale": 0.12}, []),
-    "parts not merged": ({}, [patch.object(stretches, "merge_parts", lambda b, *_, **__: b)]),
+    "no narrow window": ({"narrow_share": 1.0, "distinct_share": 0.0}, []),
+    "short ones not divided": ({"distinct_share": 0.0}, []),
+    "parts not merged": (
+        {},
+        [patch.object(change_points, "merge_neighbors", lambda b, *_, **__: b)],
+    ),
     "actions not linked": ({"link_similarity": 1.0}, []),
     "linked at one pace": ({"any_pace": False}, []),
-    "moments not given anew": ({}, [patch.object(action_analysis, "refine", not_refined)]),
+    "samples not given anew": ({}, [patch.object(action_analysis, "refine", not_refined)]),
     "no transitions at ends": ({"max_transition": 0.0}, []),
-    "one vote on their length": ({}, [patch.object(transitions, "VOTES", np.ones(1))]),
+    "one vote on their length": ({"transition_spread": 0.0}, []),
     "not cut where slowest": ({}, [patch.object(transitions, "_slowest", not_slowest)]),
     "poses not stacked": ({"offsets": (0.0,)}, []),
 }

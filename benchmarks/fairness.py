@@ -29,7 +29,7 @@ from _figures import add_option, record
 from _recordings import CONDITIONS, DATA, Case, hdm05, subject_86, synthetic
 from kineme.evaluation import Annotation, Labelling, evaluate, evaluate_segmentation
 from kineme.methods.baselines.uniform import uniform
-from kineme.methods.presets import PRESETS
+from kineme.methods.presets import DEFAULT, PUBLISHED
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample, scale, turn
 from kineme.segments.segmentation import Segmentation
@@ -54,6 +54,7 @@ PROMISED = {
     "synthetic": {"border_f1": 0.95, "count_exact": 0.95},
 }  # fmt: skip
 
+COMPARED = (DEFAULT, *PUBLISHED)
 INCH = 0.0254
 
 Scores = dict[str, float]
@@ -67,9 +68,9 @@ def mean(rows: Iterable[Scores]) -> Scores:
 
 def by_presets(cases: Iterable[Case]) -> dict[str, Scores]:
     """Mean scores of every preset; recordings come one by one, so that few are held at once."""
-    rows: dict[str, list[Scores]] = {preset: [] for preset in PRESETS}
+    rows: dict[str, list[Scores]] = {preset: [] for preset in COMPARED}
     for case in cases:
-        for preset in PRESETS:
+        for preset in COMPARED:
             found = kineme.segment(case.motion, preset=preset)
             rows[preset].append(evaluate_segmentation(case.truth, found))
     return {preset: mean(scores) for preset, scores in rows.items()}
@@ -129,11 +130,11 @@ def same_borders(a: Segmentation, b: Segmentation, tolerance_s: float = 0.1) -> 
 
 def invariance(cases: Iterable[Case]) -> dict[str, dict[str, float]]:
     """Share of same borders by preset and guise."""
-    sums: dict[str, dict[str, list[tuple[int, int]]]] = {preset: {} for preset in PRESETS}
+    sums: dict[str, dict[str, list[tuple[int, int]]]] = {preset: {} for preset in COMPARED}
     for case in cases:
         with tempfile.TemporaryDirectory() as folder:
             others = variants(case.motion, Path(folder))
-        for preset in PRESETS:
+        for preset in COMPARED:
             here = kineme.segment(case.motion, preset=preset)
             for name, other in others.items():
                 there = kineme.segment(other, preset=preset)

@@ -23,7 +23,7 @@ import numpy as np
 
 import kineme
 from _measure import verdict
-from kineme.methods.presets import PRESETS
+from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.methods.recurrence.preset import RecurrencePreset
 from kineme.segmentation.bodies import motion_features
 
@@ -60,7 +60,7 @@ def one(name: str, hours: float, max_lag: float | None) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--hours", type=float, nargs="+", default=[1, 4])
-    parser.add_argument("--presets", nargs="+", choices=PRESETS, default=list(PRESETS))
+    parser.add_argument("--presets", nargs="+", choices=PRESETS, default=[DEFAULT, *PUBLISHED])
     parser.add_argument("--everywhere", action="store_true", help="without max_lag")
     parser.add_argument("--one", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args()

@@ -25,13 +25,13 @@ import numpy as np
 import kineme
 from _measure import interleaved, verdict
 from kineme.methods.base import Preset
-from kineme.methods.presets import PRESETS
+from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.methods.region_growing.preset import KRUEGER2017
 from kineme.segmentation.bodies import motion_features
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 PLAIN = KRUEGER2017.replace(bundling=None, radius=0.302 * math.sqrt(5))
-MEASURED = {**PRESETS, "krueger2017, not bundled": PLAIN}
+MEASURED = {DEFAULT: PRESETS[DEFAULT], **PUBLISHED, "krueger2017, not bundled": PLAIN}
 REFERENCES = {
     "voegele2014": "2014_paper",
     "krueger2017": "2017_bundled",

@@ -21,7 +21,7 @@ from time import perf_counter
 from typing import NamedTuple
 
 from _measure import verdict
-from kineme.methods.presets import PRESETS
+from kineme.methods.presets import DEFAULT, PUBLISHED
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 RECORDING = str(DATA / "cmu86" / "86_10.amc")
@@ -57,7 +57,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=7)
     runs = range(parser.parse_args().runs)
-    for name in PRESETS:
+    for name in (DEFAULT, *PUBLISHED):
         segment = ("-m", "kineme", "segment", "--preset", name, RECORDING)
         with tempfile.TemporaryDirectory() as cache:
             first = process(*segment, cache=cache)

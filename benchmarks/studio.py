@@ -29,7 +29,7 @@ import numpy as np
 
 import kineme
 from _measure import verdict
-from kineme.methods.presets import PRESETS
+from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.recordings.operations import cut
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
@@ -128,7 +128,7 @@ def again(folder: Path, runs: int) -> dict[str, Took]:
     revision = json.loads(studio.ask(one))["revision"]
     sleep(WARM)
     found = {}
-    for preset in PRESETS:
+    for preset in (DEFAULT, *PUBLISHED):
         constant = "border_cost" if preset == "kineme" else "radius"
         value = getattr(PRESETS[preset], constant)
         times = []

@@ -21,7 +21,7 @@ import numpy as np
 
 from _figures import add_option, record
 from kineme.datasets import random_recording
-from kineme.methods.presets import PRESETS
+from kineme.methods.presets import DEFAULT, PUBLISHED
 from kineme.segmentation.segmenter import segment
 from kineme.segments.segmentation import Segmentation
 
@@ -60,7 +60,7 @@ def main() -> None:
     add_option(parser)
     options = parser.parse_args()
     recordings = [random_recording(seed, noise=options.noise) for seed in range(options.seeds)]
-    for preset in PRESETS:
+    for preset in (DEFAULT, *PUBLISHED):
         right: dict[str, list[bool]] = defaultdict(list)
         borders = np.zeros(3, int)
         for recording in recordings:

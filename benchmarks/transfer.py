@@ -36,8 +36,8 @@ from kineme.transfer import (
 from kineme.transfer.labels import REACH
 from kineme.transfer.matching import Primitives, label_costs
 
-THRESHOLDS = (0.06, 0.08, 0.10, 0.12, 0.14, 0.16, 0.20, 0.25, 0.30)
-ALL = 1.0  # a threshold that everything is within
+THRESHOLDS = (0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.1)
+ALL = 1.4  # a threshold that everything is within
 
 
 def table() -> None:
@@ -155,7 +155,7 @@ def real_primitives() -> Primitives:
 
 
 def copies(real: Primitives, n: int, seed: int) -> Primitives:
-    """So many primitives, drawn from the real ones, each displaced by about 0.05 body sizes."""
+    """So many primitives, drawn from the real ones, each displaced by about 0.05."""
     rng = np.random.default_rng(seed)
     chosen = rng.integers(len(real), size=n)
     lengths = real.lengths[chosen]

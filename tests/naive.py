@@ -872,6 +872,31 @@ def mean_distances(features, segments, unit):
     ]
 
 
+def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
+    """Cost and clusters of the cheapest grouping: all clusters compared before each union."""
+    clusters = [[g] for g in range(len(lengths))]
+
+    def total(a, b):
+        return sum(sums[g][h] for g in a for h in b)
+
+    def size(a):
+        return sum(lengths[g] for g in a)
+
+    best = None
+    while True:
+        of = {g: i for i, cluster in enumerate(clusters) for g in cluster}
+        runs = 1 + sum(of[g] != of[g + 1] for g in range(len(lengths) - 1))
+        within = sum(total(a, a) / (2 * size(a)) for a in clusters)
+        cost = within + segment_cost * runs + cluster_cost * len(clusters)
+        if len(clusters) <= most and (best is None or cost < best[0] - 1e-9):
+            best = cost, sorted(sorted(cluster) for cluster in clusters)
+        if len(clusters) == 1:
+            return best
+        pairs = [(a, b) for i, a in enumerate(clusters) for b in clusters[i + 1 :]]
+        a, b = min(pairs, key=lambda p: total(*p) / (size(p[0]) * size(p[1])))
+        clusters = [c for c in clusters if c not in (a, b)] + [a + b]
+
+
 # --- matching: every warping of an example onto a recording, one by one ------------------------
 
 

@@ -72,7 +72,7 @@ ROOMS = {
     ),
     "transfer": Room(
         "`KnowledgeBase`; labels and cluster numbers for other recordings",
-        "features formats graph methods recordings segmentation segments",
+        "features formats matching recordings segments",
     ),
     "synthesis": Room(
         "`MotionGraph`, routes through it, new motion from them",

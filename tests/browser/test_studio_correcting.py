@@ -89,7 +89,7 @@ def test_a_cluster_is_named_exported_and_found_again(page, take, tmp_path):
     assert saved_table(take).primitives.label.tolist() == screen.labels()
 
 
-def test_other_parameters_give_another_result_at_once_and_undo_brings_names_back(page):
+def test_other_parameters_are_a_preview_until_they_are_applied(page, take):
     screen = Screen(page)
     page.keyboard.press("n")
     page.keyboard.type("mine")
@@ -97,18 +97,63 @@ def test_other_parameters_give_another_result_at_once_and_undo_brings_names_back
     screen.saved()
     before = screen.state["segments"]
     page.get_by_label("Preset", exact=True).select_option("voegele2014")
+    screen.wait("k.other === 'Preview'")
+    assert screen.state["segments"] == before
+    slider = page.get_by_role("slider", name="Window").or_(page.get_by_role("slider").first)
+    box = slider.first.bounding_box()
+    page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + box["height"] / 2)
+    page.mouse.down()
+    for share in (0.55, 0.6, 0.65, 0.7):
+        page.mouse.move(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
+        page.wait_for_timeout(150)
+    page.mouse.up()
+    page.keyboard.press("ArrowRight")  # a frame on: the slider was clicked, and has no keys
+    screen.wait("k.frame === 1")
+    assert screen.state["segments"] == before
+    assert saved_table(take).primitives.label[0] == "mine"
+    page.get_by_role("button", name="Apply").wait_for()
+    page.get_by_label("Take over 0 corrections, 1 name").uncheck()
+    apply = page.get_by_role("button", name="Apply: replaces 0 corrections, 1 name")
+    apply.wait_for()
+    apply.click()
     screen.wait("!k.segments.some((row) => row.label === 'mine')")
-    screen.wait("k.unsent.length === 0")
-    page.get_by_role("slider").first.press("ArrowRight")
-    screen.wait("k.unsent.length > 0")
-    screen.wait("k.unsent.length === 0")
-    page.locator("body").click(position={"x": 600, "y": 510})
-    page.keyboard.press("Control+z")
-    page.keyboard.press("Control+z")
+    screen.wait("k.unsent.length === 0 && k.other === null")
+    page.keyboard.press("Control+z")  # one drag, and all that was looked at: one step
     screen.wait("k.segments.some((row) => row.label === 'mine')")
     screen.wait("k.unsent.length === 0")
     assert screen.state["segments"] == before
     assert page.get_by_label("Preset", exact=True).input_value() == "kineme"
+
+
+def test_a_new_segmentation_takes_over_what_people_did_and_the_old_table_can_be_had_again(
+    page, server, take
+):
+    screen = Screen(page)
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("Alt+Shift+ArrowRight")
+    screen.saved()
+    border = screen.state["selected"]["start_frame"]
+    page.keyboard.press("n")
+    page.keyboard.type("mine")
+    page.keyboard.press("Enter")
+    screen.wait("k.segments.some((row) => row.label === 'mine')")
+    screen.saved()
+    before = screen.state["segments"]
+    page.get_by_label("Preset", exact=True).select_option("voegele2014")
+    page.get_by_role("button", name="Apply").click()
+    screen.wait("k.other === null && k.unsent.length === 0")
+    assert screen.state["segments"] != before
+    assert border in screen.starts()
+    assert "mine" in screen.labels()
+    page.keyboard.press("h")
+    page.get_by_role("button", name="Look").first.click()
+    screen.wait("k.other === 'Version 3'")
+    page.keyboard.press("h")
+    page.get_by_role("button", name="Bring back").first.click()
+    screen.wait(f"k.n_segments === {len(before)}")
+    screen.saved()
+    assert screen.state["segments"] == before
+    assert saved_table(take).primitives.start_frame.tolist() == screen.starts()
 
 
 def test_kind_and_cluster_of_a_segment_can_be_set(page, take):

@@ -26,6 +26,7 @@ EDITS = st.one_of(
     st.tuples(st.just(editing.name_segment), LEVELS, FRAMES, LABELS),
     st.tuples(st.just(editing.name_cluster), st.integers(-2, 6), LABELS),
     st.tuples(st.just(editing.set_cluster), LEVELS, FRAMES, st.integers(-2, 8)),
+    st.tuples(st.just(editing.merge_clusters), st.integers(-1, 6), st.integers(-1, 6)),
     st.tuples(
         st.just(editing.set_kind), LEVELS, FRAMES, st.sampled_from(["activity", "transition"])
     ),
@@ -79,11 +80,9 @@ def test_whatever_is_edited_levels_tile_and_nothing_else_changes(
             now = edit(now, *arguments)  # a Segmentation checks tiles and parents itself
         except ParameterError as error:
             assert str(error)
-    assert (now.n_frames, now.fps, now.provenance) == (
-        before.n_frames,
-        before.fps,
-        before.provenance,
-    )
+    assert (now.n_frames, now.fps) == (before.n_frames, before.fps)
+    said = {name: said for name, said in now.provenance.items() if name != "cluster_names"}
+    assert said == {k: v for k, v in before.provenance.items() if k != "cluster_names"}
     assert bool(len(now.primitives)) == bool(len(before.primitives))
     if len(now.primitives):
         assert set(now.cuts("activity").tolist()) <= set(now.cuts("primitive").tolist())
@@ -198,8 +197,33 @@ def test_names() -> None:
     named = editing.name_cluster(walk_pause_jump(), 1, "<b>jump</b>")
     assert spans(named, "activity").endswith("40-60 c1 <b>jump</b>")
     assert spans(named, "primitive").endswith("40-50 c1 <b>jump</b> | 50-60 c1 <b>jump</b>")
-    bare = editing.name_segment(named, "primitive", 50, "")
-    assert spans(bare, "primitive").endswith("50-60 c1")
+    own = editing.name_segment(named, "primitive", 50, "hop")
+    assert spans(own, "primitive").endswith("40-50 c1 <b>jump</b> | 50-60 c1 hop")
+    assert editing.cluster_names(own) == {0: "walk", 1: "<b>jump</b>"}
+    again = editing.name_cluster(own, 1, "leap")
+    assert spans(again, "primitive").endswith("40-50 c1 leap | 50-60 c1 hop")
+    called_by_its_cluster = editing.name_segment(again, "primitive", 50, "")
+    assert spans(called_by_its_cluster, "primitive").endswith("50-60 c1 leap")
+    nameless = editing.name_cluster(called_by_its_cluster, 1, "")
+    assert spans(nameless, "primitive").endswith("40-50 c1 | 50-60 c1")
+
+
+def test_naming_one_segment_names_no_cluster() -> None:
+    one = editing.name_segment(walk_pause_jump(), "activity", 40, "hop")
+    two = editing.name_segment(one, "primitive", 40, "hop")  # most of the cluster, singly
+    assert editing.cluster_names(two) == {0: "walk"}
+    named = editing.name_cluster(two, 1, "jump")
+    assert spans(named, "activity").endswith("40-60 c1 hop")
+    assert spans(named, "primitive").endswith("40-50 c1 hop | 50-60 c1 jump")
+
+
+def test_clusters_are_merged_and_names_of_their_own_stay() -> None:
+    merged = editing.merge_clusters(walk_pause_jump(), 0, 1)
+    assert spans(merged, "activity") == "0-30 c1 | 30-40 t | 40-60 c1"
+    assert spans(merged, "primitive").startswith("0-10 c1 | 10-20 c1 limp | 20-30 c1 |")
+    into_named = editing.merge_clusters(walk_pause_jump(), 1, 0)
+    assert spans(into_named, "primitive").endswith("40-50 c0 walk | 50-60 c0 walk")
+    assert editing.cluster_names(into_named) == {0: "walk"}
 
 
 @pytest.mark.parametrize(
@@ -220,6 +244,9 @@ def test_names() -> None:
         (editing.name_segment, ("activity", 0, "a\nb"), "one line"),
         (editing.name_cluster, (7, "a"), "no segment is in cluster 7"),
         (editing.name_cluster, (-1, "a"), "no segment is in cluster -1"),
+        (editing.merge_clusters, (0, 7), "no segment is in cluster 7"),
+        (editing.merge_clusters, (1, 1), "cannot be merged with itself"),
+        (editing.check, ("activity", [0, 5], True), "starts at frame 5"),
         (editing.set_cluster, ("activity", 0, 9), "the next new one is 2"),
         (editing.set_kind, ("activity", 0, "rest"), "kind must be"),
     ],

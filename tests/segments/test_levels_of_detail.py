@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -126,8 +127,11 @@ def test_a_damaged_hierarchy_is_said(tmp_path: Path) -> None:
 
 
 def test_an_edit_leaves_one_detail() -> None:
-    edited = name_cluster(found(5, 30.0, "sensors"), 0, "walk")
+    whole = found(5, 30.0, "sensors")
+    edited = name_cluster(whole, 0, "walk")
     assert edited.hierarchy is None
+    assert replace(whole, table=whole.table[:]).hierarchy == whole.hierarchy
+    assert replace(whole, table=edited.table).hierarchy is None
     assert edited.level(0.5) is edited
 
 

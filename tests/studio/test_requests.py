@@ -398,3 +398,65 @@ def test_rows_of_a_message_tile_and_are_of_its_type(studio) -> None:
     assert np.isclose(rows[-1]["stop_s"], 4.0)
     assert conforms(messages.Edited, message)
     assert conforms(messages.Recording, studio.recording())
+
+
+def test_what_a_reader_warns_of_reaches_the_page(studio, folder: Path) -> None:
+    text = (folder / "take.bvh").read_text().replace("Frames: 240", "Frames: 250")
+    (folder / "short.bvh").write_text(text)
+    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    message = studio.get(f"/api/recordings/{files['short.bvh']}").json()
+    assert any("250 frames declared" in warning for warning in message["warnings"])
+    report = studio.get(f"/api/recordings/{files['short.bvh']}/export/report").text
+    assert "250 frames declared" in report
+
+
+def test_the_list_of_recordings_says_how_far_each_is(studio) -> None:
+    revision = studio.recording()["revision"]
+    state = studio.done(revision, "name_segment", level="activity", frame=0, label="hop")
+    rows = state["segmentation"]["segments"]
+    studio.done(
+        state["revision"],
+        "together",
+        edits=[
+            {
+                "kind": "check",
+                "level": row["level"],
+                "frames": [row["start_frame"]],
+                "checked": True,
+            }
+            for row in rows[:2]
+        ],
+    )
+    listing = studio.get("/api/state").json()["recordings"][0]
+    named = sum(row["label"] != "" for row in rows)
+    counts = (listing["corrected"], listing["segments"], listing["checked"], listing["named"])
+    assert counts == (True, len(rows), 2, named)
+
+
+def test_the_labels_of_another_program_become_the_table(studio, folder: Path) -> None:
+    (folder / "said.csv").write_text("start_s,stop_s,label\n0,2,walk\n2,4,hop\n")
+    chosen = studio.get("/api/state").json()["annotations"][0]["id"]
+    taken = studio.done(studio.recording()["revision"], "take_labels", annotation=chosen)
+    rows = [row for row in taken["segmentation"]["segments"] if row["level"] == "activity"]
+    assert [(row["start_frame"], row["label"]) for row in rows] == [(0, "walk"), (120, "hop")]
+    assert studio.edit(taken["revision"], "take_labels", annotation="x").status_code == 404
+
+
+def test_bulk_changes_are_one_step_and_say_how_many(studio) -> None:
+    message = studio.recording()
+    rows = [row for row in message["segmentation"]["segments"] if row["level"] == "primitive"]
+    edits = [
+        {"kind": "name_segment", "level": "primitive", "frame": row["start_frame"], "label": "a"}
+        for row in rows
+    ]
+    named = studio.done(message["revision"], "together", edits=edits)
+    cluster = next(row["cluster"] for row in rows if row["cluster"] >= 0)
+    called = studio.done(named["revision"], "name_cluster", cluster=cluster, label="walk")
+    assert "keep their own name" in called["notes"][0]
+    assert called["segmentation"]["cluster_names"][str(cluster)] == "walk"
+    state = studio.done(called["revision"], "undo")
+    state = studio.done(state["revision"], "undo")
+    assert state["segmentation"]["segments"] == message["segmentation"]["segments"]
+    broken = studio.edit(state["revision"], "together", edits=[*edits, {**edits[0], "frame": 1}])
+    assert broken.status_code == 400
+    assert studio.recording()["segmentation"] == state["segmentation"]

@@ -31,7 +31,7 @@ FEATURES = transfer_features(ASKED.motion)
 
 def without_labels(segments: Segmentation) -> Segmentation:
     blank = np.full(len(segments.table), "")
-    return replace(segments, table=replace(segments.table, label=blank))
+    return replace(segments, table=replace(segments.table, label=blank), hierarchy=None)
 
 
 BLANK = without_labels(ASKED.truth)
@@ -61,13 +61,13 @@ def test_scores_are_margins_and_costs_stay_within_the_threshold() -> None:
     assert (rows.score[named] <= 1).all()
     costs = result.provenance["transfer"]["costs"]
     assert [cost is not None for cost in costs] == named.tolist()
-    assert max(cost for cost in costs if cost is not None) <= 0.12
+    assert max(cost for cost in costs if cost is not None) <= 0.85
     assert f"{named.sum()} of " in result.provenance["notes"][-1]
 
 
 def test_a_lower_threshold_only_takes_labels_away() -> None:
     before = None
-    for threshold in (0.3, 0.12, 0.08, 0.04, 0.001):
+    for threshold in (1.1, 0.85, 0.6, 0.3, 0.001):
         named = transfer_labels(BLANK, FEATURES, KNOWLEDGE, threshold=threshold).primitives
         if before is not None:
             assert not ((named.label != "") & (before == "")).any()
@@ -93,8 +93,8 @@ def test_spreading_names_the_rest_of_a_cluster() -> None:
     cluster = table.cluster.copy()
     cluster[table.level == "primitive"] = one
     clustered = replace(BLANK, table=replace(table, cluster=cluster))
-    strict = transfer_labels(clustered, FEATURES, knowledge, threshold=0.09)
-    spread = transfer_labels(clustered, FEATURES, knowledge, threshold=0.09, spread=True)
+    strict = transfer_labels(clustered, FEATURES, knowledge, threshold=0.5)
+    spread = transfer_labels(clustered, FEATURES, knowledge, threshold=0.5, spread=True)
     activity = walk.kind == "activity"
     for number in (7, 8):
         members = activity & (one == number)
@@ -108,6 +108,41 @@ def test_activities_are_labelled_where_there_are_no_primitives() -> None:
     result = transfer_labels(replace(BLANK, table=table), FEATURES, KNOWLEDGE)
     activities = [row.label for row in result.activities if row.kind == "activity"]
     assert activities == ["jump", "walk", "", "kick"]
+
+
+def test_a_recording_too_short_for_activities_is_searched() -> None:
+    kick = next(row for row in ASKED.truth.primitives if row.label == "kick")
+    short = ASKED.motion[max(0, kick.start_frame - 12) : kick.stop_frame + 12]
+    columns = {
+        "level": ["activity"],
+        "kind": ["transition"],
+        "start_frame": [0],
+        "stop_frame": [short.n_frames],
+    }
+    nothing = Segmentation.from_columns(columns, n_frames=short.n_frames, fps=short.fps)
+    result = transfer_labels(nothing, transfer_features(short), KNOWLEDGE)
+    (found,) = [row for row in result.primitives if row.kind == "activity"]
+    assert found.label == "kick"
+    assert abs(found.start_frame - 12) < 12
+    assert [row.label for row in result.activities if row.kind == "activity"] == ["kick"]
+    assert "1 of 1" in result.provenance["notes"][-1]
+    other = KNOWLEDGE.select(KNOWLEDGE.labels == "walk")
+    same = transfer_labels(nothing, transfer_features(short), other)
+    assert same.table == nothing.table
+
+
+def test_touching_matches_are_primitives_of_one_activity() -> None:
+    walk = synthesize([Action("walk", 3)], fps=60, seed=9)
+    columns = {
+        "level": ["activity"],
+        "kind": ["transition"],
+        "start_frame": [0],
+        "stop_frame": [walk.motion.n_frames],
+    }
+    nothing = Segmentation.from_columns(columns, n_frames=walk.motion.n_frames, fps=60)
+    result = transfer_labels(nothing, transfer_features(walk.motion), KNOWLEDGE)
+    assert [row.label for row in result.activities if row.kind == "activity"] == ["walk"]
+    assert sum(row.label == "walk" for row in result.primitives) >= 2
 
 
 def test_an_empty_knowledge_base_names_nothing() -> None:

@@ -3,30 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kineme.transfer import matching
-from kineme.transfer.matching import Primitives, label_costs
+import naive
+from kineme.transfer.matching import Primitives, label_costs, same_movements
 
 DIMS = 3
-
-
-def naive_cost(distances: np.ndarray) -> float:
-    """Mean node of the cheapest path from the first row to the last, from any column to any."""
-    n, m = distances.shape
-    best = [[(0.0, 0)] * m for _ in range(n)]
-    for i in range(n):
-        for j in range(m):
-            before = [(0.0, 0)] if i == 0 else []
-            for a, b in ((1, 1), (1, 0), (0, 1)):
-                if i >= a and j >= b:
-                    before.append(best[i - a][j - b])
-            cost, nodes = min(before)
-            best[i][j] = (cost + distances[i, j], nodes + 1)
-    cost, nodes = min(best[-1])
-    return cost / nodes
 
 
 def naive_label_costs(unknown: Primitives, known: Primitives, codes, n_labels: int) -> np.ndarray:
@@ -38,13 +21,18 @@ def naive_label_costs(unknown: Primitives, known: Primitives, codes, n_labels: i
     def one(side: Primitives, p: int) -> np.ndarray:
         return side.features[side.starts[p] : side.starts[p + 1]]
 
-    def between(rows: np.ndarray, columns: np.ndarray) -> float:
-        return naive_cost(np.linalg.norm(rows[:, None] - columns[None], axis=2))
+    def between(example: np.ndarray, frames: np.ndarray) -> float:
+        distances = np.linalg.norm(frames[:, None] - example[None], axis=2)
+        return min(naive.warpings(distances)[0])
 
     for u in range(len(unknown)):
         for k in range(len(known)):
             there = between(one(unknown, u), frames_of(known, known.runs[k]))
-            back = between(one(known, k), frames_of(unknown, unknown.runs[u]))
+            ways_back = [
+                between(one(known, other), frames_of(unknown, unknown.runs[u]))
+                for other in np.flatnonzero(known.runs == known.runs[k])
+            ]
+            back = sorted(ways_back)[(len(ways_back) - 1) // 2]
             costs[u, codes[k]] = min(costs[u, codes[k]], max(there, back))
     return costs
 
@@ -65,17 +53,7 @@ def test_equal_to_the_naive_version(unknown: Primitives, known: Primitives) -> N
     codes = known.runs % 3
     costs = label_costs(unknown, known, codes, 3, radius=1e3)
     expected = naive_label_costs(unknown, known, codes, 3)
-    np.testing.assert_allclose(costs, expected, rtol=1e-5, atol=1e-5)
-
-
-@settings(max_examples=30)
-@given(primitives(), primitives(9), st.integers(1, 40))
-def test_blocks_change_nothing(unknown: Primitives, known: Primitives, frames: int) -> None:
-    codes = known.runs % 4
-    whole = label_costs(unknown, known, codes, 4, radius=2.0)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(matching, "BATCH_FRAMES", frames)
-        np.testing.assert_allclose(label_costs(unknown, known, codes, 4, radius=2.0), whole)
+    np.testing.assert_allclose(costs, expected, rtol=1e-4, atol=1e-3)  # of single precision
 
 
 def cycles(n: int, *, phase: float = 0.0, frames: int = 12) -> np.ndarray:
@@ -98,3 +76,20 @@ def test_a_part_of_a_movement_is_not_that_movement() -> None:
         found = label_costs(unknown, known, np.zeros(1, int), 1, radius=0.3)
         assert np.isinf(found).all()
     assert label_costs(long, long, np.zeros(1, int), 1, radius=0.3).item() < 1e-5
+
+
+def test_a_fragment_does_not_stand_for_its_run() -> None:
+    line = np.linspace([0, 0, 0], [3, 0, 0], 20)
+    fragment = np.zeros((4, 3))
+    run = Primitives(
+        np.concatenate([line, fragment, line[::-1]]), np.array([20, 4, 20]), np.zeros(3, int)
+    )
+    still = Primitives(np.zeros((4, 3)), np.array([4]), np.array([0]))
+    assert np.isinf(label_costs(still, run, np.zeros(3, int), 1, radius=0.3)).all()
+
+
+def test_what_matches_through_others_is_one_movement() -> None:
+    heights = (0.0, 0.2, 0.4, 3.0)
+    frames = np.concatenate([cycles(1) + [0, 0, height] for height in heights])
+    four = Primitives(frames, np.array([12] * 4), np.arange(4))
+    assert same_movements(four, 0.25).tolist() == [0, 0, 0, 1]

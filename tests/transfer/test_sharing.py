@@ -19,7 +19,7 @@ def shuffled(found: kineme.Segmentation) -> kineme.Segmentation:
     """The same segments with their clusters numbered the other way round."""
     clusters = found.table.cluster
     turned = np.where(clusters >= 0, clusters.max() - clusters, -1)
-    return replace(found, table=replace(found.table, cluster=turned))
+    return replace(found, table=replace(found.table, cluster=turned), hierarchy=None)
 
 
 def test_the_same_movements_get_the_same_numbers_again() -> None:

@@ -68,7 +68,8 @@ def _activity_rows(segmentation: Segmentation) -> Table:
     table = new_table("#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label")
     primitives = segmentation.primitives
     for number, row in enumerate(segmentation.activities):
-        inside = primitives.cluster[primitives.activity == number].tolist()
+        repeated = (primitives.activity == number) & (primitives.kind == "activity")
+        inside = primitives.cluster[repeated].tolist()
         count = _repetitions(inside, row.cluster) if row.kind == "activity" else ""
         table.add_row(
             *_span(number, row), count, cluster_cell(row.cluster), row.label, style=_style(row)
@@ -80,7 +81,9 @@ def _activity_rows(segmentation: Segmentation) -> Table:
 
 
 def _repetitions(clusters: list[int], main: int) -> str:
-    """How many primitives are in the activity's cluster, and how many are not."""
+    """How many primitives are in the activity's cluster, else in the largest; how many are not."""
+    if main not in clusters:
+        main = max(clusters, key=clusters.count, default=-1)
     count = clusters.count(main) if main >= 0 else 0
     others = len(clusters) - count
     return f"{count} (+{others})" if others else str(count)

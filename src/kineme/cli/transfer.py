@@ -31,9 +31,9 @@ def transfer(
     threshold: Annotated[
         float | None,
         typer.Option(
-            help="Largest cost of a match, body sizes; lower gives fewer labels, more of them "
+            help="Largest cost of a match, from 0 to 2; lower gives fewer labels, more of them "
             "right.",
-            show_default="0.12",
+            show_default="0.85",
         ),
     ] = None,
     spread: Annotated[

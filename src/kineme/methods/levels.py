@@ -80,7 +80,9 @@ def clusters_at(
     return found
 
 
-def at_detail(columns: Columns, borders: Ints, labels: Ints, longest: float = 0.0) -> Columns:
+def at_detail(
+    columns: Columns, borders: Ints, labels: Ints, longest: float | None = None
+) -> Columns:
     """The columns of a table with other activities: pieces joined, repetitions kept.
 
     Neighbours of one cluster are one activity, with a transition between them if that
@@ -92,19 +94,21 @@ def at_detail(columns: Columns, borders: Ints, labels: Ints, longest: float = 0.
         Of detail 1.
     borders, labels : array of int
         Of the pieces, as in `Pieces`.
-    longest : float
-        Samples.
+    longest : float, optional
+        Samples; None for a detail above 1, at which every border of activities stays, too.
 
     Returns
     -------
     dict of str to array
     """
-    labels = _over_transitions(borders, labels, longest)
-    first = np.flatnonzero(np.diff(labels, prepend=-2))
-    starts, clusters = borders[:-1][first], by_first_appearance(labels[first])
     level = columns["level"] == "activity"
     before = {name: column[level] for name, column in columns.items()}
     inner = {name: column[~level] for name, column in columns.items()}
+    begins = np.isin(borders[:-1], before["start_frame"] if longest is None else 0)
+    if longest is not None:
+        labels = _over_transitions(borders, labels, longest)
+    first = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | begins)
+    starts, clusters = borders[:-1][first], by_first_appearance(labels[first])
     cuts = np.unique(np.concatenate([starts, inner["start_frame"]]))
     kinds = np.where(clusters < 0, "transition", "activity")
     activities = _rows(before, starts, int(borders[-1])) | {"kind": kinds, "cluster": clusters}

@@ -16,6 +16,7 @@ def columns_of(
     primitives: Ints,
     *,
     is_activity: NDArray[np.bool_],
+    is_primitive: NDArray[np.bool_] | None = None,
     clusters: tuple[Ints, Ints],
     scores: tuple[Floats, Floats],
 ) -> Columns:
@@ -27,7 +28,9 @@ def columns_of(
         Borders of each level, from 0 to the end; those of activities are among those of
         primitives.
     is_activity : (activities,) array of bool
-        Whether it is an activity, or else a transition; its primitives are the same.
+        Whether it is an activity, or else a transition.
+    is_primitive : (primitives,) array of bool, optional
+        Whether it is a primitive, or else a transition; by default all in activities are.
     clusters, scores : pair of arrays
         Of the activities, and of the primitives.
 
@@ -37,10 +40,10 @@ def columns_of(
         ``level``, ``kind``, ``start_frame``, ``stop_frame``, ``cluster``, ``score``.
     """
     parents = np.searchsorted(activities, primitives[:-1], side="right") - 1
-    kinds = np.where(is_activity, "activity", "transition")
+    primitive = is_activity[parents] if is_primitive is None else is_primitive
     return {
         "level": np.repeat(["activity", "primitive"], [len(activities) - 1, len(parents)]),
-        "kind": np.concatenate([kinds, kinds[parents]]),
+        "kind": np.where(np.append(is_activity, primitive), "activity", "transition"),
         "start_frame": np.concatenate([activities[:-1], primitives[:-1]]),
         "stop_frame": np.concatenate([activities[1:], primitives[1:]]),
         "cluster": np.concatenate(clusters),

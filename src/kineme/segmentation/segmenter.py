@@ -94,7 +94,7 @@ def segment(
     >>> import kineme
     >>> motion = kineme.read(kineme.bundled_recording())
     >>> kineme.segment(motion).repetitions()
-    {0: 8, 1: 5, 2: 4, 3: 6, 4: 4, 5: 5}
+    {0: 9, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4}
     """
     return segment_and_found(
         recording,

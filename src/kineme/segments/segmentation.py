@@ -47,12 +47,13 @@ class Segmentation:
         Seconds spent per stage.
     hierarchy : Hierarchy, optional
         The tables at other details, and this one among them; what `level` gives by number.
+        None where there is one detail, and where the table is not one of them (any more).
 
     Raises
     ------
     ParameterError
-        A level does not tile the recording, a row contradicts another, the
-        provenance cannot be written as JSON, or the hierarchy is of another table.
+        A level does not tile the recording, a row contradicts another, or the
+        provenance cannot be written as JSON.
 
     Examples
     --------
@@ -83,10 +84,7 @@ class Segmentation:
         object.__setattr__(self, "provenance", plain_json(self.provenance, "provenance"))
         object.__setattr__(self, "timings", plain_json(self.timings, "timings"))
         if self.hierarchy is not None and self.hierarchy.table != self.table:
-            raise ParameterError(
-                f"the hierarchy has another table at detail {self.hierarchy.detail:g}: give it "
-                f"this one, or none"
-            )
+            object.__setattr__(self, "hierarchy", None)
 
     @classmethod
     def from_columns(

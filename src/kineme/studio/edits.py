@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Protocol
 
 from msgspec import UNSET, Struct
 
 from kineme.errors import ParameterError
+from kineme.labels import read_segments
 from kineme.segments import editing
+from kineme.segments.editing.marks import noted
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.loading import LoadedRecording
 from kineme.web import requests
@@ -24,16 +27,47 @@ BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
     requests.NameCluster: editing.name_cluster,
     requests.SetCluster: editing.set_cluster,
     requests.SetKind: editing.set_kind,
+    requests.MergeClusters: editing.merge_clusters,
+    requests.Check: editing.check,
 }
 """Corrections; the fields of each are the arguments of its function, in this order."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The table after an edit.
+
+    Parameters
+    ----------
+    table : Segmentation
+    notes : list of str
+        What to tell people.
+    replaced : bool
+        Whether it is another table, in whose place the one before is kept.
+    """
+
+    table: Segmentation
+    notes: list[str] = field(default_factory=list)
+    replaced: bool = False
+
+
+class Surroundings(Protocol):
+    """Where an edit finds what it names."""
+
+    def knowledge_base(self, name: str) -> Path:
+        """The file of a knowledge base by its id."""
+
+    def annotation(self, name: str) -> Path:
+        """A label file by its id."""
 
 
 def edited(
     table: Segmentation,
     edit: Edit,
     loaded: LoadedRecording,
-    knowledge_base: Callable[[str], Path],
-) -> tuple[Segmentation, list[str]]:
+    files: Surroundings,
+    version: Callable[[int], Segmentation],
+) -> Outcome:
     """The table after an edit other than undo and redo.
 
     Parameters
@@ -42,45 +76,84 @@ def edited(
     edit : Edit
     loaded : LoadedRecording
         What the table is of.
-    knowledge_base : callable
-        The file of a knowledge base by its id.
+    files : Surroundings
+        Where knowledge bases and label files are.
+    version : callable
+        A table that was replaced, by its number.
 
     Returns
     -------
-    table : Segmentation
-    notes : list of str
-        What to tell people.
+    Outcome
 
     Raises
     ------
     KinemeError
         The edit cannot be made, and why.
     """
+    if isinstance(edit, requests.Together):
+        for one in edit.edits:
+            table = _by_hand(table, one)
+        return Outcome(table)
     if type(edit) in BY_HAND:
-        fields = (getattr(edit, name) for name in edit.__struct_fields__)
-        return _counted(BY_HAND[type(edit)](table, *fields)), []
+        after = _by_hand(table, edit)
+        return Outcome(after, _told(table, after, edit))
     if isinstance(edit, requests.SegmentAgain):
+        keep = True if edit.keep is UNSET else edit.keep
         found = loaded.segment(edit.preset, edit.parameters)
-        return found, list(found.provenance["notes"])
+        result = editing.carried(table, found) if keep else None
+        lost = [f"not taken over: {what}" for what in result.lost] if result else []
+        after = result.segmentation if result else found
+        return Outcome(after, [*found.provenance["notes"], *lost], replaced=True)
     if isinstance(edit, requests.Transfer):
-        return _labelled(table, edit, loaded, knowledge_base(edit.knowledge_base))
+        return _labelled(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
+    if isinstance(edit, requests.TakeLabels):
+        path = files.annotation(edit.annotation)
+        said = read_segments(path, fps=table.fps, n_frames=table.n_frames)
+        return Outcome(said, [f"the table is that of {path.name}"], replaced=True)
+    if isinstance(edit, requests.Restore):
+        return Outcome(version(edit.version), replaced=True)
     raise ParameterError(f"there is no edit {type(edit).__name__}")
+
+
+def _by_hand(table: Segmentation, edit: Struct) -> Segmentation:
+    """The table after a correction, which it counts; what a person made of it is marked."""
+    fields = (getattr(edit, name) for name in edit.__struct_fields__)
+    after = BY_HAND[type(edit)](table, *fields)
+    if isinstance(edit, requests.Check):
+        return after
+    before = table.provenance.get("corrections")
+    count = before + 1 if isinstance(before, int) else 1
+    after = noted(table, after)
+    return replace(after, provenance={**after.provenance, "corrections": count})
+
+
+def _told(before: Segmentation, after: Segmentation, edit: Struct) -> list[str]:
+    """How many segments a change of a cluster reached, and how many keep a name of their own."""
+    if not isinstance(edit, requests.NameCluster | requests.MergeClusters):
+        return []
+    cluster = edit.cluster if isinstance(edit, requests.NameCluster) else edit.into
+    name = editing.cluster_names(after).get(cluster, "")
+    members = after.table.select(after.table.cluster == cluster)
+    own = int((members.label != name).sum())
+    called = (
+        f"{len(members) - own} segments are called “{name}”"
+        if name
+        else (f"{len(members) - own} segments have no name")
+    )
+    more = f"{own} keep their own name" if own else ""
+    moved = int((before.table.cluster == edit.cluster).sum())
+    merged = isinstance(edit, requests.MergeClusters)
+    joined = f"{moved} segments are in cluster {cluster} now" if merged else ""
+    return ["; ".join(filter(None, [joined, called, more]))]
 
 
 def _labelled(
     table: Segmentation, edit: requests.Transfer, loaded: LoadedRecording, path: Path
-) -> tuple[Segmentation, list[str]]:
+) -> Outcome:
     from kineme.transfer import THRESHOLD, KnowledgeBase
 
     threshold = THRESHOLD if edit.threshold is UNSET else edit.threshold
     spread = False if edit.spread is UNSET else edit.spread
     base = KnowledgeBase.load(path)
     named = loaded.labelled(table, base, threshold=threshold, spread=spread)
-    return named, [named.provenance["notes"][-1]]
-
-
-def _counted(table: Segmentation) -> Segmentation:
-    """The table with one more correction in its provenance."""
-    before = table.provenance.get("corrections")
-    count = before + 1 if isinstance(before, int) else 1
-    return replace(table, provenance={**table.provenance, "corrections": count})
+    return Outcome(named, [named.provenance["notes"][-1]], replaced=True)

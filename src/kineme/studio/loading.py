@@ -45,7 +45,6 @@ class LoadedRecording:
         self.effectors = cache.options.effectors
         self._stamp = stamp_of(path)
         found = cache.read(path)
-        self.warnings = [str(note) for note in found.provenance.warnings]  # plain texts
         self.n_frames, self.fps = found.n_frames, found.fps
         self.provenance = found.provenance
         self._lock = threading.Lock()

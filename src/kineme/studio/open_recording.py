@@ -1,28 +1,32 @@
 """An open recording, with its table, what was done to it, and where it is saved.
 
-A table has a revision, which grows with every change. An edit names the
-revision it was made on; on any other it is refused, so that two pages cannot
-overwrite each other unseen. An edit counts once its result is on the disk: one
-that was acknowledged outlives the server, one that was not has changed nothing.
+A table has a revision, which grows with every change and outlives the server.
+An edit names the revision it was made on; on any other it is refused, so that
+two pages cannot overwrite each other unseen. An edit has a name of its own, too:
+one that is sent again, for want of an answer, is made once. It counts once its
+result and the history are on the disk: one that was acknowledged outlives the
+server, one that was not has changed nothing.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from msgspec import structs
 
-from kineme.segments.history import History
+from kineme.errors import ParameterError
+from kineme.segments import editing
+from kineme.segments.editing.carrying import names_of
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.edits import edited
+from kineme.studio.edits import Surroundings, edited
+from kineme.studio.journal import Change, Journal
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.reading import RecordingCache
 from kineme.studio.storage import ChangedOnDiskError, saved_table
-from kineme.web.messages import Edited, Recording
-from kineme.web.requests import Edit, Redo, Undo
+from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
+from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 
 
 class ConflictError(Exception):
@@ -58,7 +62,7 @@ class OpenRecording:
     def __init__(
         self, name: str, path: Path, cache: RecordingCache, others: set[Path], revision: int
     ):
-        self.id, self.path, self.revision = name, path, revision
+        self.id, self.path = name, path
         self.loaded = LoadedRecording(path, cache)
         self._others = others
         self._lock = threading.RLock()
@@ -68,7 +72,8 @@ class OpenRecording:
             self._notes = [*self._notes, *notes]
         elif _digest(table) not in ("", self.loaded.provenance.sha256):
             self._notes = [*self._notes, f"{path.name} has changed since its table was made"]
-        self._history = History(table)
+        self._table, self._journal = table, Journal(self._file.path, table)
+        self.revision = max(revision, self._journal.revision)
 
     @property
     def table_path(self) -> Path:
@@ -79,7 +84,7 @@ class OpenRecording:
     def table(self) -> Segmentation:
         """The table as it is."""
         with self._lock:
-            return self._history.present
+            return self._table
 
     def message(self) -> tuple[Recording, bool]:
         """All that a page shows.
@@ -94,20 +99,19 @@ class OpenRecording:
 
         with self._lock:
             anew = self._file.changed() and self._read_anew()
-            table = self._history.present
-            shown = recording_message(self.loaded.page_data(), table, name=self.path.name)
+            shown = recording_message(self.loaded.page_data(), self._table, name=self.path.name)
             message = structs.replace(
                 shown,
                 id=self.id,
                 revision=self.revision,
-                can_undo=bool(self._history.past),
-                can_redo=bool(self._history.future),
+                can_undo=self._journal.can_undo,
+                can_redo=self._journal.can_redo,
                 saved=self._saved,
-                warnings=[*self.loaded.warnings, *self._notes, *shown.warnings],
+                warnings=[*shown.warnings, *self._notes],
             )
             return message, anew
 
-    def edit(self, revision: int, edit: Edit, knowledge_base: Callable[[str], Path]) -> Edited:
+    def edit(self, revision: int, edit: Edit, files: Surroundings, *, name: str = "") -> Edited:
         """The table after an edit, which is on the disk.
 
         Parameters
@@ -115,8 +119,10 @@ class OpenRecording:
         revision : int
             Of the table that the edit was made on.
         edit : Edit
-        knowledge_base : callable
-            The file of a knowledge base by its id.
+        files : Surroundings
+            Where knowledge bases and label files are.
+        name : str
+            Of the edit: one that has been made is not made again.
 
         Returns
         -------
@@ -131,33 +137,83 @@ class OpenRecording:
             The edit cannot be made, or its result cannot be saved.
         """
         with self._lock:
+            if self._journal.knows(name):
+                return self._edited([])
             if revision != self.revision:
                 reason = f"the table has changed: this edit is of revision {revision}"
                 raise ConflictError(f"{reason}, now it is {self.revision}", self._edited([]))
-            history, notes = self._after(edit, knowledge_base)
+            change, notes = self._after(edit, files)
+            reason = f"another program changed {self._file.path.name}: open it again"
+            if self._file.changed():
+                raise ConflictError(reason, self._edited([]))
             try:
-                self._file.write(history.present)
+                self._journal.write(change, self._file.write, revision=self.revision + 1, name=name)
             except ChangedOnDiskError:
-                reason = f"another program changed {self._file.path.name}: open it again"
                 raise ConflictError(reason, self._edited([])) from None
-            self._history, self.revision = history, self.revision + 1
+            self._table, self.revision = change.table, self.revision + 1
             return self._edited(notes)
 
-    def _after(
-        self, edit: Edit, knowledge_base: Callable[[str], Path]
-    ) -> tuple[History[Segmentation], list[str]]:
+    def preview(self, wanted: PreviewRequest) -> Preview:
+        """What segmenting again would make of the table, which stays as it is."""
+        from kineme.web.page_data import segments_message
+
+        before = self.table
+        found = self.loaded.segment(wanted.preset, wanted.parameters)
+        result = editing.carried(before, found)
+        shown = result.segmentation if wanted.keep else found
+        lost = [f"{result.corrections} corrections and {result.names} names"]
+        return Preview(
+            segmentation=segments_message(shown),
+            corrections=result.corrections,
+            names=result.names,
+            lost=result.lost if wanted.keep else lost,
+        )
+
+    def versions(self) -> list[Version]:
+        """The tables that were replaced, the latest first."""
+        with self._lock:
+            kept = self._journal.kept()
+            tables = {number: self._journal.table(number) for number in kept}
+        return [
+            Version(
+                number=number,
+                at=step.at,
+                edit=step.edit,
+                segments=len(tables[number]),
+                corrections=int(tables[number].provenance.get("corrections") or 0),
+                names=names_of(tables[number]),
+            )
+            for number, step in kept.items()
+        ]
+
+    def version(self, number: int) -> Comparison:
+        """A table that was replaced, to lay beside the present one."""
+        from kineme.web.page_data import segments_message
+
+        with self._lock:
+            at = self._journal.kept()[number].at if number in self._journal.kept() else ""
+            table = self._version(number)
+        return Comparison(name=at, segmentation=segments_message(table), scores={})
+
+    def _after(self, edit: Edit, files: Surroundings) -> tuple[Change, list[str]]:
         if isinstance(edit, Undo):
-            return self._history.undone(), []
+            return self._journal.undone(), []
         if isinstance(edit, Redo):
-            return self._history.redone(), []
-        table, notes = edited(self._history.present, edit, self.loaded, knowledge_base)
-        return self._history.then(table), notes
+            return self._journal.redone(), []
+        outcome = edited(self._table, edit, self.loaded, files, self._version)
+        change = self._journal.changed(outcome.table, edit, replaced=outcome.replaced)
+        return change, outcome.notes
+
+    def _version(self, number: int) -> Segmentation:
+        if number not in self._journal.kept():
+            raise ParameterError(f"there is no version {number} of this table")
+        return self._journal.table(number)
 
     def _read_anew(self) -> bool:
         """The table that another program left; undo brings back the one from before."""
         self._file, table, self._notes = saved_table(self.path, self.loaded.fits, self._others)
-        if table is not None:
-            self._history = self._history.then(table)
+        self._table = self._table if table is None else table
+        self._journal = Journal(self._file.path, self._table)
         self.revision += 1
         return True
 
@@ -166,9 +222,9 @@ class OpenRecording:
 
         return Edited(
             revision=self.revision,
-            segmentation=segments_message(self._history.present),
-            can_undo=bool(self._history.past),
-            can_redo=bool(self._history.future),
+            segmentation=segments_message(self._table),
+            can_undo=self._journal.can_undo,
+            can_redo=self._journal.can_redo,
             saved=self._saved,
             notes=notes,
         )

@@ -7,12 +7,14 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 
+from msgspec import UNSET
+
 from kineme.errors import KinemeError
 from kineme.studio.folder import Folder
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.web.messages import Edited, Recording
-from kineme.web.requests import Edit
+from kineme.web.requests import EditRequest
 
 Listener = Callable[[str, int], None]
 NO_OPTIONS = ReadingOptions()
@@ -89,9 +91,10 @@ class OpenRecordings:
             with suppress(KinemeError, UnknownError):
                 self.message(name)
 
-    def edit(self, name: str, revision: int, edit: Edit) -> Edited:
+    def edit(self, name: str, sent: EditRequest) -> Edited:
         """The recording's table after an edit, as `OpenRecording.edit` makes it."""
-        result = self.get(name).edit(revision, edit, self.knowledge_base)
+        called = "" if sent.name is UNSET else sent.name
+        result = self.get(name).edit(sent.revision, sent.edit, self, name=called)
         self._changed(name, result.revision)
         return result
 

@@ -25,11 +25,11 @@ from kineme.studio import choices
 from kineme.studio.events import Hub
 from kineme.studio.folder import file_id
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.storage import has_table
+from kineme.studio.progress import progress
 from kineme.studio.uploads import LIMIT, TooLargeError, Upload, recording_suffixes
 from kineme.web.encoding import from_json, to_json
-from kineme.web.messages import Comparison, FileChoice, Listing, State
-from kineme.web.requests import CompareRequest, EditRequest
+from kineme.web.messages import Comparison, FileChoice, Listing, Preview, State, Versions
+from kineme.web.requests import CompareRequest, EditRequest, PreviewRequest
 
 MOST_JSON = 1_000_000
 """Bytes of a request; the largest that a page makes has a few hundred."""
@@ -104,7 +104,30 @@ class Api:
     async def edit(self, request: Request) -> Response:
         sent = from_json(await _body(request), EditRequest)
         name, work = request.path_params["id"], self._recordings.edit
-        return MessageResponse(await run_in_threadpool(work, name, sent.revision, sent.edit))
+        return MessageResponse(await run_in_threadpool(work, name, sent))
+
+    async def preview(self, request: Request) -> Response:
+        sent = from_json(await _body(request), PreviewRequest)
+
+        def work() -> Preview:
+            return self._recordings.get(request.path_params["id"]).preview(sent)
+
+        return MessageResponse(await run_in_threadpool(work))
+
+    async def versions(self, request: Request) -> Response:
+        def work() -> Versions:
+            opened = self._recordings.get(request.path_params["id"])
+            return Versions(versions=opened.versions())
+
+        return MessageResponse(await run_in_threadpool(work))
+
+    async def version(self, request: Request) -> Response:
+        number = _number(request.path_params["number"])
+
+        def work() -> Comparison:
+            return self._recordings.get(request.path_params["id"]).version(number)
+
+        return MessageResponse(await run_in_threadpool(work))
 
     async def compare(self, request: Request) -> Response:
         sent = from_json(await _body(request), CompareRequest)
@@ -137,6 +160,9 @@ class Api:
             Route(f"{one}/motion", self.motion),
             Route(f"{one}/matrix/{{level}}/{{row}}/{{column}}", self.tile),
             Route(f"{one}/edits", self.edit, methods=["POST"]),
+            Route(f"{one}/preview", self.preview, methods=["POST"]),
+            Route(f"{one}/versions", self.versions),
+            Route(f"{one}/versions/{{number}}", self.version),
             Route(f"{one}/compare", self.compare, methods=["POST"]),
             Route(f"{one}/export/{{format}}", self.export),
             Route("/api/events", self.events),
@@ -194,7 +220,16 @@ class Api:
 
 
 def _listing(name: str, path: Path) -> Listing:
-    return Listing(id=name, name=path.name, bytes=path.stat().st_size, corrected=has_table(path))
+    said = progress(path)
+    return Listing(
+        id=name,
+        name=path.name,
+        bytes=path.stat().st_size,
+        corrected=said is not None,
+        segments=said.segments if said else 0,
+        checked=said.checked if said else 0,
+        named=said.named if said else 0,
+    )
 
 
 def _number(text: str) -> int:

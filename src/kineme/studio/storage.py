@@ -125,11 +125,6 @@ def saved_table(
     raise WriteError(recording, "has no name left for its table")
 
 
-def has_table(recording: Path) -> bool:
-    """Whether a table lies beside the recording, without looking into it."""
-    return any(path.is_file() for path in usual_tables(recording))
-
-
 def usual_tables(recording: Path) -> list[Path]:
     """The two names that nearly every recording's table has."""
     return [recording.with_name(name + SUFFIX) for name in (recording.stem, recording.name)]

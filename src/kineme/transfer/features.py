@@ -1,24 +1,22 @@
-"""Features in which primitives are compared: those of the ``kineme`` method, in any recording."""
+"""Features in which primitives are compared: those in which movements of different people match."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.features import end_effectors
+from kineme.features.canonical import MATCHING_FPS, matching_features
+from kineme.features.canonical.matching import OFFSETS_S
 from kineme.features.effectors import Names
-from kineme.methods.recurrence.preset import KINEME
 from kineme.recordings import Motion
-from kineme.segmentation.bodies import motion_features
 from kineme.segments.table import SegmentTable
 
-FPS = KINEME.working_fps / KINEME.step
-SETTINGS = {"fps": FPS, "offsets_s": list(KINEME.offsets), "unit": "body sizes"}
-DIMS = 15 * len(KINEME.offsets)
+FPS = MATCHING_FPS
+SETTINGS = {"fps": FPS, "offsets_s": list(OFFSETS_S), "unit": "directions"}
 
 
-def transfer_features(motion: Motion, *, effectors: Names | None = None) -> NDArray[np.float64]:
-    """Features in which primitives are compared, in body sizes.
+def transfer_features(motion: Motion, *, effectors: Names | None = None) -> NDArray[np.float32]:
+    """Features in which primitives are compared: unit vectors, whoever moves.
 
     Parameters
     ----------
@@ -28,8 +26,8 @@ def transfer_features(motion: Motion, *, effectors: Names | None = None) -> NDAr
 
     Returns
     -------
-    (samples, 75) array
-        Ten samples a second.
+    (samples, 40) array
+        Fifteen samples a second.
 
     Raises
     ------
@@ -42,10 +40,9 @@ def transfer_features(motion: Motion, *, effectors: Names | None = None) -> NDAr
     >>> from kineme.transfer import transfer_features
     >>> motion = kineme.read(kineme.bundled_recording())
     >>> transfer_features(motion).shape
-    (483, 75)
+    (725, 40)
     """
-    found = end_effectors(motion, names=effectors)
-    return motion_features(motion, KINEME, effectors=found)[:: KINEME.step]
+    return matching_features(motion, effectors=effectors)
 
 
 def working_frames(

@@ -1,9 +1,8 @@
 """Labelled primitives of any recordings, ready to be searched.
 
-A primitive is its label, where it comes from, and its features: five end
-effectors in the body's own frame, in body sizes, each frame stacked with those
-0.1 and 0.2 s before and after it, ten times a second, as the ``kineme`` method
-compares samples. Skeletons, sizes and frame rates may therefore differ.
+A primitive is its label, where it comes from, and its features, fifteen times a
+second (see `kineme.features.canonical.matching`): those of a body that is the
+same for all. People, skeletons and frame rates may therefore differ.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1.
 """
@@ -22,13 +21,14 @@ from numpy.typing import NDArray
 from kineme._checks import check_type
 from kineme._doors import reading
 from kineme.errors import ParameterError
+from kineme.features.canonical.matching import DIMS
 from kineme.features.effectors import Names
 from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
 from kineme.transfer import knowledge_file
-from kineme.transfer.features import DIMS, SETTINGS, transfer_features, working_frames
+from kineme.transfer.features import SETTINGS, transfer_features, working_frames
 from kineme.transfer.matching import Primitives
 
 
@@ -40,7 +40,7 @@ class KnowledgeBase:
 
     Parameters
     ----------
-    features : (samples, 75) array of float32
+    features : (samples, 40) array of float32
         As `transfer_features` gives them.
     lengths : (primitives,) array of int
         Samples of each primitive.
@@ -127,7 +127,7 @@ class KnowledgeBase:
                 f"the segments are of {segments.n_frames} frames, the motion has {motion.n_frames}"
             )
         rows = _labelled(segments)
-        features = transfer_features(motion, effectors=effectors).astype(np.float32)
+        features = transfer_features(motion, effectors=effectors)
         starts, stops = working_frames(rows, segments.fps, len(features))
         path, digest = motion.provenance.path, motion.provenance.sha256
         return cls(

@@ -1,10 +1,10 @@
 """Knowledge bases as files: one ``.npz``, a zip of plain numpy arrays, no pickle.
 
 ============ ================ ==================================================
-``head``     text             JSON: ``schema`` (``kineme.knowledge/1``), ``kineme``
+``head``     text             JSON: ``schema`` (``kineme.knowledge/2``), ``kineme``
                               (version that wrote it), ``fps``, ``offsets_s`` and
                               ``unit`` of the features
-``features`` float32 (n, 75)  frames of all primitives end to end, body sizes
+``features`` float32 (n, 40)  frames of all primitives end to end, unit vectors
 ``lengths``  int64            frames of each primitive; the others go with it
 ``labels``   text             its name
 ``sources``  text             file name of the recording
@@ -34,7 +34,7 @@ from kineme.errors import ReadError, WriteError
 from kineme.formats.arrays.numpy_files import members
 from kineme.formats.files import load
 
-SCHEMA = "kineme.knowledge/1"
+SCHEMA = "kineme.knowledge/2"
 KINDS = {
     "features": "f",
     "lengths": "i",
@@ -84,7 +84,7 @@ def read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDArr
 def _check_head(head: Any, settings: dict[str, Any], path: str | PathLike[str]) -> None:
     schema = head.get("schema") if isinstance(head, dict) else head
     if schema != SCHEMA:
-        reason = f"is of version {schema!r}, this kineme reads {SCHEMA}: build it again"
+        reason = f"is of version {schema!r}, this kineme reads {SCHEMA}: label its recordings again"
         raise ReadError(path, reason)
     for name, value in settings.items():
         if head.get(name) != value:

@@ -21,17 +21,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_floats, check_type, is_number
 from kineme.errors import ParameterError
-from kineme.methods.recurrence.preset import KINEME
+from kineme.matching import THRESHOLD
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable
 from kineme.transfer.features import FPS, working_frames
 from kineme.transfer.knowledge import KnowledgeBase
-from kineme.transfer.matching import Floats, Primitives, label_costs
+from kineme.transfer.matching import Floats, Primitives, label_costs, same_movements
+from kineme.transfer.unsegmented import found_by_search, segmented_as_found
 
-THRESHOLD = (KINEME.min_scale + KINEME.max_scale) / 2
-"""Body sizes: the middle of the scales at which ``kineme`` calls two samples similar, 0.12."""
 REACH = 2.0
-"""Thresholds at which two frames no longer match, so that a path may pass a worse one."""
+"""Thresholds up to which a match with the next label is looked for."""
+ALIKE = 0.6
+"""Cost up to which the repetitions of one person are the same movement."""
 
 
 def transfer_labels(
@@ -44,20 +45,22 @@ def transfer_labels(
 ) -> Segmentation:
     """The same segments, with labels from the knowledge base and the margin as score.
 
-    Labels that are there already stay. An activity is called as most of its
-    frames are. ``provenance["transfer"]`` holds the threshold and, for each
-    primitive, the cost of its match in body sizes (null: no label came from one).
+    A recording without activities, as one that is too short to repeat anything, is searched for
+    all that is known, and cut into what is found there. Labels that are there already stay. An
+    activity is called as most of its frames are. ``provenance["transfer"]`` holds the threshold
+    and, for each primitive, the cost of its match (null: no label came from one).
 
     Parameters
     ----------
     segmentation : Segmentation
         Its primitives are labelled, or its activities where it has none;
         transitions are not.
-    features : (samples, 75) array
-        Of the same recording, ten samples a second, as `transfer_features` gives them.
+    features : (samples, 40) array
+        Of the same recording, fifteen samples a second, as `transfer_features` gives them.
     knowledge : KnowledgeBase
     threshold : float
-        Largest cost of a match, body sizes. Lower: fewer labels, more of them right.
+        Largest cost of a match: 0 is equal, 1.41 has nothing in common. Lower: fewer
+        labels, more of them right.
     spread : bool
         Whether a cluster takes the label that most of its members got, its score for
         the others being the share of them that did.
@@ -89,6 +92,9 @@ def transfer_labels(
     if not (is_number(threshold) and threshold > 0):
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
     features = _checked(features, segmentation)
+    table = segmentation.table
+    if not ((table.kind == "activity") | (table.label != "")).any():
+        return _searched(segmentation, features, knowledge, threshold, spread=spread)
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     rows = segmentation.level(level)
     labels = rows.label.astype(object)
@@ -97,10 +103,12 @@ def transfer_labels(
     if len(todo) and len(knowledge):
         unknown = _primitives(rows.select(todo), features, segmentation.fps)
         found, names = _costs(unknown, knowledge, REACH * threshold)
-        labels[todo], scores[todo], costs[todo] = _cheapest(found, names, threshold)
+        named = _cheapest(found, names, threshold)
+        other = _another_movement(named[0], named[2], same_movements(unknown, ALIKE))
+        named[0][other], named[1][other], named[2][other] = "", np.nan, np.nan
+        labels[todo], scores[todo], costs[todo] = named
     if spread:
         _spread(labels, scores, rows.cluster, todo)
-    table = segmentation.table
     own = table.level == level
     all_labels, all_scores = table.label.astype(object), table.score.copy()
     all_labels[own], all_scores[own] = labels, scores
@@ -154,7 +162,24 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
         for row in segmentation
     ]
     table = replace(segmentation.table, label=np.array(names, dtype=np.str_))
-    return replace(segmentation, table=table)
+    return replace(segmentation, table=table, hierarchy=None)
+
+
+def _searched(
+    segmentation: Segmentation,
+    features: Floats,
+    knowledge: KnowledgeBase,
+    threshold: float,
+    *,
+    spread: bool,
+) -> Segmentation:
+    """What is known, found in a recording without activities; the same segments if nothing is."""
+    found = found_by_search(features, knowledge, threshold)
+    result = segmented_as_found(segmentation, found) if found else segmentation
+    labels = np.array([match.label for match in found], np.str_)
+    costs = np.array([match.distance for match in found])
+    said = _provenance(segmentation, labels, costs, threshold, spread=spread)
+    return replace(result, provenance=said, hierarchy=None)
 
 
 def _checked(features: ArrayLike, segmentation: Segmentation) -> Floats:
@@ -204,6 +229,22 @@ def _cheapest(
         np.where(valid, margin, np.nan),
         np.where(valid, cost, np.nan),
     )
+
+
+def _another_movement(
+    labels: NDArray[Any], costs: Floats, movements: NDArray[np.int64]
+) -> NDArray[np.bool_]:
+    """Which rows are not, by their person's own standard, what bears their name in the recording.
+
+    That is the movement of the cheapest match; another one keeps the name only where it is as near
+    to the knowledge as one person's repetitions are to each other.
+    """
+    other = np.zeros(len(labels), np.bool_)
+    for label in set(labels.tolist()) - {""}:
+        named = np.flatnonzero(labels == label)
+        first = named[costs[named].argmin()]
+        other[named] = (movements[named] != movements[first]) & (costs[named] > ALIKE)
+    return other
 
 
 def _spread(

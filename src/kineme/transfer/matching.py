@@ -1,41 +1,37 @@
 """What it costs to warp unlabelled primitives onto labelled ones, and those back.
 
-The similarity graph holds the frames of both that are within a radius. A
-primitive u matches a run L of labelled ones if a warping path through the
-graph leads from u's beginning to its end inside L (subsequence warping), and
-another through a primitive of L inside the run of u. The match costs the
-mean distance of the nodes of the dearer of the two paths. With one path alone,
-a part of a movement would pass for the whole.
+A primitive u matches a run L of labelled ones if all of u can be warped onto successive samples
+of L, at half to twice its speed (subsequence warping), and all of a primitive of L onto the run
+of u. The match costs the dearer of the two. With one of them alone, a part of a movement would
+pass for the whole.
 
-A *run* is of primitives that touch and are of one kind: cyclic movements may
-be cut at another phase, so a path may cross from one primitive to the next of
-its run, but never into another run.
+A *run* is of primitives that touch and are of one kind: cyclic movements may be cut at another
+phase, so a warping may lead from one primitive to the next of its run, but never into another.
 
-Source: Vögele, Krüger and Klein 2014, section 6.1; the second path is our own.
+Source: Vögele, Krüger and Klein 2014, section 6.1; the way back is our own, the warping that of
+`kineme.matching`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from kineme._threads import map_threads
-from kineme.graph import NeighborGraph, neighbor_graph, warping_paths
+from kineme.matching.subsequences import warped
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-COVERAGE = 0.75
-"""Share of a primitive's frames that a path must pass."""
-BATCH_FRAMES = 8192
-"""Labelled frames searched at a time: memory does not grow with the knowledge, time linearly."""
-
-# Which primitive, in which run of the other side, at what cost per node.
+# Which primitive, in which run of the other side, at what cost.
 Matches = tuple[Ints, Ints, Floats]
+
+_WALL = 1e6  # so far is what lies between two runs from any feature
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,97 +77,84 @@ def label_costs(
         The label of each, from 0, one for all of a run.
     n_labels : int
     radius : float
-        Frames farther apart than this do not match.
+        Dearer matches are none.
 
     Returns
     -------
     (unknown primitives, n_labels) array
     """
     costs = np.full((len(unknown), n_labels), np.inf)
-    for batch, batch_codes in _batches(known, codes):
-        of_run = np.empty(batch.runs[-1] + 1, np.int64)
-        of_run[batch.runs] = batch_codes
-        u, run, cost = mutual_matches(unknown, batch, radius)
-        np.minimum.at(costs, (u, of_run[run]), cost)
+    of_run = np.empty(int(known.runs[-1]) + 1, np.int64)
+    of_run[known.runs] = codes
+    u, run, cost = mutual_matches(unknown, known, radius)
+    np.minimum.at(costs, (u, of_run[run]), cost)
     return costs
 
 
 def mutual_matches(unknown: Primitives, known: Primitives, radius: float) -> Matches:
     """Every match of an unknown primitive with a run of known ones: number, run, cost."""
-    graph = neighbor_graph(unknown.features, known.features, radius=radius)
-    u, known_run, forward = _matches_within(graph, unknown, known, np.arange(len(unknown)))
+    u, known_run, forward = _matches_within(unknown, known, np.arange(len(unknown)), radius)
     reached = np.flatnonzero(np.isin(known.runs, known_run))
-    k, unknown_run, backward = _matches_within(_transposed(graph), known, unknown, reached)
+    k, unknown_run, backward = _matches_within(known, unknown, reached, radius)
     n = int(known.runs[-1]) + 1
-    pairs, cheapest = _cheapest(unknown_run * n + known.runs[k], backward)
+    most = np.bincount(known.runs)
+    pairs, medians = _medians(unknown_run * n + known.runs[k], backward, most)
     wanted = unknown.runs[u] * n + known_run
     at = np.searchsorted(pairs, wanted)
     both = at < len(pairs)
     both[both] = pairs[at[both]] == wanted[both]
-    return u[both], known_run[both], np.maximum(forward[both], cheapest[at[both]])
+    return u[both], known_run[both], np.maximum(forward[both], medians[at[both]])
+
+
+def same_movements(primitives: Primitives, radius: float) -> Ints:
+    """A number for each primitive, equal for those that match, by themselves or through others."""
+    one, run, _ = mutual_matches(primitives, primitives, radius)
+    n = len(primitives)
+    size = n + int(primitives.runs[-1]) + 1
+    links = coo_array((np.ones(len(one)), (one, n + run)), shape=(size, size))
+    numbers: Ints = connected_components(links, directed=False)[1][:n].astype(np.int64)
+    return numbers
 
 
 def _matches_within(
-    graph: NeighborGraph, rows: Primitives, columns: Primitives, which: Ints
+    examples: Primitives, others: Primitives, which: Ints, radius: float
 ) -> Matches:
-    """Cheapest warping path of each of some row primitives inside each run of columns."""
-    # An empty column after each run: no step leads from one run into the next.
-    shift = columns.frame_runs
-    apart = NeighborGraph(
-        graph.indptr,
-        (graph.indices + shift[graph.indices]).astype(np.int32),
-        graph.distances,
-        len(shift) + int(shift[-1]),
-        graph.radius,
-    )
-    run_at = np.zeros(apart.n_columns, np.int64)
-    run_at[np.arange(len(shift)) + shift] = shift
-    starts = rows.starts
+    """Cheapest warping of each of some examples inside each run of others, within the radius."""
+    walled, first = _walled(others)
+    starts = examples.starts
+    features = np.asarray(examples.features, np.float32)
 
-    def paths_of(p: np.int64) -> tuple[Ints, Floats]:
-        box = int(starts[p]), int(starts[p + 1])
-        if graph.indptr[box[0]] == graph.indptr[box[1]]:
-            return np.empty(0, np.int64), np.empty(0)
-        paths = warping_paths(apart, box, (0, apart.n_columns))
-        (first, column), (last, _) = paths.starts, paths.ends
-        passed = last - first + 1 >= COVERAGE * rows.lengths[p]
-        return _cheapest(run_at[column[passed]], (paths.costs / paths.n_nodes)[passed])
+    def matches_of(p: np.int64) -> tuple[Ints, Floats]:
+        costs, _ = warped(features[starts[p] : starts[p + 1]], walled)
+        cheapest = np.minimum.reduceat(costs, first)
+        runs = np.flatnonzero(cheapest <= radius)
+        return runs, cheapest[runs].astype(np.float64)
 
-    found = map_threads(paths_of, which)
+    found = map_threads(matches_of, which)
     if not found:
         return np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0)
     runs, costs = (np.concatenate(part) for part in zip(*found, strict=True))
     return np.repeat(which, [len(part) for part, _ in found]), runs, costs
 
 
-def _cheapest(keys: Ints, costs: Floats) -> tuple[Ints, Floats]:
-    """Each key once, ascending, with the least of its costs."""
-    unique, inverse = np.unique(keys, return_inverse=True)
-    least = np.full(len(unique), np.inf)
-    np.minimum.at(least, inverse, costs)
-    return unique, least
+def _walled(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
+    """The features with a wall after each run, and where each run begins among them."""
+    frames = np.arange(len(primitives.frame_runs)) + primitives.frame_runs
+    n_runs = int(primitives.runs[-1]) + 1
+    walled = np.full((len(frames) + n_runs, primitives.features.shape[1]), _WALL, np.float32)
+    walled[frames] = primitives.features
+    first = np.searchsorted(primitives.frame_runs, np.arange(n_runs)) + np.arange(n_runs)
+    return walled, first
 
 
-def _transposed(graph: NeighborGraph) -> NeighborGraph:
-    """The graph with rows for columns."""
-    flipped = graph.to_scipy().T.tocsr()
-    flipped.sort_indices()
-    return NeighborGraph(
-        flipped.indptr.astype(np.int64),
-        flipped.indices.astype(np.int32),
-        flipped.data,
-        len(graph),
-        graph.radius,
-    )
+def _medians(keys: Ints, costs: Floats, sizes: Ints) -> tuple[Ints, Floats]:
+    """Each key once, ascending, with the lower median of its costs.
 
-
-def _batches(known: Primitives, codes: Ints) -> Iterator[tuple[Primitives, Ints]]:
-    """The known primitives in batches of whole runs, with their labels."""
-    ends = np.flatnonzero(np.append(np.diff(known.runs) > 0, True)) + 1
-    start = 0
-    for end in ends.tolist():
-        if known.starts[end] - known.starts[start] >= BATCH_FRAMES or end == ends[-1]:
-            features = known.features[known.starts[start] : known.starts[end]]
-            runs = known.runs[start:end] - known.runs[start]
-            yield Primitives(features, known.lengths[start:end], runs), codes[start:end]
-            start = end
+    ``keys % len(sizes)`` is a run, of so many primitives; where less than half of them have a
+    cost, the key is left out.
+    """
+    order = np.lexsort((costs, keys))
+    unique, first, counts = np.unique(keys[order], return_index=True, return_counts=True)
+    middle = (sizes[unique % len(sizes)] - 1) // 2
+    known = middle < counts
+    return unique[known], costs[order][(first + middle)[known]]

@@ -14,11 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
+from kineme.matching import THRESHOLD
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.features import transfer_features
 from kineme.transfer.knowledge import KnowledgeBase
-from kineme.transfer.labels import THRESHOLD, transfer_labels
+from kineme.transfer.labels import transfer_labels
 
 
 def share_clusters(
@@ -40,7 +41,7 @@ def share_clusters(
     segmentations : sequence of Segmentation
         One for each; labels are neither used nor changed.
     threshold : float
-        Largest cost of a match, body sizes; see `transfer_labels`.
+        Largest cost of a match; see `transfer_labels`.
 
     Returns
     -------
@@ -91,7 +92,8 @@ def _met_before(
     motion: Motion, found: Segmentation, known: KnowledgeBase, threshold: float
 ) -> dict[int, int]:
     """The numbers of the clusters that are found in the knowledge."""
-    bare = replace(found, table=replace(found.table, label=np.full(len(found), "")))
+    unnamed = replace(found.table, label=np.full(len(found), ""))
+    bare = replace(found, table=unnamed, hierarchy=None)
     named = transfer_labels(bare, transfer_features(motion), known, threshold=threshold)
     rows = named.primitives if len(named.primitives) else named.activities
     finds: list[tuple[int, int, int]] = []
@@ -109,7 +111,7 @@ def _met_before(
 
 def _renumbered(found: Segmentation, numbers: dict[int, int]) -> Segmentation:
     clusters = np.array([numbers.get(c, -1) for c in found.table.cluster.tolist()], np.int64)
-    return replace(found, table=replace(found.table, cluster=clusters))
+    return replace(found, table=replace(found.table, cluster=clusters), hierarchy=None)
 
 
 def _named_by_cluster(found: Segmentation) -> Segmentation:
@@ -117,4 +119,4 @@ def _named_by_cluster(found: Segmentation) -> Segmentation:
     labels: NDArray[np.str_] = np.array(
         [str(c) if c >= 0 else "" for c in found.table.cluster.tolist()]
     )
-    return replace(found, table=replace(found.table, label=labels))
+    return replace(found, table=replace(found.table, label=labels), hierarchy=None)

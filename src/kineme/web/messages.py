@@ -13,10 +13,15 @@ from typing import Any
 from msgspec import Struct
 
 from kineme.segments.table import Segment
+from kineme.web.requests import Edit
 
 
 class Segments(Struct, frozen=True, kw_only=True):
-    """A segment table as its JSON file has it (``kineme.segments/1``)."""
+    """A segment table as its JSON file has it (``kineme.segments/1``), and what people did to it.
+
+    ``cluster_names`` has the names of clusters by their numbers; ``checked`` and ``by_hand``
+    are numbers of rows.
+    """
 
     schema: str
     n_frames: int
@@ -24,6 +29,9 @@ class Segments(Struct, frozen=True, kw_only=True):
     provenance: dict[str, Any]
     timings: dict[str, float]
     segments: list[Segment]
+    cluster_names: dict[str, str]
+    checked: list[int]
+    by_hand: list[int]
 
 
 class MotionHead(Struct, frozen=True, kw_only=True):
@@ -107,12 +115,19 @@ class PresetChoice(Struct, frozen=True, kw_only=True):
 
 
 class Listing(Struct, frozen=True, kw_only=True):
-    """A recording of the folder, opened or not."""
+    """A recording of the folder, opened or not.
+
+    ``segments``, ``checked`` and ``named`` count the rows of its table, if it has been saved
+    (``corrected``), that are there, checked, and have a name.
+    """
 
     id: str
     name: str
     bytes: int
     corrected: bool
+    segments: int
+    checked: int
+    named: int
 
 
 class FileChoice(Struct, frozen=True, kw_only=True):
@@ -170,6 +185,36 @@ class Comparison(Struct, frozen=True, kw_only=True):
     name: str
     segmentation: Segments
     scores: dict[str, float]
+
+
+class Preview(Struct, frozen=True, kw_only=True):
+    """A table that would take the place of the present one.
+
+    ``corrections`` (segments made by hand or checked) and ``names`` are those of the present
+    table; ``lost`` says, in a sentence each, what the new one would not have of them.
+    """
+
+    segmentation: Segments
+    corrections: int
+    names: int
+    lost: list[str]
+
+
+class Version(Struct, frozen=True, kw_only=True):
+    """A table that was replaced; ``edit`` made it, null: it was found, or came from elsewhere."""
+
+    number: int
+    at: str
+    edit: Edit | None
+    segments: int
+    corrections: int
+    names: int
+
+
+class Versions(Struct, frozen=True, kw_only=True):
+    """The tables of a recording that were replaced, the latest first."""
+
+    versions: list[Version]
 
 
 class Changed(Struct, frozen=True, kw_only=True):

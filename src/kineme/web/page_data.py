@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +12,8 @@ from kineme.errors import ParameterError
 from kineme.features import Names
 from kineme.labels.json_table import SCHEMA
 from kineme.recordings import Motion, Signals
+from kineme.segments.editing import cluster_names
+from kineme.segments.editing.marks import Mark, marked, span_of
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import Matrix
@@ -36,6 +39,8 @@ class PageData:
         The poses, see `kineme.web.display`; empty for signals.
     matrix : Matrix
         The self-similarity of the recording.
+    warnings : list of str
+        What there was to warn of when it was read.
     """
 
     n_frames: int
@@ -43,6 +48,7 @@ class PageData:
     motion: MotionHead | None
     binary: bytes
     matrix: Matrix
+    warnings: list[str] = field(default_factory=list)
 
 
 def page_data(
@@ -76,12 +82,14 @@ def page_data(
     if isinstance(recording, Motion):
         head, binary = display_motion(recording, effectors=effectors)
         matrix = matrix_of_motion(recording, effectors=effectors)
-        return PageData(recording.n_frames, recording.fps, head, binary, matrix)
+        warned = [str(note) for note in recording.provenance.warnings]
+        return PageData(recording.n_frames, recording.fps, head, binary, matrix, warned)
     if isinstance(recording, Signals):
         values, fps = np.array(recording.values), recording.fps
         for start, stop in recording.gaps:
             values[start:stop] = np.nan
-        return PageData(len(values), fps, None, b"", matrix_of_signal(values, fps))
+        warned = [str(note) for note in recording.provenance.warnings]
+        return PageData(len(values), fps, None, b"", matrix_of_signal(values, fps), warned)
     if fps is None:
         raise ParameterError("an array does not tell its frame rate: give fps")
     matrix = matrix_of_signal(recording, fps)
@@ -146,19 +154,25 @@ def segments_message(segmentation: Segmentation) -> Segments:
     -------
     Segments
     """
+    rows = list(segmentation)
+    spans = {mark: marked(segmentation, mark) for mark in get_args(Mark)}
     return Segments(
         schema=SCHEMA,
         n_frames=segmentation.n_frames,
         fps=segmentation.fps,
         provenance=dict(segmentation.provenance),
         timings=dict(segmentation.timings),
-        segments=list(segmentation),
+        segments=rows,
+        cluster_names={str(cluster): name for cluster, name in cluster_names(segmentation).items()},
+        checked=[i for i, row in enumerate(rows) if span_of(row) in spans["checked"]],
+        by_hand=[i for i, row in enumerate(rows) if span_of(row) in spans["by_hand"]],
     )
 
 
 def _warnings(data: PageData) -> list[str]:
     motion = data.motion
     if motion is None or motion.sample_fps >= min(RATE, data.fps):
-        return []
+        return data.warnings
     rate = motion.sample_fps
-    return [f"so that the page stays small, the figure moves {rate:.3g} times a second"]
+    slow = f"so that the page stays small, the figure moves {rate:.3g} times a second"
+    return [*data.warnings, slow]

@@ -92,10 +92,38 @@ class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
 
 
 class SegmentAgain(EditBase, frozen=True, kw_only=True, tag="segment"):
-    """The whole table anew, by a preset."""
+    """The whole table anew, by a preset; with ``keep``, corrections and names are taken over."""
 
     preset: Text
     parameters: dict[Text, Number]
+    keep: bool | UnsetType = UNSET
+
+
+class MergeClusters(EditBase, frozen=True, kw_only=True, tag="merge_clusters"):
+    """The segments of a cluster are in another one, ``into``, from then on."""
+
+    cluster: Whole
+    into: Whole
+
+
+class Check(EditBase, frozen=True, kw_only=True, tag="check"):
+    """The segments that start at ``frames`` are checked, or not any more."""
+
+    level: Level
+    frames: list[Whole]
+    checked: bool
+
+
+class TakeLabels(EditBase, frozen=True, kw_only=True, tag="take_labels"):
+    """What a label file of the folder says becomes the table."""
+
+    annotation: Text
+
+
+class Restore(EditBase, frozen=True, kw_only=True, tag="restore"):
+    """A table that was replaced is the present one again."""
+
+    version: Whole
 
 
 class Transfer(EditBase, frozen=True, kw_only=True, tag="transfer"):
@@ -114,6 +142,26 @@ class Redo(EditBase, frozen=True, kw_only=True, tag="redo"):
     """The last edit taken back is done again."""
 
 
+ByHand = (
+    MoveBorder
+    | Split
+    | Merge
+    | DeleteBorder
+    | NameSegment
+    | NameCluster
+    | SetCluster
+    | SetKind
+    | MergeClusters
+    | Check
+)
+
+
+class Together(EditBase, frozen=True, kw_only=True, tag="together"):
+    """Several edits, one after the other, which are one step of undo; all of them or none."""
+
+    edits: list[ByHand]
+
+
 Edit = (
     MoveBorder
     | Split
@@ -123,18 +171,35 @@ Edit = (
     | NameCluster
     | SetCluster
     | SetKind
+    | MergeClusters
+    | Check
+    | Together
     | SegmentAgain
+    | TakeLabels
     | Transfer
+    | Restore
     | Undo
     | Redo
 )
 
 
 class EditRequest(Request, frozen=True, kw_only=True):
-    """An edit of the table as it was at ``revision``."""
+    """An edit of the table as it was at ``revision``.
+
+    ``name`` is the edit's own: one that is sent again, for want of an answer, is made once.
+    """
 
     revision: Whole
     edit: Edit
+    name: Text | UnsetType = UNSET
+
+
+class PreviewRequest(Request, frozen=True, kw_only=True):
+    """A segmentation to look at, as ``SegmentAgain`` would make it."""
+
+    preset: Text
+    parameters: dict[Text, Number]
+    keep: bool
 
 
 class CompareRequest(Request, frozen=True, kw_only=True):

@@ -8,13 +8,18 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sklearn.metrics import adjusted_rand_score
 
 import kineme
 import naive
+from kineme.errors import ParameterError
 from kineme.methods.hierarchy import _kernels as kernels
 from kineme.methods.hierarchy import tree
+from kineme.methods.hierarchy.agreement import adjusted_rand_index
+from kineme.methods.hierarchy.parts import part_ends
 from kineme.methods.hierarchy.preset import SENSORS
 from kineme.methods.hierarchy.statistics import channel_statistics
+from kineme.methods.hierarchy.views import without_shared
 
 FPS = 50.0
 DONE = ((0, 0, 0), (0, 1.8, 1), (0, 0, 0), (0, 2.8, 3), (2, 0, 0), (0, 1.8, 1))
@@ -68,6 +73,21 @@ def test_distances_of_segments_are_those_of_the_naive_version(features, data) ->
     expected = np.array(naive.mean_distances(features, segments, 2.0))
     lengths = np.diff(borders)
     np.testing.assert_allclose(sums, expected * np.outer(lengths, lengths), atol=1e-4)
+
+
+@given(samples(), st.integers(1, 8), st.floats(0, 2), st.floats(0, 2))
+@settings(max_examples=60)
+def test_the_cheapest_grouping_is_that_of_the_naive_version(features, most, run, cluster) -> None:
+    n = len(features)
+    lengths = 1.0 + np.arange(n) % 3
+    means = np.linalg.norm(features[:, None] - features, axis=2) + 0.1
+    sums = np.ascontiguousarray(means * np.outer(lengths, lengths))
+    cost, groups = naive.cheapest_grouping(sums, lengths, most, run, cluster)
+    labels = np.empty(n, np.int64)
+    assert kernels.cheapest_grouping(
+        sums.copy(), lengths.copy(), most, run, cluster, labels
+    ) == pytest.approx(cost)
+    assert sorted(np.flatnonzero(labels == g).tolist() for g in np.unique(labels)) == groups
 
 
 @given(samples(), st.data())
@@ -127,3 +147,50 @@ def test_steps_are_counted() -> None:
     rows = swing + 0.02 * np.random.default_rng(0).standard_normal(swing.shape)
     found = kineme.segment(kineme.Signals(rows, FPS))
     assert abs(len(found.primitives) - 20) <= 1
+
+
+def test_long_recordings_are_cut_as_finely_as_their_parts_and_known_again() -> None:
+    rows, borders = worn()
+    one, ends = len(rows), [*borders, len(rows)]
+    found = kineme.segment(kineme.Signals(np.tile(rows, (4, 1)), FPS), part=one / FPS)
+    cuts = found.cuts()
+    expected = [turn * one + end for turn in range(4) for end in ends][:-1]
+    assert all(np.abs(cuts - border).min() <= FPS for border in expected)
+    assert len(cuts) <= len(expected) + 4
+    middles = np.array([0, *borders]) + int(6 * FPS)
+    turns = [found.per_frame("cluster")[turn * one + middles].tolist() for turn in range(4)]
+    assert turns[1:] == turns[:1] * 3
+
+
+@given(st.integers(1, 10_000), st.integers(1, 500))
+def test_parts_are_whole_and_none_is_too_long(n: int, longest: int) -> None:
+    lengths = np.diff(part_ends(n, longest))
+    assert lengths.sum() == n
+    assert 1 <= lengths.min() <= lengths.max() <= longest
+
+
+def test_what_channels_share_is_held_down() -> None:
+    rng = np.random.default_rng(0)
+    channels = rng.standard_normal((4000, 1)) + 0.5 * rng.standard_normal((4000, 6))
+
+    def shared(of: np.ndarray) -> float:
+        return float(np.linalg.eigvalsh(np.corrcoef(of.T))[-1])
+
+    assert shared(channels) > 4.5
+    assert shared(without_shared(channels, 0.3)) < 1.5
+    assert shared(without_shared(channels, 1e4)) == pytest.approx(shared(channels))
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), min_size=2, max_size=40))
+def test_agreement_is_the_adjusted_rand_index(pairs) -> None:
+    first, second = np.array(pairs, np.int64).T
+    expected = adjusted_rand_score(first, second)
+    assert adjusted_rand_index(first, second) == pytest.approx(expected)
+
+
+def test_views_need_a_number_of_each_kind() -> None:
+    with pytest.raises(ParameterError, match="a number for each view, not 2, 5 and 5"):
+        SENSORS.replace(shared=(1.0, 0.3))
+    alone = SENSORS.replace(shared=(0.3,), weights=(1.0,), restless_over=(1.0,))
+    found = kineme.segment(kineme.Signals(worn()[0], FPS), preset=alone)
+    assert len(found.activities) >= 6

@@ -37,7 +37,7 @@ def analysis_of(seed: int) -> RecurrenceFound:
 
 
 def assert_same(found: RecurrenceFound, expected: RecurrenceFound) -> None:
-    for name in ("borders", "labels", "primitives"):
+    for name in ("borders", "labels", "primitives", "clusters"):
         np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
     for name in ("links", "counts", "borders", "cuts"):
         probabilities = (getattr(each.confidence, name) for each in (found, expected))
@@ -47,7 +47,9 @@ def assert_same(found: RecurrenceFound, expected: RecurrenceFound) -> None:
 def repetitions_of(found: RecurrenceFound) -> list[int]:
     """How many repetitions each activity has; transitions left out."""
     parents = np.searchsorted(found.borders, found.primitives[:-1], side="right") - 1
-    return np.bincount(parents)[found.labels >= 0].tolist()
+    return np.bincount(parents[found.clusters >= 0], minlength=len(found.labels))[
+        found.labels >= 0
+    ].tolist()
 
 
 # --- what is known is found -------------------------------------------------------------------

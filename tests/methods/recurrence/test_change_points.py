@@ -12,12 +12,13 @@ from bands import one_sided
 from kineme.methods.recurrence import _action_kernels as kernels
 from kineme.methods.recurrence.change_points import (
     change_points,
+    divided,
     link,
     merge_neighbors,
     repeating,
 )
 from kineme.methods.recurrence.preset import KINEME
-from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
+from kineme.methods.recurrence.recurrence import Recurrence, narrower, phase_windows, recurrence
 from kineme.methods.segments import by_first_appearance
 from loops import swing
 
@@ -119,11 +120,32 @@ def test_two_slow_repetitions_are_parts_of_one_stretch() -> None:
     )
 
 
+SHORT = {"softness": 2.0, "least": 0.5, "elsewhere": 0.65, "min_length": 6}
+
+
+def test_short_exercises_are_divided() -> None:
+    parts = [swing(3, period=1), swing(3, period=1.2, axis=2), swing(2, period=0.8, axis=4)]
+    wide = measured(*parts)
+    narrow = narrower(wide, phases=(7,), rank=16, low=0.08, high=0.16)
+    finer = np.array([0, 30, 66, 82])
+    assert divided(np.array([0, 82]), finer, narrow, **SHORT).tolist() == [0, 30, 66, 82]
+    # Not near a border that is there.
+    assert divided(np.array([0, 27, 82]), finer, narrow, **SHORT).tolist() == [0, 27, 66, 82]
+
+
+def test_phases_of_slow_repetitions_are_not_divided() -> None:
+    wide = measured(swing(3, period=6))
+    narrow = narrower(wide, phases=(7,), rank=16, low=0.08, high=0.16)
+    finer = np.arange(0, 181, 15)
+    assert divided(np.array([0, 180]), finer, narrow, **SHORT).tolist() == [0, 180]
+
+
 def test_an_action_is_known_again() -> None:
     walk, turn = swing(8, period=1), swing(10, period=1.2, axis=2)
     found = measured(walk, turn, walk, turn, turn)
     borders = np.array([0, 80, 200, 280, 400, 520])
     options = {"similarity": 0.6, "softness": 1.3, "samples": 20, "least": 0.05}
+    options |= {"narrow": 7, "gap_share": 0.25}
     linked = link(borders, found, found.features, **options, max_lag=None)
     assert linked.tolist() == [0, 1, 0, 1, 1]
     # 12 s away is too far to be compared, 0 s is not.

@@ -12,7 +12,7 @@ from bands import one_sided, points, to_matrix, two_sided
 from kineme.methods.recurrence import _distance_kernels as distant
 from kineme.methods.recurrence import _recurrence_kernels as kernels
 from kineme.methods.recurrence.preset import KINEME
-from kineme.methods.recurrence.recurrence import phase_windows, recurrence
+from kineme.methods.recurrence.recurrence import narrower, phase_windows, recurrence
 from loops import swing
 
 seconds = settings(max_examples=120)
@@ -146,6 +146,18 @@ def test_a_narrow_band_is_the_middle_of_a_wide_one() -> None:
     wide = recurrence(rows, **OPTIONS)
     narrow = recurrence(rows, **{**OPTIONS, "width": 40})
     np.testing.assert_array_equal(narrow.near, wide.near[:, 194 - 40 : 194 + 41])
+
+
+def test_other_windows_need_no_new_distances() -> None:
+    rows = swing(15, period=1.3)
+    other = {"phases": (7,), "rank": 16, "low": 0.05, "high": 0.2}
+    again, anew = (
+        narrower(recurrence(rows, **OPTIONS), **other),
+        recurrence(rows, **OPTIONS | other),
+    )
+    for name in ("near", "similarity", "scales"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(anew, name))
+    assert again.phases == (7,)
 
 
 def test_small_movements_count_as_large_ones_do() -> None:

@@ -8,8 +8,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
+from kineme.errors import ParameterError
 from kineme.methods.base import RATE, Unit
-from kineme.methods.constants import SOME, SOME_TIME, TIME, Limits, constant
+from kineme.methods.constants import (
+    SHARE,
+    SOME,
+    SOME_LENGTH,
+    SOME_TIME,
+    TIME,
+    Limits,
+    constant,
+)
 from kineme.methods.recurrence.counting import CountingPreset
 
 
@@ -36,6 +45,21 @@ class HierarchyConstants(CountingPreset):
         "edges of the bands of frequency whose energies are compared", unit="Hz",
         limits=Limits(0.0, 500.0, above=True),
     )  # fmt: skip
+    shared: tuple[float, ...] = constant(
+        "per view: largest variance that channels share, where that of a channel is 1",
+        limits=SOME_LENGTH, fine=True,
+    )  # fmt: skip
+    weights: tuple[float, ...] = constant(
+        "per view: power to which what statistics vary is divided out", limits=SHARE, fine=True
+    )
+    restless_over: tuple[float, ...] = constant(
+        "per view: a statistic varies as much as it changes over this; 0: as its band does",
+        unit="s", limits=TIME, fine=True,
+    )  # fmt: skip
+    part: float = constant(
+        "a longer recording is segmented in parts of this at most", unit="s", limits=SOME_TIME,
+        fine=True,
+    )  # fmt: skip
     fine_cost: float = constant(
         "what a border of the finest level must gain: time at the median distance", unit="s",
         limits=TIME, fine=True,
@@ -57,6 +81,15 @@ class HierarchyConstants(CountingPreset):
         fine=True,
     )  # fmt: skip
     max_clusters: int = constant("clusters at most", limits=SOME, fine=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        lengths = {len(self.shared), len(self.weights), len(self.restless_over)}
+        if lengths - {len(self.shared) or 1}:
+            raise ParameterError(
+                "shared, weights and restless_over must have a number for each view, not "
+                f"{len(self.shared)}, {len(self.weights)} and {len(self.restless_over)}"
+            )
 
     def at_most(self, fps: float) -> Self:
         """The preset for a recording of that rate: energies above it are not there."""

@@ -42,7 +42,10 @@ def levels_of(found: HierarchyFound, columns: Columns) -> Mapping[float, Columns
         border_price=preset.samples(preset.segment_cost),
         cluster_price=preset.samples(preset.cluster_cost),
     )
-    return {detail: levels.at_detail(columns, frames, at[detail]) for detail in details}
+    return {
+        detail: levels.at_detail(columns, frames, at[detail], 0.0 if detail < 1 else None)
+        for detail in details
+    }
 
 
 def _pieces(found: HierarchyFound) -> tuple[levels.Pieces, levels.Ints]:

@@ -22,12 +22,12 @@ NYQUIST = 0.45
 def channel_statistics(
     channels: Floats, fps: float, *, rate: float, window: float, bands: tuple[float, ...]
 ) -> Floats:
-    """Means and energies of channels, each group of them with the same weight.
+    """Means and energies of channels.
 
     Parameters
     ----------
     channels : (frames, channels) array
-        With equal deviations.
+            With equal deviations.
     fps : float
         Frames per second.
     rate : float
@@ -40,7 +40,7 @@ def channel_statistics(
     Returns
     -------
     (samples, channels * groups) array
-        One group of means, and one for each band. Distances are root mean squares over all.
+        One group of means, and one for each band.
 
     Examples
     --------
@@ -60,8 +60,7 @@ def channel_statistics(
     ]
     n = int((len(channels) - 1) / fps * rate + 1e-9) + 1
     at = np.minimum(np.rint(np.arange(n) * fps / rate).astype(np.int64), len(channels) - 1)
-    scaled = [_of_equal_weight(group[at]) for group in groups]
-    return np.asarray(np.hstack(scaled) / np.sqrt(len(groups) * channels.shape[1]), np.float64)
+    return np.asarray(np.hstack([group[at] for group in groups]), np.float64)
 
 
 def _mean(values: Floats, width: int) -> Floats:
@@ -84,10 +83,3 @@ def _band(channels: Floats, fps: float, low: float, high: float) -> Floats:
     sections = butter(2, edges, "bandpass", fs=fps, output="sos")
     padding = min(len(channels) - 1, int(3 * fps / low))
     return np.asarray(sosfiltfilt(sections, channels, axis=0, padlen=padding), np.float64)
-
-
-def _of_equal_weight(group: Floats) -> Floats:
-    """The group around its mean, with a mean variance of 1; 0 where nothing changes."""
-    centred = group - group.mean(axis=0)
-    deviation = float(np.sqrt((centred**2).mean()))
-    return centred / deviation if deviation > 1e-9 else np.zeros_like(centred)

@@ -14,6 +14,7 @@ segmentation after Keogh, Chu, Hart and Pazzani 2001; the rest is ours.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -24,15 +25,16 @@ from kineme._threads import even_slices, map_threads
 from kineme.methods.hierarchy import _kernels as kernels
 from kineme.methods.recurrence._action_kernels import change_points
 from kineme.methods.samples import spread
+from kineme.methods.segments import by_first_appearance
 
 Floats = NDArray[np.float64]
 Samples = NDArray[np.int64]
 
-PAIRS = 2000
+PAIRS = 1000
 """Samples whose distances tell the median one."""
 COMPARED = 12_000
 """Samples that stand for all segments of a long recording."""
-LEAST, MOST = 4, 32
+LEAST, MOST = 4, 24
 """Samples that stand for one segment."""
 EACH_LEVEL, LEVELS = 150, 60
 """Levels up to so many segments are tried one by one; of the others so many."""
@@ -91,19 +93,23 @@ def between_segments(features: NDArray[np.float32], borders: Samples, unit: floa
     """Summed distances of the samples of each two segments, (segments, segments), in units."""
     k = len(borders) - 1
     most = max(LEAST, min(MOST, COMPARED // k))
-    chosen = [spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
-    ends = np.concatenate([[0], np.cumsum([len(each) for each in chosen])])
-    means = np.zeros((k, k))
+    groups = [spread(start, stop, most) for start, stop in pairwise(borders.tolist())]
+    lengths = np.diff(borders)
+    sums = mean_distances(features, groups) * np.outer(lengths, lengths)
+    return np.asarray(sums / unit, np.float64)
+
+
+def mean_distances(features: NDArray[np.float32], groups: Sequence[Samples]) -> Floats:
+    """Mean distances of the samples of each two groups, (groups, groups)."""
+    ends = np.concatenate([[0], np.cumsum([len(group) for group in groups])])
+    chosen = np.concatenate(groups)
+    means = np.zeros((len(groups), len(groups)))
 
     def fill(rows: slice) -> None:
-        kernels.mean_distances(
-            features, np.concatenate(chosen), ends, unit, rows.start, rows.stop, means
-        )
+        kernels.mean_distances(features, chosen, ends, rows.start, rows.stop, means)
 
-    map_threads(fill, even_slices(k))
-    means = np.triu(means) + np.triu(means, 1).T
-    lengths = np.diff(borders)
-    return np.asarray(means * np.outer(lengths, lengths), np.float64)
+    map_threads(fill, even_slices(len(groups)))
+    return np.triu(means) + np.triu(means, 1).T
 
 
 def levels(borders: Samples, sums: Floats) -> list[Samples]:
@@ -165,35 +171,10 @@ def best_level(
         level = tree[at]
         lengths = np.diff(borders[level]).astype(np.float64)
         inner = np.add.reduceat(np.add.reduceat(sums, level[:-1], 0), level[:-1], 1)
-        for labels, within in _groupings(inner, lengths, most_clusters):
-            runs = 1 + np.count_nonzero(np.diff(labels))
-            clusters = int(labels.max()) + 1
-            cost = within + segment_cost * runs + cluster_cost * clusters
-            if cost < cheapest:
-                cheapest, best = cost, Level(borders[level], labels)
+        labels = np.empty(len(lengths), np.int64)
+        cost = kernels.cheapest_grouping(
+            inner, lengths, most_clusters, segment_cost, cluster_cost, labels
+        )
+        if cost < cheapest:
+            cheapest, best = cost, Level(borders[level], by_first_appearance(labels))
     return best
-
-
-def _groupings(inner: Floats, lengths: Floats, most: int) -> list[tuple[Samples, float]]:
-    """Labels of the segments for each number of clusters, and half the distances within them."""
-    from scipy.cluster.hierarchy import fcluster, linkage
-    from scipy.spatial.distance import squareform
-
-    k = len(lengths)
-    if k == 1:
-        return [(np.zeros(1, np.int64), float(inner[0, 0] / (2 * lengths[0])))]
-    means = inner / np.outer(lengths, lengths)
-    np.fill_diagonal(means, 0)
-    joined = linkage(squareform(means, checks=False), "average")
-    # Fewer clusters are unions of those of the finest grouping: sums are taken once.
-    finest = fcluster(joined, min(k, most), "maxclust").astype(np.int64) - 1
-    members = np.eye(int(finest.max()) + 1)[finest]
-    sums, sizes = members.T @ inner @ members, lengths @ members
-    first = np.unique(finest, return_index=True)[1]
-    found = []
-    for count in range(1, len(sizes) + 1):
-        labels = fcluster(joined, count, "maxclust").astype(np.int64) - 1
-        union = np.eye(int(labels.max()) + 1)[labels[first]]
-        own = np.einsum("gc,gh,hc->c", union, sums, union, optimize=True)
-        found.append((labels, float((own / (2 * (sizes @ union))).sum())))
-    return found

@@ -5,7 +5,9 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import compress
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,9 +17,16 @@ from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
+from kineme.methods.recurrence.ends import fitted_ends
 from kineme.methods.recurrence.evidence import evidence
 from kineme.methods.recurrence.found import RecurrenceFound
-from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
+from kineme.methods.recurrence.parts import clusters_of_repetitions
+from kineme.methods.recurrence.recurrence import (
+    Recurrence,
+    narrower,
+    phase_windows,
+    recurrence,
+)
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from kineme.methods.recurrence.transitions import activity_ends
 from kineme.methods.samples import unstacked
@@ -61,38 +70,66 @@ def analyze_actions(
     stage = stopwatch(timings, progress)
     with stage("recurrence"):
         recurring = _recurrence(rows, preset, preset.min_scale, preset.max_scale)
+        narrow = _narrower(recurring, preset)
     with stage("actions"):
-        found = find_actions(recurring, preset)
-        borders, labels, own = _activities(found, recurring, preset, len(rows))
+        found = find_actions(recurring, narrow, preset)
+        borders, labels, own = _activities(found, narrow, preset, len(rows))
     with stage("repetitions"):
         limits = found.borders * recurring.step
         counted = _count(recurring, borders, labels, limits, preset)
-    primitives = np.unique(np.concatenate([borders, *(each.cuts for each in counted)]))
+        known = labels >= 0
+        ends = fitted_ends(
+            recurring.features,
+            borders[:-1][known],
+            borders[1:][known],
+            labels[known],
+            [each.cuts for each in compress(counted, known)],
+            preset,
+        )
+        borders, activity = _tiled(len(rows), ends.starts, ends.stops)
+        primitives, repeated = _tiled(
+            len(rows), ends.firsts, ends.lasts, [borders, *(each.cuts for each in counted)]
+        )
+        own = np.append(own[known], np.nan)[activity]
+        clusters = clusters_of_repetitions(
+            _poses(recurring.features, preset.offsets),
+            primitives,
+            np.append(labels[known], -1)[repeated],
+            repeated,
+            preset,
+        )
+        labels = np.append(labels[known], -1)[activity]
     with stage("confidence"):
-        repeats = labels[np.searchsorted(borders, primitives[:-1], side="right") - 1] >= 0
-        shown = evidence(recurring, preset, borders, labels, own, primitives, repeats)
-    return RecurrenceFound(rows, recurring, preset, borders, labels, primitives, shown, timings)
-
-
-def find_actions(recurring: Recurrence, preset: RecurrenceConstants) -> Actions:
-    """Segments of one action each, in samples."""
-    per_second = preset.working_fps / preset.step
-    borders = change_points.change_points(
-        recurring,
-        penalty=preset.border_cost * per_second,
-        min_length=max(1, preset.samples(preset.min_segment)),
+        shown = evidence(recurring, preset, borders, labels, own, primitives, clusters >= 0)
+    return RecurrenceFound(
+        rows, recurring, preset, borders, labels, primitives, clusters, shown, narrow, timings
     )
-    borders = change_points.merge_neighbors(
-        borders,
-        recurring,
-        gap=preset.samples(preset.merge_gap),
+
+
+def find_actions(wide: Recurrence, narrow: Recurrence, preset: RecurrenceConstants) -> Actions:
+    """Segments of one action each, in samples.
+
+    Parameters
+    ----------
+    wide, narrow : Recurrence
+        Of the same samples, with the phases of the preset and with those for short actions.
+    preset : RecurrenceConstants
+    """
+    borders = change_points.divided(
+        _segments(wide, preset),
+        _segments(narrow, preset.narrowed()),
+        narrow,
         softness=preset.merge_softness,
-        least=preset.merge_share,
+        least=preset.min_repetition,
+        elsewhere=preset.distinct_share,
+        min_length=max(1, preset.samples(preset.min_segment)),
     )
     labels = change_points.link(
         borders,
-        recurring,
-        _poses(recurring.features, preset.offsets) if preset.any_pace else recurring.features,
+        wide,
+        _poses(wide.features, preset.offsets) if preset.any_pace else wide.features,
+        narrow=narrow.phase,
+        gap_share=preset.link_gap,
         similarity=preset.link_similarity,
         softness=preset.link_softness,
         samples=preset.link_samples,
@@ -100,18 +137,34 @@ def find_actions(recurring: Recurrence, preset: RecurrenceConstants) -> Actions:
         max_lag=None if preset.max_lag is None else preset.samples(preset.max_lag),
     )
     repeats = change_points.repeating(
-        borders, labels, recurring, softness=preset.merge_softness, least=preset.min_repetition
+        borders, labels, wide, softness=preset.merge_softness, least=preset.min_repetition
     )
     return refine(
         borders,
         np.where(repeats, labels, -1),
-        recurring,
-        switch_cost=preset.switch_cost * per_second,
+        narrow,
+        switch_cost=preset.switch_cost * preset.working_fps / preset.step,
         no_action_cost=preset.no_action_cost,
         least_similarity=preset.least_similarity,
         least_own=preset.least_self_similarity,
         min_length=max(1, preset.samples(preset.min_action)),
         rounds=preset.rounds,
+    )
+
+
+def _segments(recurring: Recurrence, preset: RecurrenceConstants) -> Frames:
+    """Borders between the samples that are similar, but for those between parts of one."""
+    borders = change_points.change_points(
+        recurring,
+        penalty=preset.border_cost * preset.working_fps / preset.step,
+        min_length=max(1, preset.samples(preset.min_segment)),
+    )
+    return change_points.merge_neighbors(
+        borders,
+        recurring,
+        gap=preset.samples(preset.merge_gap),
+        softness=preset.merge_softness,
+        least=preset.merge_share,
     )
 
 
@@ -140,6 +193,18 @@ def _recurrence(
         low=low,
         high=high,
         softness=preset.softness,
+    )
+
+
+def _narrower(wide: Recurrence, preset: RecurrenceConstants) -> Recurrence:
+    """The recurrence by which short actions are told apart."""
+    short = preset.narrowed()
+    return narrower(
+        wide,
+        phases=phase_windows(short.samples(short.phase), short.phase_shares),
+        rank=short.samples(short.recurrence_time),
+        low=short.min_scale,
+        high=short.max_scale,
     )
 
 
@@ -173,6 +238,19 @@ def _activities(
     first = np.concatenate([[True], labels[1:] != labels[:-1]])
     confidence = np.where(labels < 0, np.nan, confidence)
     return np.append(borders[first], n), labels[first], confidence[first]
+
+
+def _tiled(
+    n: int, starts: Frames, stops: Frames, cuts: Sequence[Frames] = ()
+) -> tuple[Frames, Frames]:
+    """Borders from 0 to n with these spans and cuts among them, and the span of each segment.
+
+    What lies in no span is in span -1.
+    """
+    borders: Frames = np.unique(np.concatenate([[0, n], starts, stops, *cuts]))
+    spans = np.searchsorted(starts, borders[:-1], side="right") - 1
+    inside = (spans >= 0) & (borders[:-1] < np.append(stops, 0)[spans])
+    return borders, np.where(inside, spans, -1)
 
 
 def _count(

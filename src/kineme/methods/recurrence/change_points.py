@@ -4,7 +4,10 @@
    division into segments whose samples are similar.
 2. A segment that repeats less within itself than in its neighbour is part of
    that neighbour (one slow repetition of several).
-3. Segments whose samples are similar belong to one action, wherever they are.
+3. A segment is divided where a part of it, between change points at a narrower
+   phase window, repeats itself and recurs nowhere else in it (short exercises,
+   one after the other).
+4. Segments whose samples are similar belong to one action, wherever they are.
 
 Sources: kernel change-point detection after Arlot, Celisse and Harchaoui 2019;
 the rest is ours. See ``docs/method.md`` for what each step contributes.
@@ -90,11 +93,68 @@ def merge_neighbors(
     return np.array(cuts, np.int64)
 
 
+def divided(
+    borders: Samples,
+    finer: Samples,
+    narrow: Recurrence,
+    *,
+    softness: float,
+    least: float,
+    elsewhere: float,
+    min_length: int,
+) -> Samples:
+    """Borders with those of a finer division around parts that are movements of their own.
+
+    Such a part repeats itself, and recurs little in what is before and after it in its
+    segment. The phases of a slow repetition do not: they recur in the next one.
+
+    Parameters
+    ----------
+    borders, finer : array of int
+        Samples, ends included.
+    narrow : Recurrence
+        With the phase windows of the finer division.
+    softness : float
+        Scales at which recurrence has fallen to 1/e.
+    least : float
+        Share of the part that must recur within it.
+    elsewhere : float
+        Recurrence in what is before or after it, as a share of that, at most.
+    min_length : int
+        Samples; no new border is nearer to one of the borders.
+
+    Returns
+    -------
+    (segments + 1,) array
+    """
+
+    def covered(of: tuple[int, int], by: tuple[int, int]) -> float:
+        share: float = kernels.coverage(
+            narrow.near, narrow.scales, *of, *by, narrow.phase, softness
+        )
+        return share
+
+    found = set(borders.tolist())
+    for start, stop in pairwise(borders.tolist()):
+        inside = finer[(finer >= start + min_length) & (finer <= stop - min_length)]
+        if not len(inside):
+            continue
+        for part in pairwise([start, *inside.tolist(), stop]):
+            within = covered(part, part)
+            others = ((start, part[0]), (part[1], stop))
+            beside = max(covered(part, other) for other in others if other[0] < other[1])
+            if within >= least and beside <= elsewhere * within:
+                found.update(part)
+    return np.array(sorted(found), np.int64)
+
+
 def link(
     borders: Samples,
     recurrence: Recurrence,
     poses: NDArray[np.float32],
     *,
+    narrow: int,
+    gap_share: float,
     similarity: float,
     softness: float,
     samples: int,
@@ -113,6 +173,11 @@ def link(
     recurrence : Recurrence
     poses : (frames, dims) array
         By which segments are compared, in the unit of the scales.
+    narrow : int
+        Samples; pairs no farther apart never count. Of long segments those within the widest
+        phase window do not, either.
+    gap_share : float
+        Nor do, of shorter ones, those within this share of the shorter segment.
     similarity : float
         Relative similarity from which segments are one action, 0 to 1.
     softness : float
@@ -133,18 +198,19 @@ def link(
     reach = borders[-1] if max_lag is None else max_lag
     within_reach = np.searchsorted(borders[:-1], borders[1:] + reach, side="right")
     step = recurrence.step
-    gap = recurrence.phase * step
     reaches = step * np.array(recurrence.phases)
     chosen = [spread(start, stop, samples) for start, stop in pairwise(borders.tolist())]
     scales = [recurrence.scales[each] for each in chosen]
     frames = [step * each for each in chosen]
+    gaps = (gap_share * np.diff(borders)).astype(np.int64)
+    gaps = np.maximum(np.minimum(gaps, recurrence.phase), narrow) * step
     mean = np.zeros((k, k))
 
     def compare(g: int) -> None:
         for h in range(g, within_reach[g]):
             mean[g, h] = mean[h, g] = _distance_kernels.mean_similarity(
                 poses, frames[g], frames[h], reaches, scales[g], scales[h],
-                softness, gap,
+                softness, min(gaps[g], gaps[h]),
             )  # fmt: skip
 
     map_threads(compare, range(k))

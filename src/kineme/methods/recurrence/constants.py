@@ -7,8 +7,8 @@ does and what other values measure.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 from kineme.errors import ParameterError
 from kineme.methods.base import Unit
@@ -76,6 +76,15 @@ class RecurrenceConstants(CountingPreset):
     merge_share: float = constant(
         "share of a segment that must recur in its neighbour to be part of it", limits=SOME_FACTOR
     )
+    # Short actions, which a wide phase window blurs.
+    narrow_share: float = constant(
+        "short actions are told apart with a phase, recurrence time and costs of borders of this "
+        "share", limits=SOME_SHARE,
+    )  # fmt: skip
+    distinct_share: float = constant(
+        "a part that recurs in the rest of its segment by no more than this share of how it "
+        "recurs in itself is an activity of its own", limits=FACTOR,
+    )  # fmt: skip
     link_similarity: float = constant(
         "similarity, relative to that within, from which segments are one action",
         limits=SOME_SHARE, slider=(0.1, 1.0, 0.05),
@@ -83,6 +92,10 @@ class RecurrenceConstants(CountingPreset):
     link_softness: float = constant(
         "scales at which that similarity has fallen to 1/e", limits=SOME_FACTOR
     )
+    link_gap: float = constant(
+        "samples of a short segment that are nearer than this share of it are not compared",
+        limits=FACTOR, fine=True,
+    )  # fmt: skip
     link_samples: int = constant(
         "segments are compared by so many of their samples at most", limits=SOME, fine=True
     )
@@ -127,6 +140,15 @@ class RecurrenceConstants(CountingPreset):
         "largest share of an activity that a transition takes from one end", limits=Limits(0, 0.5),
         fine=True,
     )  # fmt: skip
+    end_factor: float = constant(
+        "what lies beyond the first and the last repetition is transition where it is farther from "
+        "the mean repetition than this times the usual distance of repetitions", limits=SOME_FACTOR,
+    )  # fmt: skip
+    # Parts: repetitions of one action that are two movements.
+    part_gap: float = constant(
+        "repetitions are in two clusters where these are so many times as far apart as those in "
+        "them", limits=Limits(1.0, 1000.0),
+    )  # fmt: skip
     # Signals, which have no size of their own.
     recurs_at: float = constant(
         "distance at which the median sample of signals recurs: their unit of length", fine=True,
@@ -143,6 +165,19 @@ class RecurrenceConstants(CountingPreset):
             raise ParameterError(
                 f"min_scale {self.min_scale} is larger than max_scale {self.max_scale}"
             )
+
+    def narrowed(self) -> Self:
+        """The preset for short actions."""
+        share = self.narrow_share
+        return replace(
+            self,
+            phase=share * self.phase,
+            phase_shares=(1.0,),
+            recurrence_time=share * self.recurrence_time,
+            border_cost=share * self.border_cost,
+            min_segment=share * self.min_segment,
+            merge_gap=share * self.merge_gap,
+        )
 
     @property
     def step(self) -> int:

@@ -44,8 +44,12 @@ class RecurrenceFound:
         Action of each, -1 for transitions.
     primitives : (primitives + 1,) array
         Borders of the primitives, from 0 to n, those of activities included.
+    clusters : (primitives,) array
+        Cluster of each, -1 where it is no repetition.
     evidence : Evidence
         By which it is told how sure all that is.
+    narrow : Recurrence
+        How similar the samples are for short actions.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -56,7 +60,9 @@ class RecurrenceFound:
     borders: Frames
     labels: Frames
     primitives: Frames
+    clusters: Frames
     evidence: Evidence
+    narrow: Recurrence
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
@@ -67,8 +73,9 @@ class RecurrenceFound:
             self.borders,
             self.primitives,
             is_activity=self.labels >= 0,
-            clusters=(self.labels, self.labels[parents]),
-            scores=(sure.links, sure.counts[parents]),
+            is_primitive=self.clusters >= 0,
+            clusters=(self.labels, self.clusters),
+            scores=(sure.links, np.where(self.clusters >= 0, sure.counts[parents], np.nan)),
         )
         return columns | {"border_confidence": np.concatenate([sure.borders, sure.cuts])}
 

@@ -42,14 +42,16 @@ def levels_of(found: RecurrenceFound, columns: Columns) -> Mapping[float, Column
     at = levels.clusters_at(pieces, details, border_price=cost, cluster_price=cost)
     longest = preset.frames(preset.min_action)
     return {
-        detail: levels.at_detail(columns, frames, at[detail], longest / detail if detail < 1 else 0)
+        detail: levels.at_detail(
+            columns, frames, at[detail], longest / detail if detail < 1 else None
+        )
         for detail in details
     }
 
 
 def _pieces(found: RecurrenceFound) -> tuple[levels.Pieces, Samples]:
     """Activities cut where finer change points are, and transitions; with their frames."""
-    preset, recurrence = found.preset, found.recurrence
+    preset, recurrence = found.preset.narrowed(), found.narrow
     n, step = len(recurrence), recurrence.step
     frames = found.borders
     for finest in sorted(levels.FINER, reverse=True):

@@ -108,13 +108,42 @@ def recurrence(
     n = (len(rows) + step - 1) // step
     width = min(width, n - 1)
     near = np.empty((n, 2 * width + 1), np.float32)
+
+    def measure(part: slice) -> None:
+        kernels.nearest_frames(rows, step, width, part.start, part.stop, near)
+
+    map_threads(measure, even_slices(n))
+    return _similar(near, rows, step, phases, rank, low, high, softness)
+
+
+def narrower(
+    wide: Recurrence, *, phases: tuple[int, ...], rank: int, low: float, high: float
+) -> Recurrence:
+    """The same samples with other windows; parameters are those of `recurrence`.
+
+    Returns
+    -------
+    Recurrence
+    """
+    return _similar(wide.near, wide.features, wide.step, phases, rank, low, high, wide.softness)
+
+
+def _similar(
+    near: Band,
+    rows: Band,
+    step: int,
+    phases: tuple[int, ...],
+    rank: int,
+    low: float,
+    high: float,
+    softness: float,
+) -> Recurrence:
+    """Similarities of samples from their distances."""
+    n, width = len(near), near.shape[1] // 2
     blurred = np.empty_like(near)
     scales = np.empty(n, np.float32)
     similarity = np.zeros((n, width + 1), np.float32)
     parts = even_slices(n)
-
-    def measure(part: slice) -> None:
-        kernels.nearest_frames(rows, step, width, part.start, part.stop, near)
 
     def scale(part: slice) -> None:
         kernels.local_scales(blurred, phases[0], rank, part.start, part.stop, low, high, scales)
@@ -124,7 +153,6 @@ def recurrence(
             blurred, scales, softness, 1 / len(phases), part.start, part.stop, similarity
         )
 
-    map_threads(measure, parts)
     for window in phases:
 
         def blur(part: slice, window: int = window) -> None:

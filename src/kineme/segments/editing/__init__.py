@@ -12,11 +12,24 @@ lose theirs.
 """
 
 from kineme.segments.editing.borders import delete_border, merge, move_border, split
-from kineme.segments.editing.naming import name_cluster, name_segment, set_cluster, set_kind
+from kineme.segments.editing.carrying import carried
+from kineme.segments.editing.marks import check
+from kineme.segments.editing.naming import (
+    cluster_names,
+    merge_clusters,
+    name_cluster,
+    name_segment,
+    set_cluster,
+    set_kind,
+)
 
 __all__ = [
+    "carried",
+    "check",
+    "cluster_names",
     "delete_border",
     "merge",
+    "merge_clusters",
     "move_border",
     "name_cluster",
     "name_segment",

@@ -11,7 +11,8 @@ const PALETTE = [
   "#44AA99",
   "#AA4499",
 ] as const;
-const NO_CLUSTER = "#DDDDDD";
+/** Of what is in no cluster and has no label. */
+export const NO_COLOR = "#DDDDDD";
 const MIXES = [
   { share: 0, grey: 0 },
   { share: 0.5, grey: 255 },
@@ -20,13 +21,50 @@ const MIXES = [
 
 /** `#RRGGBB` of a cluster; grey for -1, which is none. */
 export function clusterColor(cluster: number): string {
-  if (cluster < 0) return NO_CLUSTER;
+  if (cluster < 0) return NO_COLOR;
   const color = PALETTE[cluster % PALETTE.length]!;
   const { share, grey } = MIXES[Math.floor(cluster / PALETTE.length) % MIXES.length]!;
   const mixed = channelsOf(color).map((channel) =>
     halfToEven((1 - share) * channel + share * grey),
   );
   return hex(mixed);
+}
+
+/**
+ * The colour of each label: that of the cluster that has it most, so that a label looks the same
+ * in two results that are compared; else one made from the text itself.
+ */
+export function labelColors(
+  rows: readonly { label: string; cluster: number; start_s: number; stop_s: number }[],
+): Map<string, string> {
+  const most = new Map<string, Map<number, number>>();
+  for (const { label, cluster, start_s, stop_s } of rows) {
+    if (!label) continue;
+    const seconds = most.get(label) ?? new Map<number, number>();
+    most.set(label, seconds);
+    if (cluster >= 0) seconds.set(cluster, (seconds.get(cluster) ?? 0) + stop_s - start_s);
+  }
+  const taken = new Set(rows.map(({ cluster }) => clusterColor(cluster)));
+  const colors = new Map<string, string>();
+  for (const label of [...most.keys()].sort()) {
+    const [first] = [...most.get(label)!].sort((a, b) => b[1] - a[1]);
+    const color = first ? clusterColor(first[0]) : freeColor(label, taken);
+    taken.add(color);
+    colors.set(label, color);
+  }
+  return colors;
+}
+
+/** A colour for a text, the same on every day; another one where that is taken. */
+function freeColor(text: string, taken: ReadonlySet<string>): string {
+  let hash = 2166136261; // FNV-1a
+  for (let i = 0; i < text.length; i++) hash = Math.imul(hash ^ text.charCodeAt(i), 16777619);
+  const all = PALETTE.length * MIXES.length;
+  for (let i = 0; i < all; i++) {
+    const color = clusterColor(((hash >>> 0) + i) % all);
+    if (!taken.has(color)) return color;
+  }
+  return clusterColor((hash >>> 0) % all);
 }
 
 /** Black or white, whichever is easier to read on a colour. */

@@ -1,4 +1,5 @@
 /** The keys of every page. */
+import { isForPlayer, leaveClicked, watchFocus } from "./focus";
 import { togglePlay } from "./player";
 import type { Store } from "./store";
 
@@ -7,7 +8,9 @@ export const PAGE_KEYS: readonly (readonly [string, string])[] = [
   ["Space", "Play or pause"],
   ["← →", "One frame back or on"],
   ["Shift + ← →", "The segment before or after"],
-  ["L", "Loop the segment, or stop looping"],
+  ["L", "Loop what is between the marks, else the segment; or stop looping"],
+  ["I, O", "Mark the start or the end of what to loop; once more takes the mark away"],
+  ["Z", "Zoom to what is between the marks, else to the segment"],
   ["+ −", "Zoom in or out"],
   ["Home, End", "To the start or the end"],
   ["0", "Show all of the recording"],
@@ -27,6 +30,9 @@ export function pageCommandOf(
     ArrowRight: step(1),
     l: () => store.toggleLoop(),
     L: () => store.toggleLoop(),
+    i: () => store.mark("start_s"),
+    o: () => store.mark("stop_s"),
+    z: () => store.zoomToTarget(),
     "+": () => store.zoomBy(0.7),
     "=": () => store.zoomBy(0.7),
     "-": () => store.zoomBy(1 / 0.7),
@@ -37,17 +43,23 @@ export function pageCommandOf(
   return commands[event.key];
 }
 
-/** Listens to the keyboard; fields, sliders and dialogs keep their keys, buttons keep the space bar. */
-export function startKeys(store: Store): () => void {
+/** Listens to the keyboard; `more` are the keys of a page that has more of them. */
+export function startKeys(
+  store: Store,
+  more: (event: KeyboardEvent) => (() => void) | undefined = () => undefined,
+): () => void {
+  const stopWatching = watchFocus();
   const onKey = (event: KeyboardEvent): void => {
-    const target = event.target instanceof Element ? event.target : null;
-    if (event.defaultPrevented || target?.closest("input, select, textarea, dialog")) return;
-    if (event.key === " " && target?.closest("button, summary, a")) return;
-    const command = pageCommandOf(event, store);
+    if (!isForPlayer(event)) return;
+    const command = pageCommandOf(event, store) ?? more(event);
     if (!command) return;
     event.preventDefault();
+    leaveClicked();
     command();
   };
   addEventListener("keydown", onKey);
-  return () => removeEventListener("keydown", onKey);
+  return () => {
+    stopWatching();
+    removeEventListener("keydown", onKey);
+  };
 }

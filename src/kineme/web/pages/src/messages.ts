@@ -20,7 +20,14 @@ export interface Segment {
   border_confidence: number | null;
 }
 
-/** A segment table as its JSON file has it (`kineme.segments/1`). */
+export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
+
+/**
+ * A segment table as its JSON file has it (`kineme.segments/1`), and what people did to it.
+ *
+ * `cluster_names` has the names of clusters by their numbers; `checked` and `by_hand`
+ * are numbers of rows.
+ */
 export interface Segments {
   schema: string;
   n_frames: number;
@@ -28,6 +35,9 @@ export interface Segments {
   provenance: Record<string, unknown>;
   timings: Record<string, number>;
   segments: Segment[];
+  cluster_names: Record<string, string>;
+  checked: number[];
+  by_hand: number[];
 }
 
 /**
@@ -108,12 +118,20 @@ export interface PresetChoice {
   signal_parameters: Parameter[];
 }
 
-/** A recording of the folder, opened or not. */
+/**
+ * A recording of the folder, opened or not.
+ *
+ * `segments`, `checked` and `named` count the rows of its table, if it has been saved
+ * (`corrected`), that are there, checked, and have a name.
+ */
 export interface Listing {
   id: string;
   name: string;
   bytes: number;
   corrected: boolean;
+  segments: number;
+  checked: number;
+  named: number;
 }
 
 /** A file of the folder that an operation can use: a knowledge base, a label file. */
@@ -172,6 +190,34 @@ export interface Comparison {
   name: string;
   segmentation: Segments;
   scores: Record<string, number>;
+}
+
+/**
+ * A table that would take the place of the present one.
+ *
+ * `corrections` (segments made by hand or checked) and `names` are those of the present
+ * table; `lost` says, in a sentence each, what the new one would not have of them.
+ */
+export interface Preview {
+  segmentation: Segments;
+  corrections: number;
+  names: number;
+  lost: string[];
+}
+
+/** A table that was replaced; `edit` made it, null: it was found, or came from elsewhere. */
+export interface Version {
+  number: number;
+  at: string;
+  edit: MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo | null;
+  segments: number;
+  corrections: number;
+  names: number;
+}
+
+/** The tables of a recording that were replaced, the latest first. */
+export interface Versions {
+  versions: Version[];
 }
 
 /** Sent to every page when a recording's table changed or a file came. */
@@ -246,11 +292,39 @@ export interface SetKind {
   to: Kind;
 }
 
-/** The whole table anew, by a preset. */
+/** The whole table anew, by a preset; with `keep`, corrections and names are taken over. */
 export interface SegmentAgain {
   kind: "segment";
   preset: string;
   parameters: Record<string, number>;
+  keep?: boolean;
+}
+
+/** The segments of a cluster are in another one, `into`, from then on. */
+export interface MergeClusters {
+  kind: "merge_clusters";
+  cluster: number;
+  into: number;
+}
+
+/** The segments that start at `frames` are checked, or not any more. */
+export interface Check {
+  kind: "check";
+  level: Level;
+  frames: number[];
+  checked: boolean;
+}
+
+/** What a label file of the folder says becomes the table. */
+export interface TakeLabels {
+  kind: "take_labels";
+  annotation: string;
+}
+
+/** A table that was replaced is the present one again. */
+export interface Restore {
+  kind: "restore";
+  version: number;
 }
 
 /** Labels from a knowledge base of the folder. */
@@ -271,12 +345,30 @@ export interface Redo {
   kind: "redo";
 }
 
-export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | SegmentAgain | Transfer | Undo | Redo;
+export type ByHand = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | Check;
 
-/** An edit of the table as it was at `revision`. */
+/** Several edits, one after the other, which are one step of undo; all of them or none. */
+export interface Together {
+  kind: "together";
+  edits: ByHand[];
+}
+
+/**
+ * An edit of the table as it was at `revision`.
+ *
+ * `name` is the edit's own: one that is sent again, for want of an answer, is made once.
+ */
 export interface EditRequest {
   revision: number;
   edit: Edit;
+  name?: string;
+}
+
+/** A segmentation to look at, as `SegmentAgain` would make it. */
+export interface PreviewRequest {
+  preset: string;
+  parameters: Record<string, number>;
+  keep: boolean;
 }
 
 /** Another result to lay beside the shown one: a preset's, or a file's of the folder. */

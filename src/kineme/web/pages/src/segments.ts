@@ -35,8 +35,21 @@ export function indexAt(lane: readonly Segment[], frame: number): number {
   return high < 0 ? -1 : low;
 }
 
+/** The segment that starts at the border nearest to a frame; the recording's start is none. */
+export function nearestBorder(lane: readonly Segment[], frame: number): Segment | null {
+  const at = indexAt(lane, frame);
+  const candidates = [lane[at], lane[at + 1]].filter(
+    (segment): segment is Segment => segment !== undefined && segment.start_frame > 0,
+  );
+  const distance = (segment: Segment) => Math.abs(segment.start_frame - frame);
+  return candidates.sort((a, b) => distance(a) - distance(b))[0] ?? null;
+}
+
 /** The clusters of a lane of primitives, by number. */
-export function clustersOf(primitives: readonly Segment[]): Cluster[] {
+export function clustersOf(
+  primitives: readonly Segment[],
+  names: Readonly<Record<string, string>> = {},
+): Cluster[] {
   const members = new Map<number, Segment[]>();
   for (const segment of primitives) {
     if (segment.cluster < 0) continue;
@@ -48,7 +61,8 @@ export function clustersOf(primitives: readonly Segment[]): Cluster[] {
     .sort(([a], [b]) => a - b)
     .map(([id, all]) => {
       const total_s = all.reduce((sum, segment) => sum + durationOf(segment), 0);
-      return { id, label: commonLabel(all), members: all, total_s, mean_s: total_s / all.length };
+      const label = names[id] ?? "";
+      return { id, label, members: all, total_s, mean_s: total_s / all.length };
     });
 }
 
@@ -63,14 +77,21 @@ export function nameOf(segment: Segment): string {
   return segment.kind === "transition" ? "transition" : "no cluster";
 }
 
-/** Neighbours of one label joined; segments without a label are left out. */
+/**
+ * What is called how, when: the label of the primitive, else that of its activity. Neighbours of
+ * one label are joined; where there is no label, there is nothing.
+ */
 export function labelSpans(
   activities: readonly Segment[],
   primitives: readonly Segment[],
 ): Segment[] {
-  const rows = primitives.some((segment) => segment.label) ? primitives : activities;
+  const named = primitives.length
+    ? primitives.map((row) =>
+        row.label ? row : { ...row, label: activities[row.activity]?.label ?? "" },
+      )
+    : activities;
   const spans: Segment[] = [];
-  for (const segment of rows) {
+  for (const segment of named) {
     const last = spans.at(-1);
     if (!segment.label) continue;
     if (last && last.label === segment.label && last.stop_frame === segment.start_frame)
@@ -80,8 +101,23 @@ export function labelSpans(
   return spans;
 }
 
-function commonLabel(segments: readonly Segment[]): string {
-  const counts = new Map<string, number>();
-  for (const { label } of segments) if (label) counts.set(label, (counts.get(label) ?? 0) + 1);
-  return [...counts.entries()].sort((a, b) => b[1] - a[1])[0]?.[0] ?? "";
+/** A label of a table without clusters, and how often it occurs. */
+export interface LabelCount {
+  label: string;
+  count: number;
+  total_s: number;
+}
+
+/** The labels of a lane, the one with most time first. */
+export function labelsOf(lane: readonly Segment[]): LabelCount[] {
+  const counts = new Map<string, LabelCount>();
+  for (const segment of lane) {
+    const { label } = segment;
+    if (!label) continue;
+    const known = counts.get(label) ?? { label, count: 0, total_s: 0 };
+    known.count += 1;
+    known.total_s += durationOf(segment);
+    counts.set(label, known);
+  }
+  return [...counts.values()].sort((a, b) => b.total_s - a.total_s);
 }

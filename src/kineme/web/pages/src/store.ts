@@ -1,10 +1,19 @@
 /** The state of a page: what is open, where the playhead stands, what is selected. */
 import { batch, computed, signal, type ReadonlySignal, type Signal } from "@preact/signals";
+import { clusterColor, labelColors } from "./colors";
 import type { Level, Recording, Segment, Segments } from "./messages";
 import { unpackMotion, type Motion } from "./motion";
-import { clustersOf, durationOf, indexAt, laneOf, segmentAt, type Cluster } from "./segments";
+import {
+  clustersOf,
+  durationOf,
+  indexAt,
+  laneOf,
+  nearestBorder,
+  segmentAt,
+  type Cluster,
+} from "./segments";
 import type { RecordingData } from "./recordingData";
-import { following, panned, zoomed, type Span } from "./view";
+import { following, inside, panned, zoomed, type Span } from "./view";
 
 /** A recording on the page; the table inside `recording` changes with each edit. */
 export interface OpenRecording {
@@ -22,15 +31,25 @@ export interface Selection {
 
 /** What the page asks for when the user drags a border or names a cluster. The report has none. */
 export interface EditHooks {
-  moveBorder(level: Level, frame: number, to: number): void;
+  moveBorder(level: Level, frame: number, to: number): Promise<void>;
   nameCluster(cluster: number, label: string): void;
+  mergeClusters(cluster: number, into: number): void;
 }
 
 /** Another result shown below the first. */
 export interface OtherResult {
   name: string;
   segmentation: Segments;
+  /** Whether borders are marked that one of the two has and the other has not. */
+  marked?: boolean;
 }
+
+interface Marks {
+  start_s: number | null;
+  stop_s: number | null;
+}
+
+const UNMARKED: Marks = { start_s: null, stop_s: null };
 
 export class Store {
   /** The recordings shown side by side. */
@@ -41,7 +60,12 @@ export class Store {
   readonly playing = signal(false);
   readonly speed = signal(1);
   readonly loop = signal<Span | null>(null);
+  /** Where what one is interested in starts and stops, seconds; null: not marked. */
+  readonly marks = signal<Marks>(UNMARKED);
+  /** A segment that was chosen; it is left where the playhead leaves it. */
   readonly selection = signal<Selection | null>(null);
+  /** The level one works in. */
+  readonly level = signal<Level>("primitive");
   /** The number of the cluster that is looked at. */
   readonly cluster = signal<number | null>(null);
   /** The cluster under the pointer. */
@@ -67,21 +91,43 @@ export class Store {
     () => this.zoom.value ?? { start_s: 0, stop_s: Math.max(this.duration.value, 1e-3) },
   );
   readonly frame = computed(() => this.frameAt(this.playhead.value));
-  readonly activities = computed(() => this.lane("activity"));
-  readonly primitives = computed(() => this.lane("primitive"));
-  readonly clusters: ReadonlySignal<Cluster[]> = computed(() => clustersOf(this.primitives.value));
+  readonly activities = computed(() => this.rows("activity"));
+  readonly primitives = computed(() => this.rows("primitive"));
+  /** The colour of each label of the result, and of the one beside it. */
+  readonly labelColors = computed(() =>
+    labelColors([
+      ...(this.recording.value?.segmentation.segments ?? []),
+      ...(this.other.value?.segmentation.segments ?? []),
+    ]),
+  );
+  readonly clusters: ReadonlySignal<Cluster[]> = computed(() =>
+    clustersOf(this.primitives.value, this.recording.value?.segmentation.cluster_names ?? {}),
+  );
   /** The cluster whose members and curves are shown. */
   readonly shownCluster = computed(() =>
     this.clusters.value.find((cluster) => cluster.id === this.cluster.value),
   );
   /** The primitive under the playhead. */
   readonly present = computed(() => segmentAt(this.primitives.value, this.frame.value));
+  /** The level one works in: activities where there is no other. */
+  readonly worked: ReadonlySignal<Level> = computed(() =>
+    this.primitives.value.length ? this.level.value : "activity",
+  );
+  /** What edits are for: the segment of that level at the playhead. */
+  readonly target = computed(() => segmentAt(this.lane(this.worked.value), this.frame.value));
+  /** The segment after the border nearest to the playhead. */
+  readonly border = computed(() => nearestBorder(this.lane(this.worked.value), this.frame.value));
   readonly selected: ReadonlySignal<Segment | undefined> = computed(() => {
     const at = this.selection.value;
     if (!at) return undefined;
-    const lane = at.level === "activity" ? this.activities.value : this.primitives.value;
-    return lane.find((segment) => segment.start_frame === at.start_frame);
+    return this.lane(at.level).find((segment) => segment.start_frame === at.start_frame);
   });
+
+  /** The colour of a segment: of its cluster, else of its label; null for what is neither. */
+  colorOf(segment: Segment): string | null {
+    if (segment.cluster >= 0) return clusterColor(segment.cluster);
+    return this.labelColors.value.get(segment.label) ?? null;
+  }
 
   /** The frame on the screen at a time; the last one at the end of the recording. */
   frameAt(seconds: number): number {
@@ -93,6 +139,8 @@ export class Store {
     const playhead = Math.min(Math.max(seconds, 0), this.duration.value);
     batch(() => {
       this.playhead.value = playhead;
+      const chosen = this.selected.value;
+      if (chosen && !contains(chosen, this.frame.value)) this.selection.value = null;
       if (this.zoom.value)
         this.zoom.value = following(this.zoom.value, playhead, this.duration.value);
     });
@@ -111,6 +159,15 @@ export class Store {
     if (this.zoom.value) this.zoom.value = panned(this.zoom.value, seconds, this.duration.value);
   }
 
+  /** Brings a time into the view; whether it was not there before. */
+  reveal(seconds: number): boolean {
+    const { zoom } = this;
+    if (!zoom.value || (zoom.value.start_s <= seconds && seconds <= zoom.value.stop_s))
+      return false;
+    zoom.value = following(zoom.value, seconds, this.duration.value);
+    return true;
+  }
+
   /** Stops and goes some frames on, or back. */
   step(frames: number): void {
     this.playing.value = false;
@@ -120,6 +177,7 @@ export class Store {
   /** Selects a segment and brings everything there; a loop follows. */
   select(segment: Segment, options: { seek?: boolean } = {}): void {
     batch(() => {
+      this.level.value = segment.level;
       this.selection.value = { level: segment.level, start_frame: segment.start_frame };
       if (segment.cluster >= 0) this.cluster.value = segment.cluster;
       if (this.loop.value) this.loop.value = { start_s: segment.start_s, stop_s: segment.stop_s };
@@ -129,10 +187,19 @@ export class Store {
 
   /** Selects the next primitive or the one before. */
   stepSegment(by: 1 | -1): void {
-    const level = this.selection.value?.level ?? "primitive";
-    const lane = level === "activity" ? this.activities.value : this.primitives.value;
+    const lane = this.lane(this.worked.value);
     const segment = lane[indexAt(lane, this.frame.value) + by];
     if (segment) this.select(segment);
+  }
+
+  /** Works on the other level from now on. */
+  changeLevel(): void {
+    const level = this.worked.value === "activity" ? "primitive" : "activity";
+    if (!this.lane(level).length) return;
+    batch(() => {
+      this.level.value = level;
+      this.selection.value = null;
+    });
   }
 
   /** Shows a cluster and goes to its next member, else its first; stays put inside a member. */
@@ -145,13 +212,50 @@ export class Store {
     if (target) this.select(target);
   }
 
-  /** Loops the selected segment, else the one under the playhead; or stops looping. */
+  /** Sets a mark at the playhead, or takes it away if it is there; a loop of the marks follows. */
+  mark(end: "start_s" | "stop_s"): void {
+    const before = this.markedSpan();
+    const here = this.playhead.value;
+    const at = this.marks.value[end] === here ? null : here;
+    const marks = { ...this.marks.value, [end]: at };
+    const { start_s, stop_s } = marks;
+    if (start_s !== null && stop_s !== null && stop_s <= start_s)
+      marks[end === "start_s" ? "stop_s" : "start_s"] = null;
+    this.marks.value = marks;
+    if (this.loop.value && before) this.loop.value = this.markedSpan();
+  }
+
+  /** What is between the marks; one alone reaches to the end or the start of the recording. */
+  markedSpan(): Span | null {
+    const { start_s, stop_s } = this.marks.value;
+    if (start_s === null && stop_s === null) return null;
+    return { start_s: start_s ?? 0, stop_s: stop_s ?? this.duration.value };
+  }
+
+  /** Shows what is between the marks, else the segment at the playhead, with a little around it. */
+  zoomToTarget(): void {
+    const span = this.markedSpan() ?? this.target.value;
+    if (!span) return;
+    const length = span.stop_s - span.start_s;
+    const wide = Math.min(Math.max(1.2 * length, 0.2), this.duration.value);
+    const start = (span.start_s + span.stop_s - wide) / 2;
+    const range = inside({ start_s: start, stop_s: start + wide }, this.duration.value);
+    this.zoom.value = wide < this.duration.value ? range : null;
+  }
+
+  /** Loops what is marked, else the segment at the playhead; or stops looping. */
   toggleLoop(): void {
-    const segment = this.selected.value ?? this.present.value;
-    if (this.loop.value || !segment) {
+    const marked = this.markedSpan();
+    const segment = this.target.value;
+    if (this.loop.value || (!segment && !marked)) {
       this.loop.value = null;
       return;
     }
+    if (marked) {
+      this.loop.value = marked;
+      return;
+    }
+    if (!segment) return;
     this.select(segment, { seek: !contains(segment, this.frame.value) });
     this.loop.value = { start_s: segment.start_s, stop_s: segment.stop_s };
   }
@@ -171,6 +275,8 @@ export class Store {
       this.other.value = null;
       this.inStep.value = false;
       this.zoom.value = null;
+      this.marks.value = UNMARKED;
+      this.playing.value = false;
       this.current.value = index;
     });
     this.seek(this.playhead.value);
@@ -183,7 +289,12 @@ export class Store {
     this.show(Math.min(this.current.value - before, last));
   }
 
-  private lane(level: Level): Segment[] {
+  /** The segments of a level in time order. */
+  lane(level: Level): Segment[] {
+    return level === "activity" ? this.activities.value : this.primitives.value;
+  }
+
+  private rows(level: Level): Segment[] {
     const recording = this.recording.value;
     return recording ? laneOf(recording.segmentation, level) : [];
   }

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { clusterColor, inkOn, luminance, onPage } from "../src/colors";
+import { clusterColor, inkOn, labelColors, luminance, NO_COLOR, onPage } from "../src/colors";
 
 test("colours are those of kineme._colors", () => {
   expect([-1, 0, 8, 9, 17, 18, 27].map(clusterColor)).toEqual([
@@ -25,4 +25,16 @@ test("the darkest colours become visible on a dark page, others stay", () => {
   expect(luminance(onPage("#332288", "dark"))).toBeGreaterThan(0.1);
   expect(onPage("#88CCEE", "dark")).toBe("#88CCEE");
   expect(onPage("#332288", "light")).toBe("#332288");
+});
+
+test("a label has the colour of the cluster that has it most, else one of its own", () => {
+  const row = (label: string, cluster: number, seconds = 1) => {
+    return { label, cluster, start_s: 0, stop_s: seconds };
+  };
+  const colors = labelColors([row("walk", 3), row("walk", 5, 4), row("hop", -1), row("", -1)]);
+  expect(colors.get("walk")).toBe(clusterColor(5));
+  expect(colors.get("hop")).not.toBe(NO_COLOR);
+  expect([clusterColor(3), clusterColor(5)]).not.toContain(colors.get("hop"));
+  expect(labelColors([row("hop", -1)]).get("hop")).toBe(labelColors([row("hop", -1)]).get("hop"));
+  expect(colors.size).toBe(2);
 });

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { component, curveOf, liveliest, SAMPLES, someOf, spreadOf } from "../src/clusters/curves";
+import { component, curveOf, liveliest, pointsFor, someOf, spreadOf } from "../src/clusters/curves";
 import { motion, segment } from "./recordings";
 
 test("directions of the body: it looks forward, and left is to its left", () => {
@@ -12,23 +12,23 @@ test("directions of the body: it looks forward, and left is to its left", () => 
 
 test("curves go from the first to the last moment, seen from the pelvis", () => {
   const reach = motion(21, (i, joint) => [500 * i, 0, joint * 100 * i]);
-  const curve = curveOf(reach, segment(0, 20), { joint: 1, axis: "forward" });
-  expect(curve).toHaveLength(SAMPLES);
+  const curve = curveOf(reach, segment(0, 20), { joint: 1, axis: "forward" }, 61);
+  expect(curve).toHaveLength(61);
   expect(curve[0]).toBeCloseTo(0);
   expect(curve.at(-1)).toBeCloseTo(2);
-  expect(curve[(SAMPLES - 1) / 2]).toBeCloseTo(1);
+  expect(curve[30]).toBeCloseTo(1);
 });
 
 test("one movement at two speeds gives one curve", () => {
   const slowing = motion(32, (i, joint) => [0, joint * (i <= 10 ? 100 * i : 50 * (i - 11)), 0]);
   const [fast, slow] = [segment(0, 10), segment(11, 31)].map((member) =>
-    curveOf(slowing, member, { joint: 1, axis: "up" }),
+    curveOf(slowing, member, { joint: 1, axis: "up" }, 61),
   );
   slow!.forEach((value, i) => expect(value).toBeCloseTo(fast![i]!, 4));
 });
 
 test("mean and deviation leave out what was not seen", () => {
-  const flat = (value: number): Float32Array => new Float32Array(SAMPLES).fill(value);
+  const flat = (value: number): Float32Array => new Float32Array(61).fill(value);
   const { mean, deviation } = spreadOf([flat(1), flat(3), flat(NaN)]);
   expect(mean[7]).toBeCloseTo(2);
   expect(deviation[7]).toBeCloseTo(1);
@@ -44,4 +44,10 @@ test("some of many, from first to last", () => {
   const some = someOf([...Array(1000).keys()], 10);
   expect(some).toHaveLength(10);
   expect(some[9]).toBeGreaterThan(800);
+});
+
+test("a curve has a point for each sample of the longest member", () => {
+  const still = motion(500, () => [0, 0, 0]);
+  expect(pointsFor(still, [segment(0, 10), segment(20, 220)])).toBe(201);
+  expect(pointsFor(still, [segment(0, 0)])).toBe(2);
 });

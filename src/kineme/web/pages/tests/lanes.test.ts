@@ -1,13 +1,12 @@
 import { expect, test } from "vitest";
 import { borderNear, laneAt, layOut, roomFor, visible } from "../src/timeline/lanes";
-import { segment } from "./recordings";
+import { segment, tableOf } from "./recordings";
 
 const primitives = [segment(0, 10), segment(10, 30), segment(30, 40)];
 const activities = [segment(0, 40, { level: "activity" })];
 
 test("lanes lie below each other and within the height", () => {
-  const table = { schema: "", n_frames: 40, fps: 10, provenance: {}, timings: {} };
-  const other = { name: "by hand", segmentation: { ...table, segments: primitives } };
+  const other = { name: "by hand", segmentation: tableOf(primitives) };
   for (const given of [null, other]) {
     const lanes = layOut({ activities, primitives, other: given }, 160);
     expect(lanes).toHaveLength(given ? 5 : 3);
@@ -32,6 +31,18 @@ test("the border under the pointer", () => {
   expect(borderNear(primitives, 0, 0.1, 10)).toBeNull(); // the recording's start stays
 });
 
-test("a border leaves a frame to both of its segments", () => {
-  expect(roomFor(primitives, 10)).toEqual([1, 29]);
+test("a dragged border leaves of both of its segments what can be seen", () => {
+  expect(roomFor(primitives, 10, 1)).toEqual([1, 29]);
+  expect(roomFor(primitives, 10, 4)).toEqual([4, 26]);
+  expect(roomFor(primitives, 10, 15)).toEqual([10, 15]); // the first is shorter already
+});
+
+test("borders that only one of two results has are marked, in both", () => {
+  const theirs = tableOf([segment(0, 12), segment(12, 30), segment(30, 40)]);
+  const marks = (marked: boolean) =>
+    layOut({ activities, primitives, other: { name: "", segmentation: theirs, marked } }, 160).map(
+      (lane) => [...lane.marks],
+    );
+  expect(marks(true)).toEqual([[0], [10], [], [], [12]]);
+  expect(marks(false).flat()).toEqual([]);
 });

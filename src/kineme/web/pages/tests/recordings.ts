@@ -1,5 +1,5 @@
 /** Small recordings for tests. */
-import type { MotionHead, Segment } from "../src/messages";
+import type { MotionHead, Segment, Segments } from "../src/messages";
 import type { Motion } from "../src/motion";
 
 export function segment(start: number, stop: number, more: Partial<Segment> = {}): Segment {
@@ -18,6 +18,13 @@ export function segment(start: number, stop: number, more: Partial<Segment> = {}
     border_confidence: null,
     ...more,
   };
+}
+
+/** A table of these segments. */
+export function tableOf(segments: Segment[], more: Partial<Segments> = {}): Segments {
+  const n_frames = Math.max(...segments.map((each) => each.stop_frame), 0);
+  const bare = { schema: "", fps: 10, provenance: {}, timings: {} };
+  return { ...bare, n_frames, segments, cluster_names: {}, checked: [], by_hand: [], ...more };
 }
 
 export function head(n_samples: number, more: Partial<MotionHead> = {}): MotionHead {

@@ -1,6 +1,14 @@
 import { expect, test } from "vitest";
-import { clustersOf, indexAt, labelSpans, laneOf, nameOf, segmentAt } from "../src/segments";
-import { segment } from "./recordings";
+import {
+  clustersOf,
+  indexAt,
+  labelsOf,
+  labelSpans,
+  laneOf,
+  nameOf,
+  segmentAt,
+} from "../src/segments";
+import { segment, tableOf } from "./recordings";
 
 const lane = [segment(0, 10), segment(10, 30, { cluster: 1 }), segment(30, 40)];
 
@@ -12,7 +20,7 @@ test("the segment that holds a frame", () => {
 test("a lane has one level, in time order", () => {
   const activity = segment(0, 40, { level: "activity" });
   const segments = [lane[2]!, activity, lane[0]!, lane[1]!];
-  const table = { schema: "", n_frames: 40, fps: 10, provenance: {}, timings: {}, segments };
+  const table = tableOf(segments);
   expect(laneOf(table, "primitive")).toEqual(lane);
   expect(laneOf(table, "activity")).toEqual([activity]);
 });
@@ -45,4 +53,26 @@ test("names", () => {
   expect(nameOf(segment(0, 1, { label: "jump" }))).toBe("jump");
   expect(nameOf(segment(0, 1, { cluster: 3 }))).toBe("cluster 3");
   expect(nameOf(segment(0, 1, { cluster: -1, kind: "transition" }))).toBe("transition");
+});
+
+test("naming a primitive leaves the names of activities in the lane of labels", () => {
+  const activities = [segment(0, 20, { level: "activity", label: "walk" })];
+  const rows = [segment(0, 10), segment(10, 20, { label: "limp" })];
+  expect(labelSpans(activities, rows).map((s) => [s.start_frame, s.label])).toEqual([
+    [0, "walk"],
+    [10, "limp"],
+  ]);
+});
+
+test("labels are counted where there are no clusters", () => {
+  const rows = [
+    segment(0, 10, { cluster: -1, label: "hop" }),
+    segment(10, 40, { cluster: -1, label: "walk" }),
+    segment(40, 50, { cluster: -1, label: "hop" }),
+    segment(50, 60, { cluster: -1 }),
+  ];
+  expect(labelsOf(rows).map(({ label, count }) => [label, count])).toEqual([
+    ["walk", 1],
+    ["hop", 2],
+  ]);
 });

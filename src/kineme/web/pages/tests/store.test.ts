@@ -3,7 +3,7 @@ import { expect, test } from "vitest";
 import type { Recording } from "../src/messages";
 import type { RecordingData } from "../src/recordingData";
 import { Store } from "../src/store";
-import { segment } from "./recordings";
+import { segment, tableOf } from "./recordings";
 
 const activity = segment(0, 40, { level: "activity" });
 const last = segment(40, 50, { cluster: -1, kind: "transition" });
@@ -11,10 +11,7 @@ const primitives = [segment(0, 10), segment(10, 30, { cluster: 1 }), segment(30,
 
 function page(): Store {
   const store = new Store();
-  const segmentation = {
-    ...{ schema: "kineme.segments/1", n_frames: 50, fps: 10, provenance: {}, timings: {} },
-    segments: [activity, { ...last, level: "activity" as const }, ...primitives],
-  };
+  const segmentation = tableOf([activity, { ...last, level: "activity" as const }, ...primitives]);
   const recording = signal({
     ...{ id: "a", name: "take", n_frames: 50, fps: 10, motion: null, segmentation },
     ...{ matrix: { fps: 10, tile: 256, sizes: [50], band: null }, revision: 0 },
@@ -87,4 +84,45 @@ test("a selection that an edit took away is none", () => {
     segmentation: { ...segmentation, segments },
   };
   expect(store.selected.value).toBeUndefined();
+});
+
+test("edits are for the segment at the playhead: a selection is left with it", () => {
+  const store = page();
+  store.select(primitives[1]!);
+  store.step(5);
+  expect(store.selected.value).toEqual(primitives[1]);
+  store.seek(3.2);
+  expect(store.selected.value).toBeUndefined();
+  expect(store.target.value).toEqual(primitives[2]);
+  expect(store.border.value?.start_frame).toBe(30);
+  store.changeLevel();
+  expect(store.target.value?.level).toBe("activity");
+});
+
+test("what is off the screen is brought there, and only then", () => {
+  const store = page();
+  store.zoom.value = { start_s: 0, stop_s: 1 };
+  expect(store.reveal(0.5)).toBe(false);
+  expect(store.reveal(4)).toBe(true);
+  expect(store.range.value.start_s).toBeLessThanOrEqual(4);
+  expect(store.reveal(4)).toBe(false);
+});
+
+test("marks are set, taken away, looped and zoomed to", () => {
+  const store = page();
+  store.seek(1.5);
+  store.mark("start_s");
+  store.seek(2.5);
+  store.mark("stop_s");
+  expect(store.markedSpan()).toEqual({ start_s: 1.5, stop_s: 2.5 });
+  store.toggleLoop();
+  expect(store.loop.value).toEqual({ start_s: 1.5, stop_s: 2.5 });
+  store.zoomToTarget();
+  expect(store.range.value.start_s).toBeCloseTo(1.4);
+  expect(store.range.value.stop_s).toBeCloseTo(2.6);
+  store.mark("stop_s");
+  expect(store.markedSpan()).toEqual({ start_s: 1.5, stop_s: 5 });
+  store.seek(1);
+  store.mark("stop_s"); // before the start, which goes
+  expect(store.markedSpan()).toEqual({ start_s: 0, stop_s: 1 });
 });

@@ -37,6 +37,12 @@ export function About({ store }: { store: Store }): JSX.Element | null {
   );
 }
 
+/** The title of its tab, with a sign where there is something to warn of. */
+export function aboutTitle(store: Store): string {
+  const warnings = store.recording.value?.warnings.length ?? 0;
+  return warnings ? `About ⚠ ${warnings}` : "About";
+}
+
 function Fact({ name, children }: { name: string; children: ComponentChildren }): JSX.Element {
   return (
     <>

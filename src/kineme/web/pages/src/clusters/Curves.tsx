@@ -7,7 +7,16 @@ import { Line } from "../canvas/Line";
 import { clusterColor } from "../colors";
 import type { Segment } from "../messages";
 import type { Store } from "../store";
-import { AXES, curveOf, liveliest, someOf, spreadOf, type Axis, type Track } from "./curves";
+import {
+  AXES,
+  curveOf,
+  liveliest,
+  pointsFor,
+  someOf,
+  spreadOf,
+  type Axis,
+  type Track,
+} from "./curves";
 import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
 
 const MOST = 150; // curves drawn, and members that the mean is of
@@ -23,7 +32,9 @@ export function Curves({ store }: { store: Store }): JSX.Element {
   const content = shown.value;
   if (!content) return <Missing store={store} />;
   const { motion, track, members, color } = content;
-  const total = store.shownCluster.value?.members.length ?? 0;
+  const all = store.shownCluster.value?.members.length ?? 0;
+  const plural = members.length === 1 && all <= 1 ? "member" : "members";
+  const memberCount = `${members.length < all ? `${members.length} of ${all}` : members.length} ${plural}`;
   return (
     <div class="curves">
       <div class="curve-choice">
@@ -58,7 +69,7 @@ export function Curves({ store }: { store: Store }): JSX.Element {
       </div>
       <div class="curve-room">
         <Canvas
-          label={`Curves of ${members.length} members, with mean and deviation. Click one to go to its member.`}
+          label={`Curves of ${memberCount}, with mean and deviation. Click one to go to its member.`}
           watch={() => void [shown.value, member.value]}
           draw={(pen, width, height) => {
             const now = shown.value;
@@ -73,10 +84,7 @@ export function Curves({ store }: { store: Store }): JSX.Element {
         />
         <Now store={store} members={members} />
       </div>
-      <p class="quiet note">
-        {members.length < total ? `${members.length} of ${total}` : members.length} members, mean ±
-        deviation, seen from the pelvis
-      </p>
+      <p class="quiet note">{memberCount}, mean ± deviation, seen from the pelvis</p>
     </div>
   );
 }
@@ -89,7 +97,8 @@ function contentOf(store: Store, chosen: Partial<Track>) {
   if (!motion || !cluster) return null;
   const members = someOf(cluster.members, MOST);
   const track = { ...liveliest(motion, someOf(members, FEW)), ...chosen };
-  const curves = members.map((member) => curveOf(motion, member, track));
+  const points = pointsFor(motion, members);
+  const curves = members.map((member) => curveOf(motion, member, track, points));
   const color = clusterColor(cluster.id);
   return { motion, track, members, curves, spread: spreadOf(curves), color };
 }

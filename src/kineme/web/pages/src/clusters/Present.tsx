@@ -1,6 +1,6 @@
 /** The primitive under the playhead, and the way to the others of its cluster. */
 import type { JSX } from "preact";
-import { clusterColor } from "../colors";
+import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
 import type { Store } from "../store";
 import { IconButton } from "../transport/icons";
@@ -19,7 +19,7 @@ export function Present({ store }: { store: Store }): JSX.Element | null {
   return (
     <section class="present" aria-label="At the playhead">
       <p class="present-name">
-        <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
+        <span class="swatch" style={{ background: store.colorOf(segment) ?? NO_COLOR }} />
         <b>{nameOf(segment)}</b>
         <span class="spacer" />
         {at >= 0 && (

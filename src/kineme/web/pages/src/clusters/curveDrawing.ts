@@ -1,7 +1,7 @@
 /** How the curves of a cluster look. */
 import { onPage } from "../colors";
 import { cssColor, theme } from "../theme";
-import { SAMPLES, type Spread } from "./curves";
+import type { Spread } from "./curves";
 
 type Pen = CanvasRenderingContext2D;
 
@@ -22,10 +22,11 @@ const ABOVE = 8;
 export function drawCurves(pen: Pen, picture: CurvePicture, width: number, height: number): void {
   const { curves, spread, selected } = picture;
   const [low, high] = boundsOf(curves);
-  const x = (i: number): number => LEFT + (i / (SAMPLES - 1)) * (width - LEFT - RIGHT);
+  const last = spread.mean.length - 1;
+  const x = (i: number): number => LEFT + (i / last) * (width - LEFT - RIGHT);
   const y = (value: number): number =>
     ABOVE + ((high - value) / (high - low)) * (height - ABOVE - BELOW);
-  drawAxes(pen, { low, high, x, y, height });
+  drawAxes(pen, { low, high, x, y, height, last });
   const color = onPage(picture.color, theme.value);
   pen.lineJoin = "round";
   pen.fillStyle = color;
@@ -53,7 +54,7 @@ export function nearestCurve(
 ): number {
   const [low, high] = boundsOf(curves);
   const share = Math.min(Math.max((px - LEFT) / (width - LEFT - RIGHT), 0), 1);
-  const i = Math.round(share * (SAMPLES - 1));
+  const i = Math.round(share * ((curves[0]?.length ?? 1) - 1));
   const value = high - ((py - ABOVE) / (height - ABOVE - BELOW)) * (high - low);
   const far = curves.map((curve) => Math.abs(curve[i]! - value));
   return far.indexOf(Math.min(...far.filter((each) => !Number.isNaN(each))));
@@ -78,9 +79,11 @@ interface Axes {
   x: (i: number) => number;
   y: (value: number) => number;
   height: number;
+  /** The number of the last point. */
+  last: number;
 }
 
-function drawAxes(pen: Pen, { low, high, x, y, height }: Axes): void {
+function drawAxes(pen: Pen, { low, high, x, y, height, last }: Axes): void {
   pen.font = "10px system-ui, sans-serif";
   pen.textBaseline = "middle";
   pen.textAlign = "right";
@@ -93,7 +96,7 @@ function drawAxes(pen: Pen, { low, high, x, y, height }: Axes): void {
     const at = Math.round(y(i * step)) + 0.5;
     pen.beginPath();
     pen.moveTo(LEFT, at);
-    pen.lineTo(x(SAMPLES - 1), at);
+    pen.lineTo(x(last), at);
     pen.stroke();
     pen.fillText((i * step).toFixed(step < 0.1 ? 2 : 1), LEFT - 5, at);
   }
@@ -103,7 +106,7 @@ function drawAxes(pen: Pen, { low, high, x, y, height }: Axes): void {
     [1, "right"],
   ] as const) {
     pen.textAlign = align;
-    pen.fillText(`${100 * share} %`, x(share * (SAMPLES - 1)), height - BELOW / 2 + 1);
+    pen.fillText(`${100 * share} %`, x(share * last), height - BELOW / 2 + 1);
   }
   pen.textAlign = "left";
 }
@@ -124,7 +127,7 @@ function line(pen: Pen, curve: Float32Array, x: Axes["x"], y: Axes["y"]): void {
 
 function band(pen: Pen, { mean, deviation }: Spread, x: Axes["x"], y: Axes["y"]): void {
   pen.beginPath();
-  for (let i = 0; i < SAMPLES; i++) pen.lineTo(x(i), y(mean[i]! + deviation[i]!));
-  for (let i = SAMPLES - 1; i >= 0; i--) pen.lineTo(x(i), y(mean[i]! - deviation[i]!));
+  for (let i = 0; i < mean.length; i++) pen.lineTo(x(i), y(mean[i]! + deviation[i]!));
+  for (let i = mean.length - 1; i >= 0; i--) pen.lineTo(x(i), y(mean[i]! - deviation[i]!));
   pen.fill();
 }

@@ -5,8 +5,9 @@ import { headingAt, poseAt, rootOf, type Motion } from "../motion";
 export const AXES = ["forward", "up", "left"] as const;
 export type Axis = (typeof AXES)[number];
 
-/** Samples of a curve, from the first to the last frame of a member. */
-export const SAMPLES = 61;
+/** Fewest and most points of a curve, from the first to the last frame of a member. */
+const FEWEST = 2;
+const MOST_POINTS = 600; // more than the curves have pixels
 
 /** A point of the body followed along one axis of the body's own frame. */
 export interface Track {
@@ -14,14 +15,26 @@ export interface Track {
   axis: Axis;
 }
 
-/** The track of a member: metres from the root, at `SAMPLES` times from its start to its end. */
-export function curveOf(motion: Motion, segment: Segment, { joint, axis }: Track): Float32Array {
-  const curve = new Float32Array(SAMPLES);
+/** How many points the curves of these members need: one for each sample of the longest. */
+export function pointsFor(motion: Motion, members: readonly Segment[]): number {
+  const seconds = Math.max(...members.map((each) => each.stop_s - each.start_s), 0);
+  const samples = Math.ceil(seconds * motion.head.sample_fps) + 1;
+  return Math.min(Math.max(samples, FEWEST), MOST_POINTS);
+}
+
+/** The track of a member: metres from the root, at `points` times from its start to its end. */
+export function curveOf(
+  motion: Motion,
+  segment: Segment,
+  { joint, axis }: Track,
+  points: number,
+): Float32Array {
+  const curve = new Float32Array(points);
   const pose = new Float32Array(motion.head.joints.length * 3);
   const root = 3 * rootOf(motion.head);
   const length = segment.stop_s - segment.start_s;
-  for (let i = 0; i < SAMPLES; i++) {
-    const seconds = segment.start_s + (length * i) / (SAMPLES - 1);
+  for (let i = 0; i < points; i++) {
+    const seconds = segment.start_s + (length * i) / (points - 1);
     poseAt(motion, seconds, pose);
     const x = pose[3 * joint]! - pose[root]!;
     const y = pose[3 * joint + 1]! - pose[root + 1]!;
@@ -45,9 +58,10 @@ export interface Spread {
 
 /** Mean and standard deviation of each sample; what is missing (NaN) does not count. */
 export function spreadOf(curves: readonly Float32Array[]): Spread {
-  const mean = new Float32Array(SAMPLES);
-  const deviation = new Float32Array(SAMPLES);
-  for (let i = 0; i < SAMPLES; i++) {
+  const points = curves[0]?.length ?? 0;
+  const mean = new Float32Array(points);
+  const deviation = new Float32Array(points);
+  for (let i = 0; i < points; i++) {
     const values = curves.map((curve) => curve[i]!).filter((value) => !Number.isNaN(value));
     const middle = values.reduce((sum, value) => sum + value, 0) / values.length;
     const squares = values.reduce((sum, value) => sum + (value - middle) ** 2, 0);
@@ -56,6 +70,8 @@ export function spreadOf(curves: readonly Float32Array[]): Spread {
   }
   return { mean, deviation };
 }
+
+const COARSE = 61; // points that tell which track moves most
 
 /** The track on which hands, feet and head move most in these members. */
 export function liveliest(motion: Motion, members: readonly Segment[]): Track {
@@ -66,7 +82,8 @@ export function liveliest(motion: Motion, members: readonly Segment[]): Track {
   let most = -1;
   for (const joint of joints) {
     for (const axis of AXES) {
-      const { mean } = spreadOf(members.map((member) => curveOf(motion, member, { joint, axis })));
+      const track = { joint, axis };
+      const { mean } = spreadOf(members.map((member) => curveOf(motion, member, track, COARSE)));
       const extent = Math.max(...mean) - Math.min(...mean);
       if (extent > most) [best, most] = [{ joint, axis }, extent];
     }

@@ -3,6 +3,7 @@ import type { JSX, Ref } from "preact";
 
 interface Props {
   value: string;
+  placeholder?: string;
   label?: string;
   /** The id of a list of names to offer. */
   list?: string;
@@ -11,12 +12,20 @@ interface Props {
   onDone?: () => void;
 }
 
-export function NameInput({ value, label, list, field, onName, onDone }: Props): JSX.Element {
+export function NameInput({
+  value,
+  placeholder = "no name",
+  label,
+  list,
+  field,
+  onName,
+  onDone,
+}: Props): JSX.Element {
   return (
     <input
       ref={field ?? null}
       type="text"
-      placeholder="no name"
+      placeholder={placeholder}
       aria-label={label}
       list={list}
       defaultValue={value}

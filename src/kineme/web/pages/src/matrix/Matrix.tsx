@@ -25,10 +25,18 @@ export function Matrix({ store }: { store: Store }): JSX.Element {
           label="Self-similarity: how similar any two frames are. Click to go there; use the wheel or two fingers to zoom, drag to pan."
           watch={() => {
             void [store.activities.value, store.primitives.value, store.selected.value];
-            void [rows.value, store.range.value, store.hovered.value, tiles.arrived.value];
+            void [
+              store.labelColors.value,
+              rows.value,
+              store.range.value,
+              store.hovered.value,
+              tiles.arrived.value,
+            ];
           }}
           draw={(pen, width) => {
-            const head = store.recording.value?.matrix;
+            // Those of one recording and the tiles of another do not go together.
+            const { active } = store;
+            const head = active.value?.data === data ? store.recording.value?.matrix : undefined;
             const frame = { side: width - EDGE, down: rows.value, across: store.range.value };
             if (head && head.sizes.length) drawMatrix(pen, head, tiles, frame, store);
           }}

@@ -1,5 +1,4 @@
 /** How the matrix looks: tiles, and over them the segments and what is selected. */
-import { clusterColor } from "../colors";
 import type { MatrixHead, Segment } from "../messages";
 import type { Store } from "../store";
 import { cssColor } from "../theme";
@@ -87,19 +86,19 @@ function drawSquares(pen: Pen, frame: Frame, store: Store): void {
   ] as const) {
     const [from, to] = visible(lane, frame.across.start_s, frame.across.stop_s);
     for (const segment of lane.slice(from, to)) {
-      if (segment.cluster < 0) continue;
+      const color = store.colorOf(segment);
+      if (!color) continue;
       const box = boxOf(segment, segment, frame);
       if (box[2] < 3) continue;
-      pen.globalAlpha = hovered !== null && segment.cluster !== hovered ? 0.25 : 1;
+      const thick = hovered !== null && segment.cluster === hovered ? width + 1.5 : width;
       pen.strokeStyle = cssColor("page");
-      pen.lineWidth = width + 1.5;
+      pen.lineWidth = thick + 1.5;
       pen.strokeRect(...box);
-      pen.strokeStyle = clusterColor(segment.cluster);
-      pen.lineWidth = width;
+      pen.strokeStyle = color;
+      pen.lineWidth = thick;
       pen.strokeRect(...box);
     }
   }
-  pen.globalAlpha = 1;
 }
 
 /** The selected segment as a cross of bands, and boxes where it meets its likes. */
@@ -134,9 +133,11 @@ function boxOf(
 }
 
 function drawEdges(pen: Pen, { side, down, across }: Frame, store: Store): void {
-  for (const { start_s, stop_s, cluster } of store.activities.value) {
-    if (cluster < 0) continue;
-    pen.fillStyle = clusterColor(cluster);
+  for (const segment of store.activities.value) {
+    const { start_s, stop_s } = segment;
+    const color = store.colorOf(segment);
+    if (!color) continue;
+    pen.fillStyle = color;
     const inside = (span: Span, seconds: number): number =>
       EDGE + Math.min(Math.max(toPixel(span, side, seconds), 0), side);
     const [x, y] = [inside(across, start_s), inside(down, start_s)];

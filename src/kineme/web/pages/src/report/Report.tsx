@@ -1,6 +1,8 @@
 /** The page of a report. */
 import type { JSX } from "preact";
-import { About } from "../about/About";
+import { About, aboutTitle } from "../about/About";
+import { Keys } from "../about/Keys";
+import { PAGE_KEYS } from "../keys";
 import { Clusters } from "../clusters/Clusters";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
@@ -15,7 +17,8 @@ import { Viewer } from "../viewer/Viewer";
 export function Report({ store }: { store: Store }): JSX.Element {
   const tabs = [
     { id: "clusters", title: "Clusters", panel: () => <Clusters store={store} /> },
-    { id: "about", title: "About", panel: () => <About store={store} /> },
+    { id: "keys", title: "Keys", panel: () => <Keys keys={PAGE_KEYS} /> },
+    { id: "about", title: aboutTitle(store), panel: () => <About store={store} /> },
   ];
   return (
     <Layout

@@ -4,7 +4,7 @@ import { theme, toggleTheme } from "../theme";
 import { IconButton } from "../transport/icons";
 import type { Session } from "./session";
 
-export type DialogName = "transfer" | "compare" | "export" | "help";
+export type DialogName = "versions" | "transfer" | "compare" | "export" | "help";
 
 interface Props {
   session: Session;
@@ -13,7 +13,7 @@ interface Props {
 
 export function Header({ session, show }: Props): JSX.Element {
   const edited = session.edited.value;
-  const recording = edited?.shown.value;
+  const recording = edited?.confirmed.value;
   const other = theme.value === "dark" ? "light" : "dark";
   return (
     <>
@@ -35,13 +35,21 @@ export function Header({ session, show }: Props): JSX.Element {
           type="button"
           disabled={!recording?.can_redo}
           title="Redo (Ctrl+Shift+Z)"
-          onClick={() => edited?.edit({ kind: "redo" })}
+          onClick={() => void edited?.edit({ kind: "redo" })}
         >
           ↷ Redo
         </button>
       </span>
       <SaveState session={session} />
       <span class="group">
+        <Opener
+          name="versions"
+          title="Tables that were replaced: look at them, bring them back (H)"
+          disabled={!recording}
+          show={show}
+        >
+          History…
+        </Opener>
         <Opener
           name="transfer"
           title="Labels from a knowledge base (T)"

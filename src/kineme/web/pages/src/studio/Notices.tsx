@@ -18,7 +18,7 @@ export function Notices({ session }: { session: Session }): JSX.Element {
         )}
         {!trouble.value &&
           session.held.value.map((edited) => <Held key={edited.id} edited={edited} />)}
-        {bulletin.problems.value.map((text) => (
+        {bulletin.problems.value.map(({ text }) => (
           <div class="notice danger" data-notice="problem" key={text}>
             <p>{text}</p>
             <button
@@ -53,8 +53,8 @@ function Held({ edited }: { edited: EditedRecording }): JSX.Element {
   return (
     <div class="notice" data-notice="held">
       <p>
-        {edited.confirmed.value.name}: {edited.held.value}. It is shown as it is now, with your
-        edits on it. <Waiting edits={edited.unsent()} />
+        {edited.confirmed.value.name}: {edited.held.value}. It is shown as it is now.{" "}
+        <Waiting edits={edited.unsent()} />
       </p>
       <button type="button" class="primary" onClick={() => edited.retry()}>
         Make them here

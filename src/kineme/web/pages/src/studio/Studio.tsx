@@ -1,7 +1,7 @@
 /** The page of the studio: the parts of every page, and around them what changes a result. */
 import { signal, type Signal } from "@preact/signals";
 import type { JSX } from "preact";
-import { About } from "../about/About";
+import { About, aboutTitle } from "../about/About";
 import { Clusters } from "../clusters/Clusters";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
@@ -17,11 +17,15 @@ import { EditTools } from "./panels/EditTools";
 import { ExportDialog } from "./dialogs/ExportDialog";
 import { FolderPanel } from "./panels/FolderPanel";
 import { type DialogName, Header } from "./Header";
+import { VersionsDialog } from "./dialogs/VersionsDialog";
 import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
 import { PresetPanel } from "./panels/PresetPanel";
 import { SegmentPanel } from "./panels/SegmentPanel";
+import type { Review } from "./review/review";
+import { ReviewPanel } from "./review/ReviewPanel";
 import type { Session } from "./session";
+import { SegmentTable } from "./table/SegmentTable";
 import { TransferDialog } from "./dialogs/TransferDialog";
 import type { Uploads } from "./server/uploads";
 
@@ -34,11 +38,12 @@ export class Front {
 interface Props {
   session: Session;
   editor: Editor;
+  review: Review;
   uploads: Uploads;
   front: Front;
 }
 
-export function Studio({ session, editor, uploads, front }: Props): JSX.Element {
+export function Studio({ session, editor, review, uploads, front }: Props): JSX.Element {
   const { store } = session;
   const show = (dialog: DialogName): void => void (front.dialog.value = dialog);
   const { value: dialog } = front.dialog;
@@ -49,7 +54,19 @@ export function Studio({ session, editor, uploads, front }: Props): JSX.Element 
     {
       id: "segment",
       title: "Segment",
-      panel: () => <SegmentPanel session={session} editor={editor} />,
+      panel: () => <SegmentPanel session={session} editor={editor} review={review} />,
+    },
+    {
+      id: "table",
+      title: "Table",
+      panel: () => (
+        <SegmentTable key={store.recording.value?.id} session={session} editor={editor} />
+      ),
+    },
+    {
+      id: "review",
+      title: "Review",
+      panel: () => <ReviewPanel session={session} review={review} />,
     },
     { id: "clusters", title: "Clusters", panel: () => <Clusters store={store} /> },
     {
@@ -57,7 +74,7 @@ export function Studio({ session, editor, uploads, front }: Props): JSX.Element 
       title: "Compare",
       panel: () => <ComparePanel session={session} choose={() => show("compare")} />,
     },
-    { id: "about", title: "About", panel: () => <About store={store} /> },
+    { id: "about", title: aboutTitle(store), panel: () => <About store={store} /> },
   ];
   return (
     <>
@@ -113,6 +130,8 @@ function OpenDialog(props: {
 }): JSX.Element | null {
   const { session, name, close } = props;
   switch (name) {
+    case "versions":
+      return <VersionsDialog session={session} close={close} />;
     case "transfer":
       return <TransferDialog session={session} close={close} />;
     case "compare":

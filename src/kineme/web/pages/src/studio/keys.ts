@@ -1,6 +1,8 @@
 /** The keys of the studio, beyond those of every page. */
 import type { DialogName } from "./Header";
 import type { Editor } from "./editing/editor";
+import type { Review } from "./review/review";
+import type { Session } from "./session";
 
 /** Keys and what they do, as the help shows them. */
 export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
@@ -8,21 +10,33 @@ export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
   ["M", "Merge the segment with the next one"],
   ["Delete", "Delete the border nearest to the playhead"],
   ["Alt + ← →", "Move the border nearest to the playhead by a frame; with Shift by ten"],
+  ["A", "Work on activities, or on primitives again"],
   ["N", "Name the segment; Enter takes the name, Escape leaves it"],
-  ["Shift + N", "Name all segments of its cluster"],
+  ["Shift + N", "Name its cluster"],
+  ["J", "Next to look at: where the result is least sure"],
+  ["K", "The segment is checked: mark it, and go to the next to look at"],
+  ["Shift + K", "Mark the segment as checked, or take the mark away"],
+  ["Page Down, Page Up", "The next recording of the list, or the one before"],
   ["Ctrl + Z", "Undo"],
   ["Ctrl + Shift + Z", "Redo"],
+  ["H", "Tables that were replaced"],
   ["T", "Labels from a knowledge base"],
   ["C", "Compare with another result"],
   ["E", "Export"],
   ["?", "This help"],
 ];
 
+interface Hands {
+  session: Session;
+  editor: Editor;
+  review: Review;
+  show: (dialog: DialogName) => void;
+}
+
 /** What a key does in the studio; undefined where it does nothing. */
 export function commandOf(
   event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">,
-  editor: Editor,
-  show: (dialog: DialogName) => void,
+  { session, editor, review, show }: Hands,
 ): (() => void) | undefined {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   if (event.ctrlKey || event.metaKey) {
@@ -38,7 +52,13 @@ export function commandOf(
     m: () => editor.mergeWithNext(),
     Delete: () => editor.deleteBorder(),
     Backspace: () => editor.deleteBorder(),
+    a: () => session.store.changeLevel(),
     n: () => (editor.naming.value = event.shiftKey ? "cluster" : "segment"),
+    j: () => review.next(),
+    k: () => (event.shiftKey ? review.toggle() : review.checkAndGoOn()),
+    PageDown: () => void session.openNext(1),
+    PageUp: () => void session.openNext(-1),
+    h: () => show("versions"),
     t: () => show("transfer"),
     c: () => show("compare"),
     e: () => show("export"),

@@ -8,7 +8,9 @@ import { startPlayer } from "../player";
 import { Store } from "../store";
 import { Api } from "./server/api";
 import { Editor } from "./editing/editor";
+import type { DialogName } from "./Header";
 import { commandOf } from "./keys";
+import { Review } from "./review/review";
 import { Session } from "./session";
 import { exposeStudio } from "./snapshot";
 import { Front, Studio } from "./Studio";
@@ -21,38 +23,30 @@ function start(): void {
   const session = new Session(new Api(pageToken()), store);
   const editor = new Editor(session);
   const front = new Front();
+  const review = new Review(session, editor);
   store.edits.value = {
     moveBorder: (level, frame, to) => editor.moveBorder(level, frame, to),
     nameCluster: (cluster, label) => editor.nameCluster(cluster, label),
+    mergeClusters: (cluster, into) => editor.mergeClusters(cluster, into),
   };
-  addEventListener("keydown", (event) => onKey(event, editor, front));
   effect(() => {
     if (editor.naming.value) front.tab.value = "segment";
   });
   effect(() => {
-    if (store.other.value) front.tab.value = "compare";
+    if (session.comparison.value) front.tab.value = "compare";
   });
   effect(() => {
     document.title = `${store.recording.value?.name ?? "kineme"} · kineme studio`;
   });
   startPlayer(store);
   exposeStudio(session);
-  startKeys(store);
+  const show = (dialog: DialogName): void => void (front.dialog.value = dialog);
+  startKeys(store, (event) => commandOf(event, { session, editor, review, show }));
   render(
-    <Studio session={session} editor={editor} uploads={new Uploads(session)} front={front} />,
+    <Studio {...{ session, editor, review, front }} uploads={new Uploads(session)} />,
     document.getElementById("page")!,
   );
   void session.start(announceTab());
-}
-
-function onKey(event: KeyboardEvent, editor: Editor, front: Front): void {
-  const target = event.target instanceof Element ? event.target : null;
-  const typing = target?.closest("input:not([type=range]), select, textarea, dialog");
-  if (typing || event.defaultPrevented) return;
-  const command = commandOf(event, editor, (dialog) => (front.dialog.value = dialog));
-  if (!command) return;
-  event.preventDefault();
-  command();
 }
 
 start();

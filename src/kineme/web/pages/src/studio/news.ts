@@ -9,9 +9,14 @@ export interface News {
   undo?: (() => void) | undefined;
 }
 
+export interface Problem {
+  text: string;
+  about: string;
+}
+
 export class Bulletin {
   readonly news = signal<News | null>(null);
-  readonly problems = signal<string[]>([]);
+  readonly problems = signal<Problem[]>([]);
   private timer = 0;
 
   /** Takes the place of earlier news, and goes by itself. */
@@ -21,11 +26,18 @@ export class Bulletin {
     this.timer = window.setTimeout(() => (this.news.value = null), READING_TIME);
   }
 
-  problem(text: string): void {
-    if (!this.problems.value.includes(text)) this.problems.value = [...this.problems.value, text];
+  /** `about` is what did not work: the problem goes once that has worked. */
+  problem(text: string, about = ""): void {
+    const others = this.problems.value.filter((each) => each.text !== text);
+    this.problems.value = [...others, { text, about }];
+  }
+
+  solved(about: string): void {
+    if (this.problems.value.some((each) => each.about === about))
+      this.problems.value = this.problems.value.filter((each) => each.about !== about);
   }
 
   dismiss(text: string): void {
-    this.problems.value = this.problems.value.filter((each) => each !== text);
+    this.problems.value = this.problems.value.filter((each) => each.text !== text);
   }
 }

@@ -2,7 +2,6 @@
 import { useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { Canvas } from "../canvas/Canvas";
-import { clusterColor } from "../colors";
 import { cssColor } from "../theme";
 import type { Store } from "../store";
 import { toPixel } from "../view";
@@ -20,7 +19,14 @@ export function Overview({ store }: { store: Store }): JSX.Element {
     <div class="overview">
       <Canvas
         label="The whole recording; drag to choose what the lanes show."
-        watch={() => void [store.activities.value, store.range.value, store.duration.value]}
+        watch={() =>
+          void [
+            store.activities.value,
+            store.labelColors.value,
+            store.range.value,
+            store.duration.value,
+          ]
+        }
         draw={(pen, width, height) => draw(pen, width, height, store)}
         onPointerDown={(event) => {
           event.currentTarget.setPointerCapture(event.pointerId);
@@ -39,10 +45,12 @@ function draw(pen: CanvasRenderingContext2D, width: number, height: number, stor
   const whole = { start_s: 0, stop_s: store.duration.value };
   pen.fillStyle = cssColor("lane");
   pen.fillRect(0, 0, width, height);
-  for (const { start_s, stop_s, cluster } of store.activities.value) {
-    if (cluster < 0) continue;
+  for (const segment of store.activities.value) {
+    const { start_s, stop_s } = segment;
+    const color = store.colorOf(segment);
+    if (!color) continue;
     const left = toPixel(whole, width, start_s);
-    pen.fillStyle = clusterColor(cluster);
+    pen.fillStyle = color;
     pen.fillRect(left, 2, Math.max(toPixel(whole, width, stop_s) - left, 0.5), height - 4);
   }
   const { start_s, stop_s } = store.range.value;

@@ -1,6 +1,6 @@
 /** The lanes: activities, primitives, labels, and another result below them. */
 import { useSignal } from "@preact/signals";
-import { useMemo, useRef } from "preact/hooks";
+import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
@@ -24,6 +24,13 @@ export function Timeline({ store }: { store: Store }): JSX.Element {
       ),
     [store],
   );
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent): void => {
+      if (event.key === "Escape" && gestures.giveUp()) event.stopPropagation();
+    };
+    addEventListener("keydown", onKey, true);
+    return () => removeEventListener("keydown", onKey, true);
+  }, [gestures]);
   const given = (): Parameters<typeof layOut>[0] => ({
     activities: store.activities.value,
     primitives: store.primitives.value,
@@ -36,7 +43,13 @@ export function Timeline({ store }: { store: Store }): JSX.Element {
           label="Segments over time. Click one to go there; use the wheel or two fingers to zoom, drag to pan."
           watch={() => {
             void [given(), store.range.value, store.selected.value, store.hovered.value];
-            void [store.loop.value, drag.value];
+            void [store.loop.value, drag.value, store.target.value, store.border.value];
+            void [
+              store.marks.value,
+              store.labelColors.value,
+              store.edits.value,
+              store.recording.value,
+            ];
           }}
           draw={(pen, width, height) => {
             lanes.current = layOut(given(), height);

@@ -1,5 +1,5 @@
 /** How lanes look. */
-import { clusterColor, inkOn } from "../colors";
+import { inkOn } from "../colors";
 import type { Segment } from "../messages";
 import { nameOf } from "../segments";
 import type { Store } from "../store";
@@ -11,7 +11,6 @@ type Pen = CanvasRenderingContext2D;
 
 const FONT = "11px system-ui, sans-serif";
 const ROUND = 3;
-const FAINT = 0.28; // of what belongs to another cluster than the one under the pointer
 
 /** A border on its way to another frame. */
 export interface Drag {
@@ -46,6 +45,7 @@ export function drawLanes(
     pen.restore();
   }
   drawLoop(pen, store.loop.value, range, room);
+  drawInAndOut(pen, store, range, room);
 }
 
 interface Scene {
@@ -60,6 +60,10 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
   const [from, to] = visible(segments, range.start_s, range.stop_s);
   const hovered = store.hovered.value;
   const edge = cssColor("edge");
+  const rows = store.recording.value?.segmentation;
+  const checked = new Set(
+    lane.level ? rows?.checked.map((row) => rows.segments[row]!) : [], // none while it is dragged
+  );
   let drawn = -Infinity; // right end of what has been drawn
   for (let i = from; i < to; i++) {
     const segment = segments[i]!;
@@ -67,10 +71,8 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
     const right = toPixel(range, room, segment.stop_s);
     if (right - drawn < 0.5) continue; // as fine as the screen
     drawn = right;
-    const none = segment.cluster < 0 && lane.id !== "label";
-    const color = clusterColor(segment.cluster);
-    pen.globalAlpha = hovered !== null && segment.cluster !== hovered ? FAINT : 1;
-    pen.fillStyle = none ? hatch : color;
+    const color = store.colorOf(segment);
+    pen.fillStyle = color ?? hatch;
     const wide = right - left > 3;
     box(
       pen,
@@ -80,15 +82,43 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
       lane.height,
     );
     pen.fill();
-    if (wide) {
-      pen.strokeStyle = edge;
-      pen.lineWidth = 0.75;
+    const pointed = hovered !== null && segment.cluster === hovered;
+    if (wide || pointed) {
+      pen.strokeStyle = pointed ? cssColor("accent") : edge;
+      pen.lineWidth = pointed ? 2 : 0.75;
       pen.stroke();
     }
-    if (!none && right - left > 16) writeName(pen, lane, segment, left, right, room, inkOn(color));
+    if (color && right - left > 16) writeName(pen, lane, segment, left, right, room, inkOn(color));
+    if (checked.has(segment) && right - left > 8) drawTick(pen, lane, right);
   }
-  pen.globalAlpha = 1;
-  drawSelection(pen, lane, scene);
+  drawMarks(pen, lane, scene);
+  drawTarget(pen, lane, scene);
+}
+
+/** A tick in the corner of a checked segment. */
+function drawTick(pen: Pen, lane: Lane, right: number): void {
+  pen.fillStyle = cssColor("panel");
+  pen.strokeStyle = cssColor("text");
+  pen.lineWidth = 1.5;
+  const [x, y] = [right - 8, lane.top + lane.height - 6];
+  pen.beginPath();
+  pen.roundRect(x - 2, y - 2, 9, 7, 2);
+  pen.fill();
+  pen.beginPath();
+  pen.moveTo(x, y + 1);
+  pen.lineTo(x + 2, y + 3);
+  pen.lineTo(x + 5, y - 1);
+  pen.stroke();
+}
+
+/** Borders that the other result has not. */
+function drawMarks(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
+  pen.fillStyle = cssColor("danger");
+  for (const frame of lane.marks) {
+    const x = toPixel(range, room, frame / store.fps.value);
+    if (x < -2 || x > room + 2) continue;
+    pen.fillRect(x - 1.5, lane.top - 2, 3, lane.height + 4);
+  }
 }
 
 function writeName(
@@ -119,15 +149,32 @@ function shortened(pen: Pen, text: string, space: number): string {
   return "";
 }
 
-function drawSelection(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
-  const selected = store.selected.value;
-  if (!selected || lane.level !== selected.level) return;
-  const left = toPixel(range, room, selected.start_s);
-  const right = toPixel(range, room, selected.stop_s);
+/** What edits are for: the segment, broken where it was not chosen, and the border nearest by. */
+function drawTarget(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
+  const target = store.edits.value ? store.target.value : store.selected.value;
+  if (!target || lane.level !== target.level) return;
+  const left = toPixel(range, room, target.start_s);
+  const right = toPixel(range, room, target.stop_s);
   pen.strokeStyle = cssColor("text");
   pen.lineWidth = 2;
+  pen.setLineDash(store.selected.value ? [] : [4, 3]);
   box(pen, left, lane.top - 0.5, Math.max(right - left, 2), lane.height + 1);
   pen.stroke();
+  pen.setLineDash([]);
+  const border = store.edits.value && store.border.value;
+  if (!border) return;
+  const x = toPixel(range, room, border.start_s);
+  pen.fillStyle = cssColor("text");
+  for (const [tip, base] of [
+    [lane.top + 5, lane.top - 2],
+    [lane.top + lane.height - 5, lane.top + lane.height + 2],
+  ] as const) {
+    pen.beginPath();
+    pen.moveTo(x, tip);
+    pen.lineTo(x - 4, base);
+    pen.lineTo(x + 4, base);
+    pen.fill();
+  }
 }
 
 function drawRuler(pen: Pen, range: Span, room: number): void {
@@ -152,6 +199,23 @@ function drawLoop(pen: Pen, loop: Span | null, range: Span, room: number): void 
   if (right <= left) return;
   pen.fillStyle = cssColor("accent");
   pen.fillRect(GUTTER + left, RULER - 4, right - left, 3);
+}
+
+/** The marks, as brackets on the ruler. */
+function drawInAndOut(pen: Pen, store: Store, range: Span, room: number): void {
+  pen.fillStyle = cssColor("accent");
+  const { start_s, stop_s } = store.marks.value;
+  for (const [seconds, toward] of [
+    [start_s, 1],
+    [stop_s, -1],
+  ] as const) {
+    if (seconds === null) continue;
+    const x = toPixel(range, room, seconds);
+    if (x < 0 || x > room) continue;
+    pen.fillRect(GUTTER + x - 1, 2, 2, RULER - 4);
+    pen.fillRect(GUTTER + (toward > 0 ? x : x - 6), 2, 6, 2);
+    pen.fillRect(GUTTER + (toward > 0 ? x : x - 6), RULER - 4, 6, 2);
+  }
 }
 
 function drawTitle(pen: Pen, lane: Lane): void {

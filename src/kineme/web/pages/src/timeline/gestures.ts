@@ -8,6 +8,7 @@ import { borderNear, GUTTER, laneAt, roomFor, RULER, type Lane } from "./lanes";
 
 const GRIP = 5; // pixels to either side of a border
 const FINGER = 12;
+const SEEN = 6; // pixels of a segment that a dragged border leaves of it
 
 /** A place on the canvas, and how far a border may be from it. */
 interface Spot {
@@ -64,7 +65,10 @@ export class Gestures {
       this.store.panBy(this.secondsAt({ ...spot, x: doing.last }) - this.secondsAt(spot));
       doing.last = spot.x;
     } else if (doing?.what === "border") {
-      const [low, high] = roomFor(doing.lane.segments, doing.drag.frame);
+      const { start_s, stop_s } = this.store.range.value;
+      const seen = ((stop_s - start_s) / (spot.width - GUTTER)) * SEEN * this.store.fps.value;
+      const least = Math.max(Math.ceil(seen), 1);
+      const [low, high] = roomFor(doing.lane.segments, doing.drag.frame, least);
       const to = Math.round(this.secondsAt(spot) * this.store.fps.value);
       doing.drag = { ...doing.drag, to: Math.min(Math.max(to, low), high) };
       this.onDrag(doing.drag);
@@ -79,10 +83,19 @@ export class Gestures {
     this.doing = null;
     if (doing?.what === "press") this.click(spotOf(event));
     if (doing?.what !== "border") return;
-    this.onDrag(null);
     const { frame, to } = doing.drag;
-    if (to !== frame && doing.lane.level)
-      this.store.edits.value?.moveBorder(doing.lane.level, frame, to);
+    const { level } = doing.lane;
+    const moved = level && to !== frame && this.store.edits.value?.moveBorder(level, frame, to);
+    void Promise.resolve(moved).then(() => this.onDrag(null)); // shown there until it is
+  }
+
+  /** Escape: a border goes back to where it was; whether there was anything to give up. */
+  giveUp(): boolean {
+    const { doing } = this;
+    if (doing?.what !== "border") return false;
+    this.cancel();
+    this.store.seek(doing.drag.frame / this.store.fps.value);
+    return true;
   }
 
   cancel(): void {

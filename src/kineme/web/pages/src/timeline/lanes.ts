@@ -10,6 +10,8 @@ export interface Lane {
   segments: readonly Segment[];
   /** Which level's borders can be dragged here; null: none. */
   level: Level | null;
+  /** Frames of borders to point out: those that the other result has not. */
+  marks: ReadonlySet<number>;
 }
 
 export const RULER = 22;
@@ -19,27 +21,63 @@ const GAP = 4;
 interface Given {
   activities: readonly Segment[];
   primitives: readonly Segment[];
-  other: { name: string; segmentation: Segments } | null;
+  other: { name: string; segmentation: Segments; marked?: boolean } | null;
 }
+
+const SAME = 0.1; // seconds from a border to one that counts as the same
+const NONE: ReadonlySet<number> = new Set();
 
 /** The lanes from top to bottom, sharing what height there is. */
 export function layOut({ activities, primitives, other }: Given, height: number): Lane[] {
+  const others = {
+    activity: other ? laneOf(other.segmentation, "activity") : [],
+    primitive: other ? laneOf(other.segmentation, "primitive") : [],
+  };
+  const only = (mine: readonly Segment[], theirs: readonly Segment[]): ReadonlySet<number> =>
+    other?.marked ? without(mine, theirs) : NONE;
   const rows: (Omit<Lane, "top" | "height"> & { share: number })[] = [
-    { id: "activity", title: "Activities", segments: activities, level: "activity", share: 1 },
-    { id: "primitive", title: "Primitives", segments: primitives, level: "primitive", share: 1.2 },
+    {
+      id: "activity",
+      title: "Activities",
+      segments: activities,
+      level: "activity",
+      share: 1,
+      marks: only(activities, others.activity),
+    },
+    {
+      id: "primitive",
+      title: "Primitives",
+      segments: primitives,
+      level: "primitive",
+      share: 1.2,
+      marks: only(primitives, others.primitive),
+    },
     {
       id: "label",
       title: "Labels",
       segments: labelSpans(activities, primitives),
       level: null,
       share: 0.7,
+      marks: NONE,
     },
   ];
   if (other) {
-    const second = { level: null, share: 0.8 };
-    const lane = (level: Level): Segment[] => laneOf(other.segmentation, level);
-    rows.push({ id: "other-activity", title: other.name, segments: lane("activity"), ...second });
-    rows.push({ id: "other-primitive", title: "", segments: lane("primitive"), ...second });
+    rows.push({
+      id: "other-activity",
+      title: other.name,
+      segments: others.activity,
+      level: null,
+      share: 0.8,
+      marks: only(others.activity, activities),
+    });
+    rows.push({
+      id: "other-primitive",
+      title: "",
+      segments: others.primitive,
+      level: null,
+      share: 0.8,
+      marks: only(others.primitive, primitives),
+    });
   }
   const total = rows.reduce((sum, row) => sum + row.share, 0);
   const room = Math.max(height - RULER - GAP * rows.length, 0);
@@ -49,6 +87,20 @@ export function layOut({ activities, primitives, other }: Given, height: number)
     top += lane.height + GAP;
     return lane;
   });
+}
+
+/** The borders that one lane has, and another has none as near as the eye takes for the same. */
+function without(mine: readonly Segment[], theirs: readonly Segment[]): ReadonlySet<number> {
+  const near = ({ start_s }: Segment): boolean => {
+    let [low, high] = [0, theirs.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (theirs[middle]!.start_s < start_s - SAME) low = middle + 1;
+      else high = middle;
+    }
+    return low < theirs.length && theirs[low]!.start_s <= start_s + SAME;
+  };
+  return new Set(mine.filter((each) => !near(each)).map((each) => each.start_frame));
 }
 
 /** The lane at a height of the canvas. */
@@ -89,8 +141,17 @@ export function borderNear(
   return near && near.far < reach ? near.frame : null;
 }
 
-/** Where a border may go: at least a frame is left of its two segments each. */
-export function roomFor(segments: readonly Segment[], border: number): [number, number] {
+/**
+ * Where a border may go: so many frames are left of its two segments each that both can still be
+ * seen, or as many as they have if that is fewer.
+ */
+export function roomFor(
+  segments: readonly Segment[],
+  border: number,
+  least: number,
+): [number, number] {
   const i = indexAt(segments, border);
-  return [(segments[i - 1]?.start_frame ?? -1) + 1, (segments[i]?.stop_frame ?? border + 1) - 1];
+  const low = segments[i - 1]?.start_frame ?? 0;
+  const high = segments[i]?.stop_frame ?? border;
+  return [Math.min(low + least, border), Math.max(high - least, border)];
 }

@@ -36,7 +36,7 @@ export function Transport({ store }: { store: Store }): JSX.Element {
       </div>
       <IconButton
         icon="loop"
-        label="Loop the segment"
+        label="Loop what is marked, else the segment"
         keys="L"
         pressed={loop.value !== null}
         onClick={() => store.toggleLoop()}
@@ -76,8 +76,23 @@ function Clock({ store }: { store: Store }): JSX.Element {
     <>
       <output class="clock number">
         <b>{clock(playhead.value, 2)}</b> <span class="quiet">/ {clock(duration.value, 2)}</span>
-        <span class="quiet clock-frame">frame {frame}</span>
       </output>
+      <label class="clock-frame quiet">
+        frame
+        <input
+          type="number"
+          class="number"
+          aria-label="Frame"
+          min={0}
+          max={Math.max((store.recording.value?.n_frames ?? 1) - 1, 0)}
+          value={frame}
+          onChange={(event) => {
+            const wanted = event.currentTarget.valueAsNumber;
+            if (Number.isFinite(wanted)) store.seek(Math.round(wanted) / store.fps.value);
+          }}
+          onKeyDown={(event) => event.key === "Enter" && event.currentTarget.blur()}
+        />
+      </label>
       <input
         type="range"
         class="scrub"

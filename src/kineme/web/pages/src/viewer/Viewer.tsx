@@ -1,8 +1,8 @@
 /** The figures in 3-D: drag to orbit, wheel to zoom, right button or two fingers to pan. */
 import { useEffect, useRef } from "preact/hooks";
 import type { JSX } from "preact";
-import { clusterColor } from "../colors";
 import { nameOf } from "../segments";
+import { NO_COLOR } from "../colors";
 import type { Store } from "../store";
 import { MOST_MEMBERS } from "./placement";
 import { keepUpToDate, turnByKey } from "./updates";
@@ -43,12 +43,13 @@ function Caption({ store }: { store: Store }): JSX.Element {
   const shown = store.shownCluster.value;
   const stepping = store.inStep.value && shown;
   const n = shown?.members.length ?? 0;
-  const count = n > MOST_MEMBERS ? `the first ${MOST_MEMBERS} of ${n} members` : `${n} members`;
+  const all = n === 1 ? "1 member" : `${n} members`;
+  const count = n > MOST_MEMBERS ? `the first ${MOST_MEMBERS} of ${n} members` : all;
   return (
     <div class="caption">
       {present && (
         <p>
-          <span class="swatch" style={{ background: clusterColor(present.cluster) }} />{" "}
+          <span class="swatch" style={{ background: store.colorOf(present) ?? NO_COLOR }} />{" "}
           {nameOf(present)}
         </p>
       )}

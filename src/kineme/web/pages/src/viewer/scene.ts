@@ -1,6 +1,6 @@
 /** Brings the state of the page into the picture: which figure where, in which pose and colour. */
 import * as THREE from "three";
-import { clusterColor, onPage } from "../colors";
+import { NO_COLOR, onPage } from "../colors";
 import type { Segment } from "../messages";
 import { headingAt, poseAt, rootOf, type Motion } from "../motion";
 import { segmentAt } from "../segments";
@@ -47,7 +47,8 @@ export class FigureScene {
       this.trails = new Trails(this.stage.haze, paths, 0.022 * this.size);
       this.stage.scene.add(this.trails.mesh);
     }
-    const scene = `${this.placed.length} ${lead.segment !== null} ${this.store.current.value}`;
+    const { id } = this.store.recording.value!;
+    const scene = `${this.placed.length} ${lead.segment !== null} ${id}`;
     if (scene !== this.scene) this.frame();
     this.scene = scene;
   }
@@ -60,7 +61,7 @@ export class FigureScene {
   pose(seconds: number): void {
     const { store } = this;
     const leader = this.leader();
-    const color = onPage(clusterColor(store.present.value?.cluster ?? -1), theme.value);
+    const color = onPage(this.colorOf(store.present.value), theme.value);
     const shadow = cssColor("shadow");
     const [body, joint] = [cssColor("body"), cssColor("joint")];
     this.placed.forEach((each, i) => {
@@ -153,6 +154,10 @@ export class FigureScene {
     this.stage.moveTo(target.x + share * (x - target.x), target.z + share * (z - target.z));
   }
 
+  private colorOf(segment: Segment | undefined): string {
+    return (segment && this.store.colorOf(segment)) ?? NO_COLOR;
+  }
+
   private drawTrails(): void {
     if (!this.trails) return;
     const { playhead, primitives, fps } = this.store;
@@ -161,7 +166,7 @@ export class FigureScene {
     const times = Trails.times(playhead.value, TRAIL_LENGTH);
     const colors = times.map((time) => {
       const segment = segmentAt(primitives.value, Math.floor(time * fps.value));
-      return new THREE.Color(onPage(clusterColor(segment?.cluster ?? -1), theme.value));
+      return new THREE.Color(onPage(this.colorOf(segment), theme.value));
     });
     const paths = this.placed.flatMap((each) => this.pathsOf(each, times));
     this.trails.draw(paths, colors, this.stage.camera.position);

@@ -29,6 +29,9 @@ export function table(): Segments {
     fps: FPS,
     provenance: {},
     timings: {},
+    cluster_names: {},
+    checked: [],
+    by_hand: [],
     segments: [
       row("activity", 0, 100),
       row("primitive", 0, 30, 0),

@@ -27,8 +27,9 @@ export function ExportDialog({ session, close }: Props): JSX.Element {
     try {
       const { name, data } = await session.api.exported(edited.id, format, level.value);
       download(name, data);
+      session.bulletin.solved("export");
     } catch (error) {
-      session.bulletin.problem(explain(error));
+      session.bulletin.problem(explain(error), "export");
     }
     busy.value = "";
   };

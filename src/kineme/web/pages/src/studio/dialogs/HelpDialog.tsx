@@ -1,5 +1,6 @@
 /** The keys, and what the mouse does. */
 import type { JSX } from "preact";
+import { Keys } from "../../about/Keys";
 import { PAGE_KEYS } from "../../keys";
 import { Dialog } from "./Dialog";
 import { STUDIO_KEYS } from "../keys";
@@ -7,18 +8,7 @@ import { STUDIO_KEYS } from "../keys";
 export function HelpDialog({ close }: { close: () => void }): JSX.Element {
   return (
     <Dialog title="Keys" close={close}>
-      <table class="keys">
-        <tbody>
-          {[...PAGE_KEYS, ...STUDIO_KEYS].map(([keys, what]) => (
-            <tr key={keys}>
-              <th scope="row">
-                <kbd>{keys}</kbd>
-              </th>
-              <td>{what}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      <Keys keys={[...PAGE_KEYS, ...STUDIO_KEYS]} />
       <p class="quiet">
         Drag a border in the timeline to move it. Every edit is saved at once beside the recording,
         and can be undone.

@@ -17,7 +17,7 @@ export function TransferDialog({ session, close }: Props): JSX.Element {
   const transfer = (event: Event): void => {
     event.preventDefault();
     const limit = Number.parseFloat(threshold.value);
-    session.edited.value?.edit({
+    void session.edited.value?.edit({
       kind: "transfer",
       knowledge_base: base.value,
       spread: spread.value,

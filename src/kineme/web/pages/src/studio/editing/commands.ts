@@ -1,6 +1,6 @@
 /** Edits at the playhead or of the selected segment; null where there is nothing to do. */
 import type { Edit, Level, Segment } from "../../messages";
-import { indexAt } from "../../segments";
+import { indexAt, nearestBorder } from "../../segments";
 
 /** What a command looks at: the lane in which one works, and where the playhead is. */
 export interface Where {
@@ -25,7 +25,7 @@ export function mergeWithNext({ lane }: Where, segment: Segment): Edit | null {
 
 /** The border nearest to the playhead goes. */
 export function deleteBorder(where: Where): Edit | null {
-  const border = nearestBorder(where);
+  const border = nearestBorder(where.lane, where.frame);
   return border === null
     ? null
     : { kind: "delete_border", level: border.level, frame: border.start_frame };
@@ -36,22 +36,12 @@ export function nudgeBorder(
   where: Where,
   by: number,
 ): Extract<Edit, { kind: "move_border" }> | null {
-  const after = nearestBorder(where);
+  const after = nearestBorder(where.lane, where.frame);
   if (!after) return null;
   const before = where.lane[where.lane.indexOf(after) - 1]!;
   const frame = after.start_frame;
   const to = Math.min(Math.max(frame + by, before.start_frame + 1), after.stop_frame - 1);
   return to === frame ? null : { kind: "move_border", level: after.level, frame, to };
-}
-
-/** The segment that starts at the border nearest to the playhead; the recording's start is none. */
-export function nearestBorder({ lane, frame }: Where): Segment | null {
-  const at = indexAt(lane, frame);
-  const candidates = [lane[at], lane[at + 1]].filter(
-    (segment): segment is Segment => segment !== undefined && segment.start_frame > 0,
-  );
-  const distance = (segment: Segment) => Math.abs(segment.start_frame - frame);
-  return candidates.sort((a, b) => distance(a) - distance(b))[0] ?? null;
 }
 
 /** Where a segment starts after an edit; null where it was not the one that moved. */

@@ -1,23 +1,19 @@
 /**
  * One open recording: the table the server confirmed, and the edits on their way to it.
  *
- * Edits are shown at once and sent one after the other. An edit leaves the
- * queue when the server has confirmed it or refused it for what it is. While
- * nobody answers, or when the table turns out to be another than the one that
- * was edited, the queue is kept, and so it is when the tab dies.
+ * The page shows what is confirmed, nothing else: the server answers within a
+ * few hundredths of a second. Edits are sent one after the other, each with a
+ * name of its own, by which the server knows one that is sent again. An edit
+ * leaves the queue when the server has confirmed it or refused it for what it
+ * is. While nobody answers, or when the table turns out to be another than the
+ * one that was edited, the queue is kept, and so it is when the tab dies.
  */
 
-import { batch, computed, effect, signal } from "@preact/signals";
+import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import type { Edit, Edited, Level, Recording, Segments } from "../../messages";
 import { type Api, Refused, Unreachable } from "../server/api";
-import { fingerprint, inWords, isDone, preview } from "./preview";
-import { store, takeOver } from "./unsent";
-
-/** An edit in the queue; `tried`: it was sent, and may have arrived. */
-interface Waiting {
-  edit: Edit;
-  tried: boolean;
-}
+import { store, takeOver, type Unsent } from "./unsent";
+import { inWords } from "./words";
 
 export interface Surroundings {
   api: Api;
@@ -29,22 +25,17 @@ export interface Surroundings {
 }
 
 export class EditedRecording {
-  readonly confirmed;
-  readonly waiting = signal<Waiting[]>([]);
+  readonly confirmed: Signal<Recording>;
+  readonly waiting = signal<Unsent[]>([]);
   /** Why the queue does not move, in a sentence; null while it does. */
   readonly held = signal<string | null>(null);
-  readonly shown = computed(() => ({
-    ...this.confirmed.value,
-    segmentation: preview(
-      this.confirmed.value.segmentation,
-      this.waiting.value.map((waiting) => waiting.edit),
-    ),
-  }));
   /** Whether the server is at something slow. */
-  readonly busy = computed(() => this.waiting.value.some(({ edit }) => isSlow(edit)));
+  readonly busy = computed(() => this.waiting.value.some(({ edit }) => replacesTable(edit)));
 
   private sending = false;
   private announced = 0;
+  private readonly whenMade = new Map<string, () => void>();
+  private readonly commands: (() => void)[] = [];
   private readonly stopKeeping: () => void;
 
   constructor(
@@ -52,12 +43,7 @@ export class EditedRecording {
     private readonly around: Surroundings,
   ) {
     this.confirmed = signal(recording);
-    this.stopKeeping = effect(() =>
-      store(around.folder, recording.id, {
-        base: fingerprint(this.confirmed.value.segmentation),
-        edits: this.waiting.value.map((waiting) => waiting.edit),
-      }),
-    );
+    this.stopKeeping = effect(() => store(around.folder, recording.id, this.waiting.value));
   }
 
   /** The recording as the server has it, with what an earlier tab could not send. */
@@ -65,11 +51,8 @@ export class EditedRecording {
     const recording = await around.api.recording(id);
     const left = await takeOver(around.folder, id);
     const edited = new EditedRecording(recording, around);
-    if (left) {
-      edited.waiting.value = left.edits.map((edit) => ({ edit, tried: true }));
-      edited.settle(left.base);
-      void edited.send();
-    }
+    edited.waiting.value = left;
+    if (left.length) void edited.send();
     return edited;
   }
 
@@ -77,33 +60,36 @@ export class EditedRecording {
     return this.confirmed.peek().id;
   }
 
-  /** Shown at once, sent when its turn comes; the latest of several segmentations is enough. */
-  edit(edit: Edit): void {
+  /**
+   * Sent when its turn comes; the promise ends when it was made, refused, or has to wait. `made`
+   * is called in the moment the page has the new table.
+   */
+  edit(edit: Edit, made?: () => void): Promise<void> {
     const queue = this.waiting.peek();
-    const last = queue.at(-1);
-    const replaces = edit.kind === "segment" && last?.edit.kind === "segment" && !last.tried;
-    this.waiting.value = [...(replaces ? queue.slice(0, -1) : queue), { edit, tried: false }];
-    void this.send();
+    const base = queue.length ? null : this.confirmed.peek().revision;
+    const name = crypto.randomUUID();
+    if (made) this.whenMade.set(name, made);
+    this.waiting.value = [...queue, { name, edit, base }];
+    return this.send();
   }
 
-  /** Takes back the last edit: from the queue if it never left, else from the table. */
+  /** Does something once all edits on their way are confirmed; at once if they cannot be. */
+  whenSettled(command: () => void): void {
+    if (this.sending) this.commands.push(command);
+    else command();
+  }
+
+  /** Takes back the last edit. */
   undo(): void {
-    const queue = this.waiting.peek();
-    const last = queue.at(-1);
-    const inQueue = last && !last.tried && last.edit.kind !== "undo" && last.edit.kind !== "redo";
-    if (inQueue) this.waiting.value = queue.slice(0, -1);
-    else this.edit({ kind: "undo" });
+    void this.edit({ kind: "undo" });
   }
 
-  /** The server answers again: find out what it has, then go on. */
+  /** The server answers again: what it has is shown, what waits is sent. */
   async resume(): Promise<void> {
     if (this.sending) return;
-    this.announced = 0; // a new server counts anew
-    const base = fingerprint(this.confirmed.peek().segmentation);
-    if (await this.reload()) {
-      this.settle(base);
-      await this.send();
-    }
+    this.announced = 0;
+    if (this.waiting.peek().length) await this.send();
+    else await this.reload();
   }
 
   /** Another page changed the table to this revision, or this one did. */
@@ -118,7 +104,8 @@ export class EditedRecording {
   /** Makes the held edits on the table as it is now. */
   retry(): void {
     this.held.value = null;
-    void this.resume();
+    this.rebase();
+    void this.send();
   }
 
   /** Gives up the held edits. */
@@ -139,28 +126,36 @@ export class EditedRecording {
   }
 
   private async send(): Promise<void> {
-    if (this.sending) return;
+    if (this.sending) return this.untilSettled();
     this.sending = true;
     while (this.waiting.peek().length && this.held.peek() === null) {
       if (!(await this.sendFirst())) break;
+      while (!this.waiting.peek().length && this.commands.length) this.commands.shift()!();
     }
     this.sending = false;
+    for (const command of this.commands.splice(0)) command();
     const { revision } = this.confirmed.peek();
     if (this.announced > revision && !this.waiting.peek().length)
       await this.changed(this.announced);
   }
 
+  private untilSettled(): Promise<void> {
+    return new Promise((resolve) => this.whenSettled(resolve));
+  }
+
   /** Whether the queue may go on. */
   private async sendFirst(): Promise<boolean> {
-    const [first, ...rest] = this.waiting.peek();
-    const { edit } = first!;
-    this.waiting.value = [{ edit, tried: true }, ...rest];
+    const { edit, name, base } = this.waiting.peek()[0]!;
     const before = this.confirmed.peek();
     try {
-      const edited = await this.around.api.edit(this.id, { revision: before.revision, edit });
+      const revision = base ?? before.revision;
+      const edited = await this.around.api.edit(this.id, { revision, edit, name });
+      const made = this.whenMade.get(name);
+      this.whenMade.delete(name);
       batch(() => {
         this.confirmed.value = { ...this.confirmed.peek(), ...edited };
         this.advance();
+        made?.();
       });
       this.report(edit, edited);
       return true;
@@ -180,23 +175,22 @@ export class EditedRecording {
     this.waiting.value = this.waiting.peek().slice(1);
   }
 
-  /** The server has another revision: go on if its table is the one that was edited, else wait. */
-  private async reconsider(before: Recording, reason: string): Promise<boolean> {
-    const base = fingerprint(before.segmentation);
-    if (!(await this.reload())) return false;
-    const now = this.confirmed.peek();
-    const same = fingerprint(now.segmentation) === base && now.revision !== before.revision;
-    if (!same) this.held.value = reason;
-    return same;
+  /** The first edit is one of the table as it is now. */
+  private rebase(): void {
+    const [first, ...rest] = this.waiting.peek();
+    const base = this.confirmed.peek().revision;
+    if (first) this.waiting.value = [{ ...first, base }, ...rest];
   }
 
-  /** After a break: was the first edit carried out, and is the table still the one it was made on? */
-  private settle(base: string): void {
-    const queue = this.waiting.peek();
-    const table = this.confirmed.peek().segmentation;
-    if (!queue.length || fingerprint(table) === base) return;
-    if (queue[0]!.tried && isDone(queue[0]!.edit, table)) this.waiting.value = queue.slice(1);
-    else this.held.value = "the table was changed elsewhere while these edits waited";
+  /** The server has another revision: go on if its table is the one that was edited, else wait. */
+  private async reconsider(before: Recording, reason: string): Promise<boolean> {
+    if (!(await this.reload())) return false;
+    const now = this.confirmed.peek();
+    const rows = (each: Recording) => JSON.stringify(each.segmentation.segments);
+    const same = rows(now) === rows(before) && now.revision !== before.revision;
+    if (same) this.rebase();
+    else this.held.value = reason;
+    return same;
   }
 
   private async reload(): Promise<boolean> {
@@ -210,9 +204,10 @@ export class EditedRecording {
     }
   }
 
-  private report(edit: Edit, edited: Edited): void {
-    const undo = isSlow(edit) ? (): void => this.undo() : undefined;
-    const text = edit.kind === "segment" ? found(edited.segmentation) : edited.notes.join(" ");
+  private report(edit: Edit, { segmentation, notes }: Edited): void {
+    const undo = replacesTable(edit) ? (): void => this.undo() : undefined;
+    const said = edit.kind === "segment" ? [found(segmentation)] : [];
+    const text = [...said, ...notes.filter((note) => !said.length || isLoss(note))].join(" ");
     if (text) this.around.tell(text, undo);
   }
 }
@@ -225,6 +220,11 @@ function found(table: Segments): string {
   return `${count("activity")} activities, ${count("primitive")} primitives, found in ${seconds.toFixed(2)} s.`;
 }
 
-function isSlow(edit: Edit): boolean {
-  return edit.kind === "segment" || edit.kind === "transfer";
+function isLoss(note: string): boolean {
+  return note.startsWith("not taken over");
+}
+
+/** Whether another table takes the place of the present one, which can take a while. */
+function replacesTable({ kind }: Edit): boolean {
+  return ["segment", "transfer", "take_labels", "restore"].includes(kind);
 }

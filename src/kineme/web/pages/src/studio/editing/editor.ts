@@ -1,112 +1,155 @@
-/** Edits as people make them: at the playhead and of the selected segment, with the selection following. */
+/**
+ * Edits as people make them. There is one target: the segment at the playhead,
+ * on the level one works in, and the border nearest to the playhead. The
+ * timeline shows both. What an edit would reach outside of the view is brought
+ * into the view first.
+ */
 import { computed, signal } from "@preact/signals";
-import type { Edit, Kind, Level, Segment } from "../../messages";
-import { segmentAt } from "../../segments";
+import type { ByHand, Edit, Kind, Level, Segment } from "../../messages";
 import type { Store } from "../../store";
 import * as commands from "./commands";
 import type { Session } from "../session";
+import { counted } from "./words";
 
 export class Editor {
   /** Asks for the field of a name to take the keyboard: of a segment or its cluster. */
   readonly naming = signal<"segment" | "cluster" | null>(null);
-  /** The level one works in: that of the selection. */
-  readonly level = computed<Level>(() => {
-    const chosen = this.store.selection.value?.level;
-    return chosen ?? (this.store.primitives.value.length ? "primitive" : "activity");
-  });
-  /** The selected segment, else the one under the playhead. */
-  readonly segment = computed<Segment | undefined>(
-    () => this.store.selected.value ?? segmentAt(this.lane(), this.store.frame.value),
-  );
+  readonly segment = computed<Segment | undefined>(() => this.store.target.value);
   private readonly store: Store;
 
   constructor(private readonly session: Session) {
     this.store = session.store;
   }
 
-  moveBorder(level: Level, frame: number, to: number): void {
-    if (frame !== to) this.make({ kind: "move_border", level, frame, to });
+  /** The promise ends when the border is where it should be, or cannot be. */
+  async moveBorder(level: Level, frame: number, to: number): Promise<void> {
+    if (frame === to) return;
+    await this.send({ kind: "move_border", level, frame, to });
   }
 
   split(): void {
     this.make(
-      commands.split(this.where()),
-      "There is a border at the playhead already: move it first.",
+      () => commands.split(this.where()),
+      () => this.store.frame.value,
+      "There is a border at the playhead already: move the playhead first.",
     );
   }
 
   mergeWithNext(): void {
-    const segment = this.segment.value;
     this.make(
-      segment ? commands.mergeWithNext(this.where(), segment) : null,
+      () => (this.segment.value ? commands.mergeWithNext(this.where(), this.segment.value) : null),
+      () => this.segment.value?.stop_frame,
       "This is the last segment: choose one with a neighbour after it.",
     );
   }
 
   deleteBorder(): void {
-    this.make(commands.deleteBorder(this.where()), "There is no border to delete.");
+    this.make(
+      () => commands.deleteBorder(this.where()),
+      () => this.store.border.value?.start_frame,
+      "There is no border to delete.",
+    );
   }
 
   /** Moves the border nearest to the playhead, which goes with it. */
   nudge(frames: number): void {
-    const edit = commands.nudgeBorder(this.where(), frames);
-    this.make(edit, "There is no border to move, or no room for it.");
-    if (edit) this.store.seek(edit.to / this.store.fps.value);
+    this.make(
+      () => commands.nudgeBorder(this.where(), frames),
+      () => this.store.border.value?.start_frame,
+      "There is no border to move, or no room for it.",
+      (edit) => {
+        if (edit.kind === "move_border") this.store.seek(edit.to / this.store.fps.value);
+      },
+    );
   }
 
   name(segment: Segment, label: string): void {
     const { level, start_frame: frame } = segment;
-    if (label !== segment.label) this.make({ kind: "name_segment", level, frame, label });
+    void this.send({ kind: "name_segment", level, frame, label });
   }
 
   nameCluster(cluster: number, label: string): void {
-    this.make({ kind: "name_cluster", cluster, label });
+    void this.send({ kind: "name_cluster", cluster, label });
+  }
+
+  mergeClusters(cluster: number, into: number): void {
+    void this.send({ kind: "merge_clusters", cluster, into });
   }
 
   setCluster(segment: Segment, cluster: number): void {
     const { level, start_frame: frame } = segment;
-    if (cluster !== segment.cluster) this.make({ kind: "set_cluster", level, frame, cluster });
+    if (cluster !== segment.cluster) void this.send({ kind: "set_cluster", level, frame, cluster });
   }
 
   setKind(segment: Segment, to: Kind): void {
     const { level, start_frame: frame } = segment;
-    if (to !== segment.kind) this.make({ kind: "set_kind", level, frame, to });
+    if (to !== segment.kind) void this.send({ kind: "set_kind", level, frame, to });
+  }
+
+  /** Marks segments as checked, or takes the mark away. */
+  check(segments: readonly Segment[], checked: boolean): void {
+    const edits: ByHand[] = (["activity", "primitive"] as const).flatMap((level) => {
+      const frames = segments
+        .filter((each) => each.level === level)
+        .map((each) => each.start_frame);
+      return frames.length ? [{ kind: "check" as const, level, frames, checked }] : [];
+    });
+    this.together(edits, "");
+  }
+
+  /** Several edits as one step, which says how many segments it reached. */
+  together(edits: ByHand[], what: string): void {
+    if (!edits.length) return;
+    const undo = (): void => this.undo();
+    void this.send(edits.length === 1 ? edits[0]! : { kind: "together", edits }, () => {
+      if (what) this.session.bulletin.tell(`${counted(edits.length, "segment")} ${what}.`, undo);
+    });
   }
 
   undo(): void {
     if (this.isOpenTo("can_undo")) this.session.edited.value?.undo();
+    else this.session.bulletin.tell("There is nothing to undo.");
   }
 
   redo(): void {
-    if (this.isOpenTo("can_redo")) this.make({ kind: "redo" });
+    if (this.isOpenTo("can_redo")) void this.send({ kind: "redo" });
+    else this.session.bulletin.tell("There is nothing to redo.");
   }
 
   /** Edits on their way may be what there is to undo or redo. */
   private isOpenTo(what: "can_undo" | "can_redo"): boolean {
     const edited = this.session.edited.value;
-    return edited !== undefined && (edited.shown.value[what] || edited.unsent().length > 0);
+    return edited !== undefined && (edited.confirmed.value[what] || edited.unsent().length > 0);
   }
 
-  private make(edit: Edit | null, otherwise = ""): void {
-    const edited = this.session.edited.value;
-    if (!edited) return;
-    if (!edit) {
-      this.session.bulletin.tell(otherwise);
-      return;
-    }
-    const at = this.store.selection.value;
-    edited.edit(edit);
-    const start = at && commands.followed(edit, at.level, at.start_frame);
-    if (at && start !== null) this.store.selection.value = { ...at, start_frame: start! };
+  /** An edit of what is at the playhead once the edits before it are made, if it can be seen. */
+  private make(
+    command: () => Edit | null,
+    place: () => number | undefined,
+    otherwise: string,
+    then: (edit: Edit) => void = () => undefined,
+  ): void {
+    this.session.edited.value?.whenSettled(() => {
+      const edit = command();
+      const frame = place();
+      if (!edit || frame === undefined) this.session.bulletin.tell(otherwise);
+      else if (this.store.reveal(frame / this.store.fps.value))
+        this.session.bulletin.tell("This is where it would be: press once more to do it.");
+      else void this.send(edit, () => then(edit));
+    });
+  }
+
+  /** The selection follows the border that it starts at. */
+  private async send(edit: Edit, then?: () => void): Promise<void> {
+    await this.session.edited.value?.edit(edit, () => {
+      const at = this.store.selection.peek();
+      const start = at && commands.followed(edit, at.level, at.start_frame);
+      if (at && start !== null) this.store.selection.value = { ...at, start_frame: start };
+      then?.();
+    });
   }
 
   private where(): commands.Where {
-    return { lane: this.lane(), frame: this.store.frame.value };
-  }
-
-  private lane(): Segment[] {
-    return this.level.value === "activity"
-      ? this.store.activities.value
-      : this.store.primitives.value;
+    return { lane: this.store.lane(this.store.worked.value), frame: this.store.frame.value };
   }
 }

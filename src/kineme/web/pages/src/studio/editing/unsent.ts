@@ -7,10 +7,11 @@
 
 import type { Edit } from "../../messages";
 
-/** What a tab has not got through: the table it was working on, and its edits in order. */
+/** An edit that was not confirmed; `base`: the revision it was made on, null: that of the one before. */
 export interface Unsent {
-  base: string;
-  edits: Edit[];
+  name: string;
+  edit: Edit;
+  base: number | null;
 }
 
 const PREFIX = "kineme.unsent";
@@ -34,22 +35,21 @@ function claimed(name: string): Promise<boolean> {
   });
 }
 
-export function store(folder: string, recording: string, unsent: Unsent): void {
+export function store(folder: string, recording: string, unsent: Unsent[]): void {
   const key = `${PREFIX}|${folder}|${recording}|${tab}`;
-  if (unsent.edits.length) localStorage.setItem(key, JSON.stringify(unsent));
+  if (unsent.length) localStorage.setItem(key, JSON.stringify(unsent));
   else localStorage.removeItem(key);
 }
 
 /** The edits of this tab before it was reloaded, or of tabs that died; they are this tab's now. */
-export async function takeOver(folder: string, recording: string): Promise<Unsent | null> {
+export async function takeOver(folder: string, recording: string): Promise<Unsent[]> {
   const { held = [] } = await navigator.locks.query();
   const living = new Set(held.map((lock) => lock.name?.slice(PREFIX.length + 1)));
   living.delete(tab);
   const found = Object.keys(localStorage)
     .filter((key) => key.startsWith(`${PREFIX}|${folder}|${recording}|`))
     .filter((key) => !living.has(key.split("|").at(-1)));
-  const all = found.map((key) => JSON.parse(localStorage.getItem(key)!) as Unsent);
+  const all = found.flatMap((key) => JSON.parse(localStorage.getItem(key)!) as Unsent[]);
   found.forEach((key) => localStorage.removeItem(key));
-  if (!all.length) return null;
-  return { base: all[0]!.base, edits: all.flatMap((one) => one.edits) };
+  return all;
 }

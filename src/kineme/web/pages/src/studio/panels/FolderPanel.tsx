@@ -1,9 +1,11 @@
 /** The recordings of the folder: search, open, show beside, add. */
-import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import type { Listing } from "../../messages";
-import type { Session } from "../session";
+import type { Session, Status } from "../session";
 import type { Uploads } from "../server/uploads";
+
+const SIGNS: Record<Status, string> = { new: "", corrected: "✎", checked: "✓" };
+const TAIL = 12; // letters at the end of a name that are always seen
 
 interface Props {
   session: Session;
@@ -11,10 +13,10 @@ interface Props {
 }
 
 export function FolderPanel({ session, uploads }: Props): JSX.Element {
-  const search = useSignal("");
+  const { search, wanted } = session;
   const all = session.state.value?.recordings ?? [];
-  const wanted = search.value.trim().toLowerCase();
-  const found = all.filter((each) => each.name.toLowerCase().includes(wanted));
+  const found = session.listed.value;
+  const done = all.filter((each) => session.statusOf(each) === "checked").length;
   return (
     <section class="folder-panel" aria-label="Recordings">
       <div class="panel-head">
@@ -38,13 +40,30 @@ export function FolderPanel({ session, uploads }: Props): JSX.Element {
         </label>
       </div>
       {all.length > 1 && (
-        <input
-          type="search"
-          placeholder="Search"
-          aria-label="Search the recordings"
-          value={search.value}
-          onInput={(event) => (search.value = event.currentTarget.value)}
-        />
+        <div class="folder-filter">
+          <input
+            type="search"
+            placeholder="Search"
+            aria-label="Search the recordings"
+            value={search.value}
+            onInput={(event) => (search.value = event.currentTarget.value)}
+          />
+          <select
+            aria-label="Show recordings that are"
+            value={wanted.value}
+            onChange={(event) => (wanted.value = event.currentTarget.value as Status | "")}
+          >
+            <option value="">all</option>
+            <option value="new">new</option>
+            <option value="corrected">corrected</option>
+            <option value="checked">checked</option>
+          </select>
+        </div>
+      )}
+      {done > 0 && (
+        <p class="quiet note">
+          {done} of {all.length} checked
+        </p>
       )}
       <ul class="recordings">
         {found.map((listing) => (
@@ -67,7 +86,15 @@ function Row({ session, listing }: { session: Session; listing: Listing }): JSX.
   const { store } = session;
   const open = store.opened.value.find((each) => each.recording.value.id === id)?.recording.value;
   const shown = open !== undefined;
-  const corrected = listing.corrected || Boolean(open?.saved);
+  const status = session.statusOf(listing);
+  const checked = open?.segmentation.checked.length ?? listing.checked;
+  const segments = open?.segmentation.segments.length ?? listing.segments;
+  const said = [
+    megabytes(listing.bytes),
+    status,
+    ...(status === "corrected" ? [`${checked} of ${segments} segments checked`] : []),
+    ...(listing.named ? [`${listing.named} with a name`] : []),
+  ];
   const current = store.recording.value?.id === id;
   const opening = session.opening.value === id;
   const several = store.opened.value.length > 1;
@@ -78,11 +105,11 @@ function Row({ session, listing }: { session: Session; listing: Listing }): JSX.
         class="recording"
         aria-current={current ? "true" : undefined}
         aria-busy={opening}
-        title={`${name}, ${megabytes(listing.bytes)}${corrected ? ", corrected" : ""}`}
+        title={`${name}: ${said.join(", ")}`}
         onClick={() => void session.open(id, { beside: shown })}
       >
-        <span class="name">{name}</span>
-        {opening ? <span class="busy" /> : corrected && <span title="corrected">✎</span>}
+        <MiddleShortened name={name} />
+        {opening ? <span class="busy" /> : <span aria-hidden="true">{SIGNS[status]}</span>}
       </button>
       {shown && several ? (
         <button
@@ -109,6 +136,17 @@ function Row({ session, listing }: { session: Session; listing: Listing }): JSX.
         )
       )}
     </li>
+  );
+}
+
+/** A name of which the middle goes first, since recordings often differ at the end. */
+function MiddleShortened({ name }: { name: string }): JSX.Element {
+  const cut = Math.max(name.length - TAIL, 0);
+  return (
+    <span class="name halves">
+      <span>{name.slice(0, cut)}</span>
+      <span>{name.slice(cut)}</span>
+    </span>
   );
 }
 

@@ -1,19 +1,18 @@
-/** Preset and the few parameters that matter; a change segments the recording again. */
+/**
+ * Preset and the few parameters that matter. A change shows what it would find below what is
+ * there; a button makes it the table, and says what becomes of corrections and names.
+ */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import { useRef } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import type { Parameter, PresetChoice, Segments } from "../../messages";
 import type { EditedRecording } from "../editing/editedRecording";
-import type { Session } from "../session";
+import { counted } from "../editing/words";
+import type { Choice, Proposal, Session } from "../session";
 
 const PAUSE = 120; // milliseconds without a change before the server is asked
 
 type Values = Record<string, number>;
-
-interface Choice {
-  preset: string;
-  values: Values;
-}
 
 export function PresetPanel({ session }: { session: Session }): JSX.Element | null {
   const state = session.state.value;
@@ -23,6 +22,7 @@ export function PresetPanel({ session }: { session: Session }): JSX.Element | nu
   return (
     <Presets
       key={edited.id}
+      session={session}
       edited={edited}
       presets={signals ? state.presets.map(ofSignals) : state.presets}
       fallback={state.default_preset}
@@ -31,27 +31,36 @@ export function PresetPanel({ session }: { session: Session }): JSX.Element | nu
 }
 
 interface Props {
+  session: Session;
   edited: EditedRecording;
   presets: PresetChoice[];
   fallback: string;
 }
 
-function Presets({ edited, presets, fallback }: Props): JSX.Element {
+function Presets({ session, edited, presets, fallback }: Props): JSX.Element {
   const draft = useSignal<Choice | null>(null);
+  const keep = useSignal(true);
   const timer = useRef(0);
-  const table = edited.confirmed.value.segmentation;
-  const busy = edited.busy.value;
-  const { preset, values } = draft.value ?? onItsWay(edited) ?? usedBy(table, presets, fallback);
+  const { revision, segmentation: table } = edited.confirmed.value;
+  const proposal = session.proposal.value;
+  const busy = edited.busy.value || draft.value !== null;
+  const used = usedBy(table, presets, fallback);
+  const { preset, values } = draft.value ?? proposal?.choice ?? used;
   const choice = presets.find((each) => each.name === preset)!;
 
   const again = (next: Choice, pause: number): void => {
     draft.value = next;
     window.clearTimeout(timer.current);
     timer.current = window.setTimeout(() => {
-      edited.edit({ kind: "segment", preset: next.preset, parameters: next.values });
-      draft.value = null;
+      void session.propose(next, keep.value).then(() => {
+        if (draft.value === next) draft.value = null;
+      });
     }, pause);
   };
+  useEffect(() => () => window.clearTimeout(timer.current), []);
+  useEffect(() => {
+    if (proposal && proposal.revision !== revision) again(proposal.choice, 0); // of another table
+  }, [revision]);
   const change = (parameter: Parameter, value: number): void => {
     const { minimum, maximum } = parameter;
     if (!Number.isFinite(value)) return;
@@ -96,7 +105,71 @@ function Presets({ edited, presets, fallback }: Props): JSX.Element {
           change={(value) => change(parameter, value)}
         />
       ))}
+      {proposal && (
+        <Proposed
+          session={session}
+          proposal={proposal}
+          keep={keep.value}
+          setKeep={(wanted) => {
+            keep.value = wanted;
+            again(proposal.choice, 0);
+          }}
+        />
+      )}
     </section>
+  );
+}
+
+/** What the shown segmentation would do to the table, and the choice to make it. */
+function Proposed(props: {
+  session: Session;
+  proposal: Proposal;
+  keep: boolean;
+  setKeep: (keep: boolean) => void;
+}): JSX.Element {
+  const { session, proposal, keep, setKeep } = props;
+  const { preview } = proposal;
+  const own = `${counted(preview.corrections, "correction")}, ${counted(preview.names, "name")}`;
+  const some = preview.corrections + preview.names > 0;
+  return (
+    <div class="proposed" role="group" aria-label="Preview">
+      <p class="quiet">
+        Shown below what is there; borders that differ are marked. Nothing has been changed.
+      </p>
+      {some && (
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={keep}
+            onChange={(event) => setKeep(event.currentTarget.checked)}
+          />
+          Take over {own}
+        </label>
+      )}
+      {some && keep && preview.lost.length > 0 && (
+        <details open>
+          <summary>{counted(preview.lost.length, "name")} would be lost</summary>
+          <ul>
+            {preview.lost.map((what) => (
+              <li key={what}>{what}</li>
+            ))}
+          </ul>
+        </details>
+      )}
+      <p class="actions">
+        <button type="button" onClick={() => session.discard()}>
+          Discard
+        </button>
+        <button
+          type="button"
+          class="primary"
+          disabled={keep !== proposal.keep}
+          onClick={() => session.apply()}
+        >
+          {some ? (keep ? "Apply" : `Apply: replaces ${own}`) : "Apply"}
+        </button>
+      </p>
+    </div>
   );
 }
 
@@ -138,12 +211,6 @@ function Slider(props: {
 /** What signals are offered: lengths in their own unit, which their tables are in, too. */
 function ofSignals(choice: PresetChoice): PresetChoice {
   return { ...choice, parameters: choice.signal_parameters };
-}
-
-/** The preset and values that were asked for and have not been answered. */
-function onItsWay(edited: EditedRecording): Choice | null {
-  const edit = edited.waiting.value.findLast((each) => each.edit.kind === "segment")?.edit;
-  return edit?.kind === "segment" ? { preset: edit.preset, values: edit.parameters } : null;
 }
 
 /** The preset and values a table was made with; the preset's own where it does not say. */

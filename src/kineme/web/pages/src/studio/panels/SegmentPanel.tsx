@@ -1,11 +1,13 @@
 /** The segment one works on: its times, name and cluster, and the name of the cluster. */
 import type { JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
-import { clusterColor } from "../../colors";
+import { clusterColor, NO_COLOR } from "../../colors";
 import type { Kind, Segment } from "../../messages";
 import { NameInput } from "../../layout/NameInput";
-import { durationOf } from "../../segments";
+import { durationOf, nameOf } from "../../segments";
 import type { Editor } from "../editing/editor";
+import { counted } from "../editing/words";
+import type { Review } from "../review/review";
 import type { Session } from "../session";
 
 interface Props {
@@ -13,31 +15,50 @@ interface Props {
   editor: Editor;
 }
 
-export function SegmentPanel({ session, editor }: Props): JSX.Element {
+export function SegmentPanel({ session, editor, review }: Props & { review: Review }): JSX.Element {
   const segment = editor.segment.value;
   if (!segment) return <p class="hint quiet">Open a recording to see its segments.</p>;
   const { store } = session;
-  const members = store.clusters.value.find((each) => each.id === segment.cluster);
+  const called = store.recording.value?.segmentation.cluster_names[segment.cluster] ?? "";
+  const own = segment.label !== called ? segment.label : "";
+  const chosen = store.selected.value === segment;
   return (
     <div class="segment-panel">
       <p class="times number">
-        <b>{segment.level}</b> {segment.start_s.toFixed(2)} – {segment.stop_s.toFixed(2)} s{" "}
+        <span class="swatch" style={{ background: store.colorOf(segment) ?? NO_COLOR }} />{" "}
+        <b>{nameOf(segment)}</b>{" "}
+        <span class="quiet">
+          {segment.level} {chosen ? "selected" : "at the playhead"}
+        </span>
+        <br />
+        {segment.start_s.toFixed(2)} – {segment.stop_s.toFixed(2)} s{" "}
         <span class="quiet">({durationOf(segment).toFixed(2)} s)</span>
         <br />
         <span class="quiet">
           frames {segment.start_frame} – {segment.stop_frame}
           {segment.score !== null && `, score ${segment.score.toFixed(2)}`}
+          {segment.border_confidence !== null &&
+            `, start ${Math.round(100 * segment.border_confidence)} % sure`}
         </span>
       </p>
       <NameField
-        key={`segment ${segment.level} ${segment.start_frame} ${segment.label}`}
-        title="Name"
-        value={segment.label}
+        key={`segment ${segment.level} ${segment.start_frame} ${own}`}
+        title="Name of its own"
+        placeholder={called ? `called “${called}” by its cluster` : "no name"}
+        value={own}
         names={namesOf(session)}
         focus={editor.naming.value === "segment"}
         onDone={() => (editor.naming.value = null)}
         onName={(label) => editor.name(segment, label)}
       />
+      <label class="check">
+        <input
+          type="checkbox"
+          checked={review.isChecked(segment)}
+          onChange={(event) => editor.check([segment], event.currentTarget.checked)}
+        />
+        Checked: no new segmentation changes it
+      </label>
       <div class="pair">
         <label class="field">
           <span>Kind</span>
@@ -57,9 +78,10 @@ export function SegmentPanel({ session, editor }: Props): JSX.Element {
       </div>
       {segment.cluster >= 0 && (
         <NameField
-          key={`cluster ${segment.cluster} ${members?.label}`}
-          title={`Name of all in cluster ${segment.cluster}`}
-          value={members?.label ?? ""}
+          key={`cluster ${segment.cluster} ${called}`}
+          title={`Name of cluster ${segment.cluster}, of ${bulkOf(session, segment.cluster)}`}
+          placeholder="no name"
+          value={called}
           names={namesOf(session)}
           focus={editor.naming.value === "cluster"}
           onDone={() => (editor.naming.value = null)}
@@ -72,12 +94,11 @@ export function SegmentPanel({ session, editor }: Props): JSX.Element {
 
 function ClusterChoice(props: Props & { segment: Segment }): JSX.Element {
   const { session, editor, segment } = props;
-  const clusters = session.store.clusters.value;
   const rows = session.store.recording.value?.segmentation.segments ?? [];
   const next = rows.reduce((most, row) => Math.max(most, row.cluster), -1) + 1;
   const known = new Set([-1, next, ...rows.map((row) => row.cluster)]);
   const title = (id: number): string => {
-    const label = clusters.find((each) => each.id === id)?.label;
+    const label = session.store.recording.value?.segmentation.cluster_names[id];
     if (id < 0) return "none";
     if (id === next) return `${id} (new)`;
     return label ? `${id}: ${label}` : String(id);
@@ -99,8 +120,19 @@ function ClusterChoice(props: Props & { segment: Segment }): JSX.Element {
   );
 }
 
+/** How many segments the name of a cluster is for, and how many keep their own. */
+function bulkOf(session: Session, cluster: number): string {
+  const table = session.store.recording.value?.segmentation;
+  const called = table?.cluster_names[cluster] ?? "";
+  const members = table?.segments.filter((row) => row.cluster === cluster) ?? [];
+  const own = members.filter((row) => row.label && row.label !== called).length;
+  const all = counted(members.length - own, "segment");
+  return own ? `${all}; ${own} with their own name` : all;
+}
+
 interface NameProps {
   title: string;
+  placeholder: string;
   value: string;
   /** Names in use, offered while one types. */
   names: string[];
@@ -109,7 +141,15 @@ interface NameProps {
   onName: (label: string) => void;
 }
 
-function NameField({ title, value, names, focus, onDone, onName }: NameProps): JSX.Element {
+function NameField({
+  title,
+  placeholder,
+  value,
+  names,
+  focus,
+  onDone,
+  onName,
+}: NameProps): JSX.Element {
   const field = useRef<HTMLInputElement>(null);
   useLayoutEffect(() => {
     if (!focus) return;
@@ -121,7 +161,7 @@ function NameField({ title, value, names, focus, onDone, onName }: NameProps): J
   return (
     <label class="field">
       <span>{title}</span>
-      <NameInput field={field} value={value} list={list} onName={onName} />
+      <NameInput {...{ field, value, placeholder, list, onName }} />
       <datalist id={list}>
         {names.map((name) => (
           <option key={name} value={name} />

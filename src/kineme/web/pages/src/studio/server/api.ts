@@ -15,8 +15,12 @@ import type {
   Failure,
   Level,
   Listing,
+  Preview,
+  PreviewRequest,
   Recording,
   State,
+  Version,
+  Versions,
 } from "../../messages";
 
 /** Milliseconds between two tries to reach the server. */
@@ -68,6 +72,20 @@ export class Api {
 
   edit(id: string, request: EditRequest): Promise<Edited> {
     return this.json(`/api/recordings/${encodeURIComponent(id)}/edits`, request);
+  }
+
+  preview(id: string, request: PreviewRequest): Promise<Preview> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}/preview`, request);
+  }
+
+  /** The tables that were replaced. */
+  async versions(id: string): Promise<Version[]> {
+    const address = `/api/recordings/${encodeURIComponent(id)}/versions`;
+    return (await this.json<Versions>(address)).versions;
+  }
+
+  version(id: string, number: number): Promise<Comparison> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}/versions/${number}`);
   }
 
   compare(id: string, request: CompareRequest): Promise<Comparison> {

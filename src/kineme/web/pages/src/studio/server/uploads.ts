@@ -29,8 +29,9 @@ export class Uploads {
       };
       try {
         came.push((await session.api.upload(file, progress)).id);
+        session.bulletin.solved(`upload ${file.name}`);
       } catch (error) {
-        session.bulletin.problem(`${file.name}: ${explain(error)}`);
+        session.bulletin.problem(`${file.name}: ${explain(error)}`, `upload ${file.name}`);
       }
       this.running.value = this.running.value.filter((each) => each !== upload);
     }

@@ -1,0 +1,64 @@
+"""Whether the studio loses anything: a robot in Chromium, until it has made 500 edits.
+
+    python benchmarks/studio_robot.py [--edits 500] [--seeds 5]
+
+It edits at random, segments anew, undoes, reloads, kills the server and changes between two
+tabs and three recordings. After each step the table on the disk is the one that the page
+shows; at the end every table that was replaced is a version, and undo and redo give the same
+tables. What is not so ends it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import collections
+import os
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+from time import perf_counter
+
+from playwright.sync_api import sync_playwright
+
+from kineme.datasets import bundled_recording
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "browser"))
+from robot import Robot
+from studio_server import StudioServer
+
+from conftest import ARGUMENTS, DESKTOP
+
+RECORDINGS = 3
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--edits", type=int, default=500)
+    parser.add_argument("--seeds", type=int, default=5)
+    options = parser.parse_args()
+    program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=program, args=ARGUMENTS)
+        for seed in range(options.seeds):
+            began, steps = perf_counter(), collections.Counter[str]()
+            context = browser.new_context(viewport=DESKTOP)
+            with tempfile.TemporaryDirectory() as name, StudioServer(Path(name)) as server:
+                takes = [
+                    Path(shutil.copy(bundled_recording(), Path(name) / f"take_{i}.bvh"))
+                    for i in range(RECORDINGS)
+                ]
+                robot = Robot(context, server, takes, seed)
+                while robot.edits < options.edits:
+                    steps[robot.step()] += 1
+                robot.finish()
+            context.close()
+            told = ", ".join(f"{count} {what}" for what, count in steps.most_common())
+            print(
+                f"seed {seed}: {robot.edits} edits, nothing lost, "
+                f"{perf_counter() - began:.0f} s ({told})"
+            )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,172 @@
+"""Ends: where the first repetition of an activity begins and where the last one ends.
+
+The repetitions between the first cut and the last say, by their mean over time,
+what a repetition is. The first one is the stretch before the first cut that fits
+this mean best, at whatever pace. Where it begins before the activity does, in a
+transition, the activity begins with it. Where it begins later, what lies before it
+is part of no repetition: a transition of the primitive level, and one of activities
+where it is nothing like the mean. The last repetition is found the same way, back
+in time.
+
+The method is ours. See ``docs/method.md`` for what it contributes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._threads import map_threads
+
+if TYPE_CHECKING:
+    from kineme.methods.recurrence.constants import RecurrenceConstants
+
+Floats = NDArray[np.float64]
+Frames = NDArray[np.int64]
+Features = NDArray[np.float32]
+
+# The first and the last repetition last from half to one and a half times as long as the mean:
+# what is shorter is not counted, what is longer is counted twice.
+SHORTEST, LONGEST = 0.5, 1.5
+# A frame is compared with places of the mean this share of a repetition earlier or later at most.
+EITHER_WAY = 1 / 8
+
+
+@dataclass(frozen=True, eq=False)
+class Ends:
+    """Where activities and their repetitions begin and end.
+
+    Attributes
+    ----------
+    starts, stops : (activities,) array
+        Frames of the activities.
+    firsts, lasts : (activities,) array
+        Where the first repetition begins and where the last one ends.
+    """
+
+    starts: Frames
+    stops: Frames
+    firsts: Frames
+    lasts: Frames
+
+
+def fitted_ends(
+    features: Features,
+    starts: Frames,
+    stops: Frames,
+    labels: Frames,
+    cuts: Sequence[Frames],
+    preset: RecurrenceConstants,
+) -> Ends:
+    """The ends of activities where repetitions fit; neighbours do not overlap.
+
+    Parameters
+    ----------
+    features : (frames, dims) array
+        At the working rate.
+    starts, stops : (activities,) array
+        Frames of the activities, in time order.
+    labels : (activities,) array
+        Their actions. Two of one action do not touch afterwards, if they did not before.
+    cuts : sequence of arrays of int
+        Where the second, third, ... repetition of each begins.
+    preset : RecurrenceConstants
+
+    Returns
+    -------
+    Ends
+    """
+    n = len(features)
+
+    def fitted(i: int) -> tuple[int, int, int, int]:
+        start, first = _begin(features, int(starts[i]), cuts[i], preset)
+        stop, last = _begin(features[::-1], n - int(stops[i]), n - cuts[i][::-1], preset)
+        return start, n - stop, first, n - last
+
+    found = np.array(map_threads(fitted, range(len(cuts))), np.int64).reshape(-1, 4)
+    begins, ends, firsts, lasts = found.T
+    for left in np.flatnonzero(ends[:-1] >= begins[1:]).tolist():
+        right = left + 1
+        low, high = int(stops[left]), int(starts[right])
+        if labels[left] == labels[right]:
+            ends[left], begins[right] = low, high
+        elif ends[left] > begins[right]:  # both would have what lies between
+            middle = (ends[left] + begins[right]) // 2
+            ends[left] = begins[right] = min(max(middle, low), high)
+    # What is shorter than the time between two samples is within the error of a border.
+    firsts = np.where(firsts - begins < preset.step, begins, firsts)
+    lasts = np.where(ends - lasts < preset.step, ends, lasts)
+    return Ends(begins, ends, firsts, lasts)
+
+
+def evenly_in_time(rows: Features, starts: Frames, lengths: Frames, places: int) -> Floats:
+    """(stretches, places, dims): rows evenly in time from each start on, over each length."""
+    at = starts[:, None] + lengths[:, None] * ((np.arange(places) + 0.5) / places) - 0.5
+    before = np.clip(np.floor(at).astype(np.int64), 0, len(rows) - 1)
+    after = np.minimum(before + 1, len(rows) - 1)
+    share = np.clip(at - before, 0, 1)[..., None]
+    found: Floats = rows[before] * (1 - share) + rows[after] * share
+    return found
+
+
+def _begin(
+    rows: Features, start: int, cuts: Frames, preset: RecurrenceConstants
+) -> tuple[int, int]:
+    """Where the activity that was found from ``start`` on begins, and its first repetition."""
+    if len(cuts) < 2:  # nothing lies between two cuts
+        return start, start
+    inner = evenly_in_time(rows, cuts[:-1], np.diff(cuts), preset.path_points)
+    mean = inner.mean(axis=0)
+    first = _first(rows, cuts, mean)
+    if first == start:
+        return start, start
+    low, high = min(first, start), max(first, start)
+    phases = (np.arange(low, high) + 0.5 - first) / (int(cuts[0]) - first)
+    rest = float(_distances(rows[low:high], phases, mean).mean())
+    unlike = rest > preset.end_factor * _usual_distance(rows, cuts, inner, preset.usual_quantile)
+    if first < start:
+        return (start, start) if unlike else (first, first)
+    short = high - low <= SHORTEST * float(np.diff(cuts).mean())
+    return (first, first) if unlike and short and start > 0 else (start, first)
+
+
+def _first(rows: Features, cuts: Frames, mean: Floats) -> int:
+    """Where the stretch before the first cut begins that fits the mean best; 0 if none is."""
+    usual = float(np.diff(cuts).mean())
+    longest = min(int(LONGEST * usual), int(cuts[0]))
+    lengths = np.arange(max(1, ceil(SHORTEST * usual)), longest + 1)
+    if not len(lengths):
+        return 0
+    misfits = (evenly_in_time(rows, cuts[0] - lengths, lengths, len(mean)) - mean) ** 2
+    return int(cuts[0] - lengths[misfits.sum(axis=(1, 2)).argmin()])
+
+
+def _usual_distance(rows: Features, cuts: Frames, repetitions: Floats, quantile: float) -> float:
+    """How far most frames between the cuts are from the mean of the other repetitions there.
+
+    Infinite where there is no other.
+    """
+    if len(repetitions) == 1:
+        return np.inf
+    others = (repetitions.sum(axis=0) - repetitions) / (len(repetitions) - 1)
+    distances = [
+        _distances(rows[start:stop], (np.arange(stop - start) + 0.5) / (stop - start), mean)
+        for (start, stop), mean in zip(pairwise(cuts.tolist()), others, strict=True)
+    ]
+    return float(np.quantile(np.concatenate(distances), quantile))
+
+
+def _distances(rows: Features, phases: Floats, mean: Floats) -> Floats:
+    """How far each row is from the mean repetition near its phase, a share of a repetition."""
+    places = len(mean)
+    reach = int(EITHER_WAY * places)
+    at = np.floor(phases * places).astype(np.int64)
+    near = mean[(at[:, None] + np.arange(-reach, reach + 1)) % places]
+    distances: Floats = np.sqrt(((rows[:, None] - near) ** 2).sum(axis=2).min(axis=1))
+    return distances

@@ -1,0 +1,264 @@
+"""A new segmentation of a recording that takes over what people did to the one before.
+
+Segments made by hand or checked (`kineme.segments.editing.marks`) are in it as they were;
+the new ones give way. Clusters are matched by the frames that they share: an old cluster is
+the new one that holds more than half of it, unless that has more of another. Names go where
+they match: that of a cluster to the matching one, that of a segment to the segment that it
+shares more than half of both their frames with. What finds no place is told.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections import Counter
+from dataclasses import dataclass, replace
+from typing import get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.segments.editing.marks import Mark, Span, marked, span_of, with_marks
+from kineme.segments.editing.naming import cluster_names, name_cluster, with_cluster_names
+from kineme.segments.editing.rows import Rows, adopted, cut, cuts, joined, length, with_rows
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, Segment, SegmentTable
+
+
+@dataclass(frozen=True)
+class Carried:
+    """What became of a table that another one took the place of.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+        The new one, with what was taken over.
+    corrections : int
+        Segments made by hand or checked, all of which are in it.
+    names : int
+        Of clusters, and of segments that have their own.
+    lost : list of str
+        Sentences: the names among them that found no place.
+    """
+
+    segmentation: Segmentation
+    corrections: int
+    names: int
+    lost: list[str]
+
+
+def carried(before: Segmentation, found: Segmentation) -> Carried:
+    """A new segmentation with the corrections and names of the one before.
+
+    Parameters
+    ----------
+    before : Segmentation
+        The table so far.
+    found : Segmentation
+        Another one of the same recording.
+
+    Returns
+    -------
+    Carried
+    """
+    marks = {mark: marked(before, mark) for mark in get_args(Mark)}
+    fixed = [row for row in before if span_of(row) in set().union(*marks.values())]
+    if not len(found.primitives):
+        fixed = [row for row in fixed if row.level == "activity"]
+    match = _matching_clusters(before, found, fixed)
+    own = {span_of(row) for row in _with_own_name(before)}
+    placed = [_moved(row, match, keep=span_of(row) in own) for row in fixed]
+    now = _imposed(found, placed)
+    for mark, spans in marks.items():
+        now = with_marks(now, mark, spans)
+    if "corrections" in before.provenance and fixed:
+        count = {"corrections": before.provenance["corrections"]}
+        now = replace(now, provenance={**now.provenance, **count})
+    return _named(now, before, match, len(fixed))
+
+
+def names_of(segmentation: Segmentation) -> int:
+    """How many names there are: of clusters, and of segments that have their own."""
+    return len(cluster_names(segmentation)) + len(_with_own_name(segmentation))
+
+
+def _with_own_name(segmentation: Segmentation) -> Rows:
+    names = cluster_names(segmentation)
+    return [row for row in segmentation if row.label not in ("", names.get(row.cluster, ""))]
+
+
+def _matching_clusters(before: Segmentation, found: Segmentation, fixed: Rows) -> dict[int, int]:
+    """The new number of each old cluster that has one; corrections need one in any case."""
+    shared: dict[int, Counter[int]] = {}
+    for level in get_args(Level):
+        pairs = np.stack([_by_frame(before, level), _by_frame(found, level)])
+        for (old, new), count in zip(*_counts(pairs), strict=True):
+            if old >= 0:
+                shared.setdefault(old, Counter())[new] += count
+    most = []
+    for cluster, counts in shared.items():
+        new, count = counts.most_common(1)[0]
+        if new >= 0 and 2 * count > counts.total():
+            most.append((-count, cluster, new))
+    match: dict[int, int] = {}
+    for _, cluster, new in sorted(most):
+        if new not in match.values():
+            match[cluster] = new
+    following = int(found.table.cluster.max(initial=-1)) + 1
+    for cluster in sorted({row.cluster for row in fixed if row.cluster >= 0} - set(match)):
+        match[cluster] = following
+        following += 1
+    return match
+
+
+def _by_frame(segmentation: Segmentation, level: Level) -> NDArray[np.int64]:
+    """The cluster of each frame; -1 everywhere where there is no such level."""
+    rows = segmentation.level(level)
+    if not len(rows):
+        return np.full(segmentation.n_frames, -1)
+    return np.repeat(rows.cluster, rows.stop_frame - rows.start_frame)
+
+
+def _counts(pairs: NDArray[np.int64]) -> tuple[list[list[int]], list[int]]:
+    values, counts = np.unique(pairs, axis=1, return_counts=True)
+    return values.T.tolist(), counts.tolist()
+
+
+def _moved(row: Segment, match: dict[int, int], *, keep: bool) -> Segment:
+    """A segment of the old table as one of the new; its label only if that is its own."""
+    return replace(row, cluster=match.get(row.cluster, -1), label=row.label if keep else "")
+
+
+def _imposed(found: Segmentation, fixed: Rows) -> Segmentation:
+    """The segmentation with these segments in it as they are."""
+    own = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
+    activities = _sparing(list(found.activities), own["primitive"])
+    activities = _with_fixed(activities, own["activity"])
+    if not len(found.primitives):
+        return with_rows(found, activities, [])
+    primitives = _cut_at(activities, list(found.primitives))
+    for row in own["activity"]:
+        primitives = _inside(primitives, row, found)
+    primitives = _cut_at(activities, _with_fixed(primitives, own["primitive"]))
+    return with_rows(found, activities, primitives)
+
+
+def _cut_at(activities: Rows, primitives: Rows) -> Rows:
+    """The primitives, none of which crosses a border of activities."""
+    for border in cuts(activities):
+        primitives = cut(primitives, border)
+    return primitives
+
+
+def _sparing(activities: Rows, primitives: Rows) -> Rows:
+    """The activities, whose borders inside primitives that stay go to the nearer end of those."""
+    starts = [row.start_frame for row in primitives]
+
+    def moved(border: int) -> int:
+        at = bisect_right(starts, border) - 1
+        if at < 0 or border >= primitives[at].stop_frame:
+            return border
+        start, stop = _edges(primitives[at])
+        return start if border - start <= stop - border else stop
+
+    rows = [_spanning(row, moved(row.start_frame), moved(row.stop_frame)) for row in activities]
+    return [row for row in rows if row.start_frame < row.stop_frame]
+
+
+def _with_fixed(rows: Rows, fixed: Rows) -> Rows:
+    """The rows with others in their place; what is left of less than half of a row is joined on."""
+    held = {_edges(one) for one in fixed}
+    for one in fixed:
+        start, stop = _edges(one)
+        before = [row for row in rows if row.start_frame < start]
+        after = [row for row in rows if row.stop_frame > stop]
+        if before and before[-1].stop_frame > start:
+            before = _shortened(before, -1, -2, (before[-1].start_frame, start), held)
+        if after and after[0].start_frame < stop:
+            after = _shortened(after, 0, 1, (stop, after[0].stop_frame), held)
+        rows = [*before, one, *after]
+    return rows
+
+
+def _shortened(
+    rows: Rows, at: int, beside: int, span: tuple[int, int], held: set[tuple[int, int]]
+) -> Rows:
+    """A row with the frames that it keeps; they go to the row beside it if they are few."""
+    row, rows = rows[at], list(rows)
+    rows[at] = _spanning(row, *span)
+    few = 2 * length(rows[at]) < length(row) and len(rows) > 1
+    if few and _edges(rows[beside]) not in held:
+        i, j, k = (k % len(rows) for k in (min(at, beside), max(at, beside), beside))
+        return joined(rows, min(i, j), max(i, j), k)
+    return rows
+
+
+def _inside(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
+    """The primitives of an activity that stays, called what it is where they were what it was."""
+    inside = [i for i, row in enumerate(primitives) if _overlap(row, activity)]
+    was = _in_the_middle(found.activities, activity)
+    if activity.kind == "transition" and was.kind != "transition":
+        one = replace(activity, level="primitive", label="")
+        return [*primitives[: inside[0]], one, *primitives[inside[-1] + 1 :]]
+    for i in inside:
+        primitives[i] = adopted(primitives[i], was, activity)
+    return primitives
+
+
+def _named(now: Segmentation, before: Segmentation, match: dict[int, int], fixed: int) -> Carried:
+    """The new table with the names of the old one, and the names that found no place."""
+    lost, given = [], dict[int, str]()
+    there = set(now.table.cluster.tolist())
+    names, own = cluster_names(before), _with_own_name(before)
+    if not names and not own:
+        return Carried(now, fixed, 0, [])
+    for cluster, name in names.items():
+        new = match.get(cluster, -1)
+        if new >= 0 and new in there:
+            given[new] = name
+        else:
+            lost.append(f"the name “{name}” of cluster {cluster}: no cluster matches it")
+    for cluster, name in given.items():
+        now = name_cluster(now, cluster, name)
+    labels: dict[Span, str] = {}
+    for row in own:
+        twin = _twin(now, row)
+        if twin is None:
+            where = f"the {row.level} at {row.start_s:.2f} s"
+            lost.append(f"the name “{row.label}” of {where}: no segment matches it")
+        else:
+            labels[span_of(twin)] = row.label
+    rows = [replace(row, label=labels.get(span_of(row), row.label)) for row in now]
+    now = with_cluster_names(with_rows(now, rows, []), dict.fromkeys(there, "") | given)
+    return Carried(now, fixed, len(names) + len(own), lost)
+
+
+def _twin(segmentation: Segmentation, row: Segment) -> Segment | None:
+    """The segment of that level that shares more than half of both with a row."""
+    rows = segmentation.level(row.level)
+    if not len(rows):
+        return None
+    other = _in_the_middle(rows, row)
+    return other if 2 * _overlap(row, other) > max(length(row), length(other)) else None
+
+
+def _in_the_middle(rows: SegmentTable, row: Segment) -> Segment:
+    """The one of the rows of a level that holds the middle frame of another."""
+    middle = (row.start_frame + row.stop_frame - 1) // 2
+    return rows[int(np.searchsorted(rows.start_frame, middle, side="right")) - 1]
+
+
+def _overlap(row: Segment, other: Segment) -> int:
+    """Frames that both have."""
+    shared = min(row.stop_frame, other.stop_frame) - max(row.start_frame, other.start_frame)
+    return max(shared, 0)
+
+
+def _edges(row: Segment) -> tuple[int, int]:
+    return row.start_frame, row.stop_frame
+
+
+def _spanning(row: Segment, start: int, stop: int) -> Segment:
+    """The row with other frames; where it starts anew nobody says how sure that is."""
+    sure = row.border_confidence if start == row.start_frame else math.nan
+    return replace(row, start_frame=start, stop_frame=stop, border_confidence=sure)

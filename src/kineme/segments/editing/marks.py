@@ -1,0 +1,111 @@
+"""What people vouch for: segments that they made, and segments that they checked.
+
+Both are lists of ``[level, start_frame, stop_frame]`` in the provenance, ``by_hand`` and
+``checked``. A mark holds as long as a segment has exactly these frames: one that was moved
+or joined since is not the one that was marked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any, Literal
+
+from kineme.errors import ParameterError
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, Segment
+
+Mark = Literal["by_hand", "checked"]
+Span = tuple[Level, int, int]
+
+
+def span_of(row: Segment) -> Span:
+    """Level, first frame and one past the last frame."""
+    return row.level, row.start_frame, row.stop_frame
+
+
+def marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
+    """The segments that carry a mark.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    mark : {"by_hand", "checked"}
+
+    Returns
+    -------
+    set of (level, start_frame, stop_frame)
+    """
+    said: Any = segmentation.provenance.get(mark)
+    said = said if isinstance(said, list) else []
+    wanted = {tuple(each) for each in said if isinstance(each, list) and len(each) == 3}
+    return {span_of(row) for row in segmentation if span_of(row) in wanted} if wanted else set()
+
+
+def with_marks(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
+    """The same segments, of which these and no others carry a mark.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    mark : {"by_hand", "checked"}
+    spans : iterable of (level, start_frame, stop_frame)
+
+    Returns
+    -------
+    Segmentation
+    """
+    provenance = {name: said for name, said in segmentation.provenance.items() if name != mark}
+    listed = sorted({tuple(span) for span in spans})
+    if listed:
+        provenance[mark] = [list(span) for span in listed]
+    return replace(segmentation, provenance=provenance)
+
+
+def check(
+    segmentation: Segmentation, level: Level, frames: Iterable[int], checked: bool
+) -> Segmentation:
+    """The segments that start at ``frames`` are checked, or not any more.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    frames : iterable of int
+        Where the segments start.
+    checked : bool
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        No segment starts at one of them.
+    """
+    rows = {row.start_frame: span_of(row) for row in segmentation.level(level)}
+    chosen = set()
+    for frame in frames:
+        if frame not in rows:
+            raise ParameterError(f"no segment of level {level!r} starts at frame {frame}")
+        chosen.add(rows[frame])
+    before = marked(segmentation, "checked")
+    return with_marks(segmentation, "checked", before | chosen if checked else before - chosen)
+
+
+def noted(before: Segmentation, after: Segmentation) -> Segmentation:
+    """The segmentation after an edit, with what the edit made marked as made by hand.
+
+    Parameters
+    ----------
+    before, after : Segmentation
+        The edit changed frames, kinds or clusters of some segments.
+
+    Returns
+    -------
+    Segmentation
+    """
+    known = {(span_of(row), row.kind, row.cluster) for row in before}
+    made = {span_of(row) for row in after if (span_of(row), row.kind, row.cluster) not in known}
+    return with_marks(after, "by_hand", made | marked(after, "by_hand"))

@@ -1,0 +1,294 @@
+"""What became of a table, kept on the disk: undo, redo, and every table that was replaced.
+
+It lies in a hidden folder beside the table, ``.kineme/walk.segments/`` for
+``walk.segments.json``:
+
+- ``history.json``: which table is the present one, which come back with undo and with redo,
+  which were replaced and kept, and for each the time, the edit that made it and its digest;
+- ``1.json``, ``2.json``, …: the tables themselves, each as `kineme.read_segments` reads it.
+
+A table is written before the history that names it, and the history before the table that
+people have (`kineme.studio.storage`). So an edit that was acknowledged is in all three; of
+one that was cut short by a killed server the last is missing, and it is taken back when the
+history is read again. Undo goes back `kineme.segments.history.LONGEST` steps; of the tables
+that were replaced the last `MOST_KEPT` are there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from hashlib import sha256
+from pathlib import Path
+
+import msgspec
+
+from kineme._files import atomic_write
+from kineme.errors import ParameterError, WriteError
+from kineme.labels import json_table, read_segments
+from kineme.segments.history import History
+from kineme.segments.segmentation import Segmentation
+from kineme.web.requests import Edit
+
+SCHEMA = "kineme.history/1"
+FOLDER = ".kineme"
+HISTORY = "history.json"
+MOST_KEPT = 200
+MOST_NAMES = 200
+"""Edits whose names are known, so that one that is sent again is not made again."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """A table of the history, and how it came about.
+
+    Parameters
+    ----------
+    at : str
+        When, ISO 8601.
+    sha256 : str
+        Of the file.
+    n_frames : int
+        Of the recording.
+    edit : Edit or None
+        As a page sent it; None for what was found, or written by another program.
+    """
+
+    at: str
+    sha256: str
+    n_frames: int
+    edit: Edit | None
+
+
+@dataclass(frozen=True)
+class Record:
+    """What ``history.json`` holds; tables by their numbers.
+
+    ``names`` are those of the last changes, empty for one without.
+    """
+
+    schema: str = SCHEMA
+    revision: int = 0
+    history: History[int] = field(default_factory=lambda: History(0))
+    kept: tuple[int, ...] = ()
+    names: tuple[str, ...] = ()
+    steps: dict[int, Step] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Change:
+    """A history that has not been written yet, and its present table."""
+
+    record: Record
+    table: Segmentation
+
+
+class Journal:
+    """The history of one table.
+
+    Parameters
+    ----------
+    table_path : Path
+        The file that people have.
+    table : Segmentation
+        What is in it; or was found, if it is not there. Where the history ends with another
+        table, that one is kept. Nothing is written before the first change.
+    """
+
+    def __init__(self, table_path: Path, table: Segmentation):
+        self.folder = table_path.parent / FOLDER / table_path.name.removesuffix(".json")
+        self._record = _read(self.folder)
+        self._unsaved: dict[int, Segmentation] = {}
+        history, steps = self._record.history, self._record.steps
+        digest = _digest(table)
+        if steps and steps[history.present].n_frames == table.n_frames:
+            for known in (history, _or_none(history.undone), _or_none(history.redone)):
+                if known is not None and steps[known.present].sha256 == digest:
+                    if known is not history:  # the last change was cut short, and has no answer
+                        names = self._record.names[:-1]
+                        self._record = replace(self._record, history=known, names=names)
+                    return
+            self._record = self.changed(table, None, replaced=True).record
+        else:
+            self._record = replace(self._record, history=History(0))
+            start = self.changed(table, None).record
+            self._record = replace(start, history=History(start.history.present))
+
+    @property
+    def revision(self) -> int:
+        """It grows with every change, and outlives the server."""
+        return self._record.revision
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a table before the present one."""
+        return bool(self._record.history.past)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether one was taken back."""
+        return bool(self._record.history.future)
+
+    def knows(self, name: str) -> bool:
+        """Whether the edit of that name has been made."""
+        return bool(name) and name in self._record.names
+
+    def kept(self) -> dict[int, Step]:
+        """The tables that were replaced, the latest first."""
+        steps = self._record.steps
+        n_frames = steps[self._record.history.present].n_frames
+        numbers = reversed(self._record.kept)
+        return {number: steps[number] for number in numbers if steps[number].n_frames == n_frames}
+
+    def table(self, number: int) -> Segmentation:
+        """A table of the history.
+
+        Raises
+        ------
+        ReadError
+            It is not there any more.
+        """
+        if number in self._unsaved:
+            return self._unsaved[number]
+        return read_segments(self._place(number), format="json")
+
+    def changed(self, table: Segmentation, edit: Edit | None, *, replaced: bool = False) -> Change:
+        """The history with a new table.
+
+        Parameters
+        ----------
+        table : Segmentation
+        edit : Edit or None
+            What made it.
+        replaced : bool
+            It takes the place of the present one, which is kept. So is, in any case, the last
+            of those that could have been redone.
+
+        Returns
+        -------
+        Change
+        """
+        history, steps = self._record.history, self._record.steps
+        number = max([0, *steps, *self._numbers()]) + 1
+        before = [*history.future[-1:], *([history.present] if replaced else [])]
+        step = Step(
+            datetime.now(UTC).isoformat(timespec="seconds"), _digest(table), table.n_frames, edit
+        )
+        self._unsaved[number] = table
+        record = replace(
+            self._record,
+            history=history.then(number),
+            kept=tuple(dict.fromkeys([*self._record.kept, *before]))[-MOST_KEPT:],
+            steps={**steps, number: step},
+        )
+        return Change(record, table)
+
+    def undone(self) -> Change:
+        """The history one step back; ParameterError where there is nothing to undo."""
+        return self._gone(self._record.history.undone())
+
+    def redone(self) -> Change:
+        """The history one step forward again; ParameterError where nothing was undone."""
+        return self._gone(self._record.history.redone())
+
+    def write(
+        self,
+        change: Change,
+        save: Callable[[Segmentation], None],
+        *,
+        revision: int,
+        name: str = "",
+    ) -> None:
+        """Have a change on the disk, and then what ``save`` does with its table.
+
+        Parameters
+        ----------
+        change : Change
+        save : callable
+            Where it raises, the change has not been made.
+        revision : int
+            Of the table from then on.
+        name : str
+            Of the edit, by which it is known from now on.
+
+        Raises
+        ------
+        WriteError
+            It cannot be written.
+        """
+        names = (*self._record.names, name)[-MOST_NAMES:]
+        record = _pruned(replace(change.record, revision=revision, names=names))
+        try:
+            self._write(record)
+            save(change.table)
+        finally:
+            for place in (self.folder, self.folder.parent):  # empty where nothing was written
+                with suppress(OSError):
+                    place.rmdir()
+        forgotten = self._record.steps.keys() - record.steps.keys()
+        self._record, self._unsaved = record, {}
+        for number in forgotten:
+            with suppress(OSError):
+                self._place(number).unlink()
+
+    def _write(self, record: Record) -> None:
+        for place in (self.folder.parent, self.folder):
+            if place.is_symlink():
+                raise WriteError(place, "is a link, which could lead out of the folder: remove it")
+            try:
+                place.mkdir(exist_ok=True)
+            except OSError as error:
+                raise WriteError(place, f"cannot be made: {error.strerror or error}") from error
+        for number in self._unsaved.keys() & record.steps.keys():
+            table = self._unsaved[number]
+            _write(self._place(number), json_table.dumps(table).encode())
+        _write(self.folder / HISTORY, msgspec.json.format(msgspec.json.encode(record), indent=1))
+
+    def _gone(self, history: History[int]) -> Change:
+        return Change(replace(self._record, history=history), self.table(history.present))
+
+    def _numbers(self) -> set[int]:
+        """Of the tables in the folder."""
+        return {int(path.stem) for path in self.folder.glob("*.json") if path.stem.isdecimal()}
+
+    def _place(self, number: int) -> Path:
+        return self.folder / f"{number}.json"
+
+
+def _read(folder: Path) -> Record:
+    """The history in a folder; an empty one where there is none that can be read."""
+    try:
+        record = msgspec.json.decode((folder / HISTORY).read_bytes(), type=Record)
+    except (OSError, ValueError):
+        return Record()
+    needed = _needed(record)
+    whole = record.schema == SCHEMA and needed <= record.steps.keys()
+    return record if whole else Record(revision=record.revision)
+
+
+def _needed(record: Record) -> set[int]:
+    history = record.history
+    return {*history.past, history.present, *history.future, *record.kept}
+
+
+def _pruned(record: Record) -> Record:
+    needed = _needed(record)
+    return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})
+
+
+def _or_none(step: Callable[[], History[int]]) -> History[int] | None:
+    try:
+        return step()
+    except ParameterError:
+        return None
+
+
+def _write(path: Path, content: bytes) -> None:
+    with atomic_write(path) as draft:
+        draft.write_bytes(content)
+
+
+def _digest(table: Segmentation) -> str:
+    return sha256(json_table.dumps(table).encode()).hexdigest()

@@ -1,0 +1,54 @@
+"""How far each recording of a folder is: what its table holds, without opening the recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from kineme.errors import KinemeError
+from kineme.labels import read_segments
+from kineme.segments.editing.marks import marked
+from kineme.studio.reading import stamp_of
+from kineme.studio.storage import usual_tables
+
+MOST_KNOWN = 10_000
+"""Tables whose counts stay in memory."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How many segments a table has, and how many of them are checked, and have a name."""
+
+    segments: int
+    checked: int
+    named: int
+
+
+def progress(recording: Path) -> Progress | None:
+    """How far a recording is, as its table says.
+
+    Parameters
+    ----------
+    recording : Path
+
+    Returns
+    -------
+    Progress or None
+        None where it has no table.
+    """
+    for path in usual_tables(recording):
+        if path.is_file():
+            return _counts(path, *stamp_of(path))
+    return None
+
+
+@lru_cache(MOST_KNOWN)
+def _counts(path: Path, *_: int) -> Progress | None:
+    """Of the file as it was at that time; a file that is no table counts for none."""
+    try:
+        table = read_segments(path, format="json")
+    except KinemeError:
+        return None
+    named = int((table.table.label != "").sum())
+    return Progress(len(table), len(marked(table, "checked")), named)

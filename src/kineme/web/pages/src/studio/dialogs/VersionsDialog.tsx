@@ -1,0 +1,78 @@
+/** The tables of the recording that were replaced: looked at below the present one, brought back. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+import type { Version } from "../../messages";
+import { counted, inWords } from "../editing/words";
+import { explain } from "../server/api";
+import type { Session } from "../session";
+import { Dialog } from "./Dialog";
+
+interface Props {
+  session: Session;
+  close: () => void;
+}
+
+export function VersionsDialog({ session, close }: Props): JSX.Element {
+  const versions = useSignal<Version[] | null>(null);
+  const edited = session.edited.value;
+  useEffect(() => {
+    if (!edited) return;
+    session.api
+      .versions(edited.id)
+      .then((found) => (versions.value = found))
+      .catch((error: unknown) => session.bulletin.problem(explain(error), "versions"));
+  }, [edited]);
+  const fps = edited?.confirmed.value.fps ?? 1;
+  const look = async (version: Version): Promise<void> => {
+    try {
+      const found = await session.api.version(edited!.id, version.number);
+      session.lay({ ...found, name: `Version ${version.number}` }, true);
+      close();
+    } catch (error) {
+      session.bulletin.problem(explain(error), "versions");
+    }
+  };
+  return (
+    <Dialog title="Tables that were replaced" close={close}>
+      <p class="quiet">
+        Every table that another one took the place of is kept. Undo goes back edit by edit; here,
+        whole tables come back, and what is shown now is kept in turn.
+      </p>
+      {versions.value?.length === 0 && <p>No table of this recording has been replaced yet.</p>}
+      <table class="formats versions">
+        <tbody>
+          {versions.value?.map((version) => (
+            <tr key={version.number}>
+              <td class="quiet">{new Date(version.at).toLocaleString()}</td>
+              <td>
+                {version.edit ? `last: ${inWords(version.edit, fps)}` : "as it was found"}
+                <br />
+                <span class="quiet">
+                  {counted(version.segments, "segment")}, {counted(version.names, "name")},{" "}
+                  {counted(version.corrections, "correction")}
+                </span>
+              </td>
+              <td>
+                <span class="group">
+                  <button type="button" onClick={() => void look(version)}>
+                    Look
+                  </button>
+                  <button
+                    type="button"
+                    onClick={() => {
+                      void edited?.edit({ kind: "restore", version: version.number });
+                      close();
+                    }}
+                  >
+                    Bring back
+                  </button>
+                </span>
+              </td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </Dialog>
+  );
+}

@@ -1,0 +1,61 @@
+/** Edits in words, as notices and the list of versions say them. */
+import type { Edit, Level } from "../../messages";
+
+const LEVELS: Record<Level, [one: string, many: string]> = {
+  activity: ["activity", "activities"],
+  primitive: ["primitive", "primitives"],
+};
+
+/** The edit in words, its times in seconds. */
+export function inWords(edit: Edit, fps: number): string {
+  const at = (frame: number) => `${(frame / fps).toFixed(2)} s`;
+  switch (edit.kind) {
+    case "move_border":
+      return `${edit.level} border from ${at(edit.frame)} to ${at(edit.to)}`;
+    case "split":
+      return `${edit.level} split at ${at(edit.frame)}`;
+    case "merge":
+      return `${LEVELS[edit.level][1]} merged from ${at(edit.start_frame)} to ${at(edit.stop_frame)}`;
+    case "delete_border":
+      return `${edit.level} border at ${at(edit.frame)} deleted`;
+    case "name_segment":
+      return edit.label
+        ? `${edit.level} at ${at(edit.frame)} named “${edit.label}”`
+        : `own name of the ${edit.level} at ${at(edit.frame)} removed`;
+    case "name_cluster":
+      return edit.label
+        ? `cluster ${edit.cluster} named “${edit.label}”`
+        : `name of cluster ${edit.cluster} removed`;
+    case "set_cluster":
+      return edit.cluster < 0
+        ? `${edit.level} at ${at(edit.frame)} removed from its cluster`
+        : `${edit.level} at ${at(edit.frame)} put into cluster ${edit.cluster}`;
+    case "set_kind":
+      return `${edit.level} at ${at(edit.frame)} made ${edit.to === "activity" ? "an" : "a"} ${edit.to}`;
+    case "merge_clusters":
+      return `cluster ${edit.cluster} merged into ${edit.into}`;
+    case "check":
+      return `${counted(edit.frames.length, ...LEVELS[edit.level])} ${edit.checked ? "checked" : "not checked any more"}`;
+    case "together":
+      return edit.edits.length === 1
+        ? inWords(edit.edits[0]!, fps)
+        : `${edit.edits.length} edits at once: ${edit.edits[0] ? inWords(edit.edits[0], fps) : ""}, …`;
+    case "segment":
+      return `segmented with ${edit.preset}`;
+    case "take_labels":
+      return `labels of another program taken as the table`;
+    case "transfer":
+      return `labels from a knowledge base`;
+    case "restore":
+      return `version ${edit.version} restored`;
+    case "undo":
+      return "undo";
+    case "redo":
+      return "redo";
+  }
+}
+
+/** "1 member", "2 members". */
+export function counted(n: number, one: string, many = `${one}s`): string {
+  return `${n} ${n === 1 ? one : many}`;
+}

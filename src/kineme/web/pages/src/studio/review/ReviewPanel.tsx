@@ -1,0 +1,93 @@
+/** What to look at next, why, and how far one is. */
+import type { JSX } from "preact";
+import { NO_COLOR } from "../../colors";
+import type { Level } from "../../messages";
+import { nameOf } from "../../segments";
+import { clock } from "../../view";
+import type { Session } from "../session";
+import { progressOf } from "./doubts";
+import type { Review } from "./review";
+
+const MOST = 100; // rows; the rest comes when these are checked
+
+interface Props {
+  session: Session;
+  review: Review;
+}
+
+export function ReviewPanel({ session, review }: Props): JSX.Element {
+  const { store } = session;
+  const table = store.recording.value?.segmentation;
+  if (!table) return <p class="hint quiet">Open a recording to look through its segments.</p>;
+  const doubts = review.doubts.value;
+  const present = review.present.value;
+  return (
+    <div class="review-panel">
+      <Progress level="activity" title="Activities" of={progressOf(table, "activity")} />
+      <Progress level="primitive" title="Primitives" of={progressOf(table, "primitive")} />
+      <p class="actions">
+        <button type="button" title="Next to look at (J)" onClick={() => review.next()}>
+          Next
+        </button>
+        <button
+          type="button"
+          class="primary"
+          title="The segment is right: mark it and go on (K)"
+          onClick={() => review.checkAndGoOn()}
+        >
+          Checked, next
+        </button>
+      </p>
+      <p class="why" role="status">
+        {present
+          ? present.why
+          : doubts.length
+            ? "“Next” goes to where the result is least sure."
+            : "Every segment of this recording is checked."}
+      </p>
+      <ol class="doubts">
+        {doubts.slice(0, MOST).map((doubt) => {
+          const { segment, sure } = doubt;
+          return (
+            <li key={`${segment.level} ${segment.start_frame}`}>
+              <button
+                type="button"
+                class="plain"
+                aria-current={doubt === present ? "true" : undefined}
+                title={doubt.why}
+                onClick={() => review.go(doubt)}
+              >
+                <span class="swatch" style={{ background: store.colorOf(segment) ?? NO_COLOR }} />
+                <span class="name">
+                  {nameOf(segment)} <span class="quiet">{segment.level}</span>
+                </span>
+                <span class="number quiet">{clock(segment.start_s, 2)}</span>
+                <span class="number">{sure === null ? "–" : sure.toFixed(2)}</span>
+              </button>
+            </li>
+          );
+        })}
+      </ol>
+      {doubts.length > MOST && <p class="quiet note">and {doubts.length - MOST} more</p>}
+    </div>
+  );
+}
+
+function Progress(props: {
+  level: Level;
+  title: string;
+  of: [number, number];
+}): JSX.Element | null {
+  const { title, of } = props;
+  const [checked, all] = of;
+  if (!all) return null;
+  return (
+    <p class="progress">
+      <span>{title}</span>
+      <progress max={all} value={checked} aria-label={`${title} checked`} />
+      <span class="number">
+        {checked} of {all}
+      </span>
+    </p>
+  );
+}

@@ -1,0 +1,70 @@
+/** The way through what should be looked at: the next one, and the marks on what was. */
+import { computed, signal } from "@preact/signals";
+import type { Segment } from "../../messages";
+import type { Editor } from "../editing/editor";
+import type { Session } from "../session";
+import { doubtsOf, type Doubt } from "./doubts";
+
+export class Review {
+  readonly doubts = computed<Doubt[]>(() => {
+    const table = this.session.store.recording.value?.segmentation;
+    return table ? doubtsOf(table) : [];
+  });
+  /** What is looked at, and why; null once the playhead has left it. */
+  readonly present = computed(() => {
+    const target = this.editor.segment.value;
+    return this.doubts.value.find(({ segment }) => same(segment, target)) ?? null;
+  });
+  /** Those that were passed over without a mark come last. */
+  private readonly passed = signal(new Set<string>());
+
+  constructor(
+    private readonly session: Session,
+    private readonly editor: Editor,
+  ) {}
+
+  /** Goes to the least sure segment that has not been looked at. */
+  next(): void {
+    const { value: doubts } = this.doubts;
+    const { present } = this;
+    if (present.value) this.passed.value.add(keyOf(present.value.segment));
+    let next = doubts.find(({ segment }) => !this.passed.value.has(keyOf(segment)));
+    if (!next) {
+      this.passed.value.clear();
+      next = doubts.find((doubt) => doubt !== present.value) ?? doubts[0];
+    }
+    if (next) this.go(next);
+    else this.session.bulletin.tell("Every segment of this recording is checked.");
+  }
+
+  go({ segment }: Doubt): void {
+    this.session.store.playing.value = false;
+    this.session.store.select(segment);
+  }
+
+  /** Marks the segment at the playhead as checked, and goes on. */
+  checkAndGoOn(): void {
+    const segment = this.editor.segment.value;
+    if (!segment) return;
+    this.editor.check([segment], true);
+    this.session.edited.value?.whenSettled(() => this.next());
+  }
+
+  /** Marks the segment at the playhead, or takes the mark away. */
+  toggle(): void {
+    const segment = this.editor.segment.value;
+    if (segment) this.editor.check([segment], !this.isChecked(segment));
+  }
+
+  isChecked(segment: Segment): boolean {
+    return !this.doubts.value.some((doubt) => same(doubt.segment, segment));
+  }
+}
+
+function keyOf({ level, start_frame, stop_frame }: Segment): string {
+  return `${level} ${start_frame} ${stop_frame}`;
+}
+
+function same(a: Segment, b: Segment | undefined): boolean {
+  return b !== undefined && keyOf(a) === keyOf(b);
+}

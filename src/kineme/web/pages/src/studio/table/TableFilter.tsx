@@ -1,0 +1,79 @@
+/** What the table of segments is narrowed to. */
+import type { Signal } from "@preact/signals";
+import type { JSX } from "preact";
+import type { Kind, Level } from "../../messages";
+import type { Filter } from "./rows";
+
+export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element {
+  const change = (part: Partial<Filter>): void =>
+    void (filter.value = { ...filter.value, ...part });
+  const number = (text: string, otherwise: number): number => {
+    const value = Number.parseFloat(text);
+    return Number.isFinite(value) ? value : otherwise;
+  };
+  return (
+    <div class="table-filter">
+      <input
+        type="search"
+        placeholder="Name or cluster"
+        aria-label="Only segments with this in their name"
+        value={filter.value.text}
+        onInput={(event) => change({ text: event.currentTarget.value })}
+      />
+      <select
+        aria-label="Level"
+        value={filter.value.level}
+        onChange={(event) => change({ level: event.currentTarget.value as Level | "" })}
+      >
+        <option value="">both levels</option>
+        <option value="activity">activities</option>
+        <option value="primitive">primitives</option>
+      </select>
+      <select
+        aria-label="Kind of segment"
+        value={filter.value.kind}
+        onChange={(event) => change({ kind: event.currentTarget.value as Kind | "" })}
+      >
+        <option value="">every kind</option>
+        <option value="activity">no transitions</option>
+        <option value="transition">transitions</option>
+      </select>
+      <select
+        aria-label="Checked or not"
+        value={filter.value.checked}
+        onChange={(event) => change({ checked: event.currentTarget.value as Filter["checked"] })}
+      >
+        <option value="">checked or not</option>
+        <option value="no">not checked</option>
+        <option value="yes">checked</option>
+      </select>
+      <span class="group">
+        <input
+          type="number"
+          min="0"
+          step="0.1"
+          placeholder="from s"
+          aria-label="Shortest, seconds"
+          onInput={(event) => change({ shortest: number(event.currentTarget.value, 0) })}
+        />
+        <input
+          type="number"
+          min="0"
+          step="0.1"
+          placeholder="to s"
+          aria-label="Longest, seconds"
+          onInput={(event) => change({ longest: number(event.currentTarget.value, Infinity) })}
+        />
+        <input
+          type="number"
+          min="0"
+          max="1"
+          step="0.05"
+          placeholder="sure <"
+          aria-label="Less sure than"
+          onInput={(event) => change({ sureBelow: number(event.currentTarget.value, Infinity) })}
+        />
+      </span>
+    </div>
+  );
+}

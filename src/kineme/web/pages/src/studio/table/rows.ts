@@ -1,0 +1,104 @@
+/** Which segments the table shows, in which order; pure functions. */
+import type { Kind, Level, Segment, Segments } from "../../messages";
+import { durationOf, nameOf } from "../../segments";
+
+/** A column by which rows are ordered. */
+export type Order = "start" | "duration" | "name" | "cluster" | "sure";
+
+export interface Filter {
+  level: Level | "";
+  kind: Kind | "";
+  checked: "yes" | "no" | "";
+  /** Part of a label, or "cluster 3". */
+  text: string;
+  /** Seconds. */
+  shortest: number;
+  longest: number;
+  /** Only those less sure than that, 0 to 1. */
+  sureBelow: number;
+}
+
+export const EVERYTHING: Filter = {
+  level: "",
+  kind: "",
+  checked: "",
+  text: "",
+  shortest: 0,
+  longest: Infinity,
+  sureBelow: Infinity,
+};
+
+/** A segment, the number of its row in the table, and whether it is checked. */
+export interface Row {
+  segment: Segment;
+  number: number;
+  checked: boolean;
+}
+
+/** How sure a segment is: of its score and its border, the lower; null where nobody says. */
+export function sureness({ score, border_confidence: border }: Segment): number | null {
+  if (score === null) return border;
+  return border === null ? score : Math.min(score, border);
+}
+
+export function rowsOf(table: Segments, filter: Filter, order: Order, down: boolean): Row[] {
+  const checked = new Set(table.checked);
+  const rows = table.segments
+    .map((segment, number) => ({ segment, number, checked: checked.has(number) }))
+    .filter((row) => passes(row, filter));
+  const sign = down ? -1 : 1;
+  const compare = COMPARE[order];
+  return rows.sort((a, b) => sign * compare(a.segment, b.segment) || inTime(a.segment, b.segment));
+}
+
+/** The rows from one to another, whichever comes first. */
+export function between(rows: readonly Row[], from: number, to: number): Row[] {
+  return rows.slice(Math.min(from, to), Math.max(from, to) + 1);
+}
+
+/** The spans of neighbouring rows of a level, to be merged: two rows or more each. */
+export function spansToMerge(
+  rows: readonly Row[],
+): { level: Level; start: number; stop: number }[] {
+  const spans: { level: Level; start: number; stop: number; n: number }[] = [];
+  const inOrder = rows.map(({ segment }) => segment).sort(byLevel);
+  for (const { level, start_frame, stop_frame } of inOrder) {
+    const last = spans.at(-1);
+    if (last?.level === level && last.stop === start_frame) {
+      last.stop = stop_frame;
+      last.n += 1;
+    } else spans.push({ level, start: start_frame, stop: stop_frame, n: 1 });
+  }
+  return spans.filter(({ n }) => n > 1).map(({ level, start, stop }) => ({ level, start, stop }));
+}
+
+function passes({ segment, checked }: Row, filter: Filter): boolean {
+  const { level, kind, text, shortest, longest, sureBelow } = filter;
+  const duration = durationOf(segment);
+  return (
+    (!level || segment.level === level) &&
+    (!kind || segment.kind === kind) &&
+    (!filter.checked || checked === (filter.checked === "yes")) &&
+    nameWithCluster(segment).includes(text.trim().toLowerCase()) &&
+    duration >= shortest &&
+    duration <= longest &&
+    (sureBelow === Infinity || (sureness(segment) ?? Infinity) < sureBelow)
+  );
+}
+
+function nameWithCluster(segment: Segment): string {
+  const cluster = segment.cluster >= 0 ? ` cluster ${segment.cluster}` : "";
+  return `${nameOf(segment)}${cluster}`.toLowerCase();
+}
+
+const inTime = (a: Segment, b: Segment): number => a.start_frame - b.start_frame || byLevel(a, b);
+const byLevel = (a: Segment, b: Segment): number =>
+  a.level.localeCompare(b.level) || a.start_frame - b.start_frame;
+
+const COMPARE: Record<Order, (a: Segment, b: Segment) => number> = {
+  start: inTime,
+  duration: (a, b) => durationOf(a) - durationOf(b),
+  name: (a, b) => nameOf(a).localeCompare(nameOf(b)),
+  cluster: (a, b) => a.cluster - b.cluster,
+  sure: (a, b) => (sureness(a) ?? 2) - (sureness(b) ?? 2),
+};

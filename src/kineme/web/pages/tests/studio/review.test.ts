@@ -1,0 +1,49 @@
+import { expect, it } from "vitest";
+import { doubtsOf, progressOf } from "../../src/studio/review/doubts";
+import { between, EVERYTHING, rowsOf, spansToMerge } from "../../src/studio/table/rows";
+import { segment, tableOf } from "../recordings";
+
+const rows = [
+  segment(0, 10, { score: 0.9 }),
+  segment(10, 30, { score: 0.8, border_confidence: 0.3, label: "hop" }),
+  segment(30, 40, { cluster: 1, score: 0.4, border_confidence: 0.9 }),
+  segment(40, 50, { cluster: -1, kind: "transition" }),
+];
+const table = tableOf(rows);
+
+it("shows first where the result is least sure, and says why", () => {
+  const doubts = doubtsOf(table);
+  expect(doubts.map(({ segment }) => segment.start_frame)).toEqual([10, 30, 0, 40]);
+  expect(doubts[0]!.why).toBe("It is 30 % sure that a segment starts at 0:01.00.");
+  expect(doubts[1]!.why).toContain("score of 0.40");
+  expect(doubts[3]!.sure).toBeNull();
+});
+
+it("leaves out what is checked, and counts it", () => {
+  const some = tableOf(rows, { checked: [1, 2] });
+  expect(doubtsOf(some).map(({ segment }) => segment.start_frame)).toEqual([0, 40]);
+  expect(progressOf(some, "primitive")).toEqual([2, 4]);
+  expect(progressOf(some, "activity")).toEqual([0, 0]);
+});
+
+it("orders and filters the table", () => {
+  const starts = (...given: Parameters<typeof rowsOf>): number[] =>
+    rowsOf(...given).map((row) => row.segment.start_frame);
+  expect(starts(table, EVERYTHING, "start", false)).toEqual([0, 10, 30, 40]);
+  expect(starts(table, EVERYTHING, "duration", true)).toEqual([10, 0, 30, 40]);
+  expect(starts(table, EVERYTHING, "sure", false)).toEqual([10, 30, 0, 40]);
+  expect(starts(table, { ...EVERYTHING, text: "Hop" }, "start", false)).toEqual([10]);
+  expect(starts(table, { ...EVERYTHING, text: "cluster 1" }, "start", false)).toEqual([30]);
+  expect(starts(table, { ...EVERYTHING, kind: "transition" }, "start", false)).toEqual([40]);
+  expect(starts(table, { ...EVERYTHING, shortest: 1.5 }, "start", false)).toEqual([10]);
+  expect(starts(table, { ...EVERYTHING, sureBelow: 0.5 }, "start", false)).toEqual([10, 30]);
+  const checked = tableOf(rows, { checked: [3] });
+  expect(starts(checked, { ...EVERYTHING, checked: "yes" }, "start", false)).toEqual([40]);
+});
+
+it("merges neighbours among the chosen rows, and only those", () => {
+  const all = rowsOf(table, EVERYTHING, "start", true);
+  const chosen = all.filter(({ segment }) => segment.start_frame !== 30);
+  expect(spansToMerge(chosen)).toEqual([{ level: "primitive", start: 0, stop: 30 }]);
+  expect(between(all, 2, 1)).toEqual([all[1], all[2]]);
+});

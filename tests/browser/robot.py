@@ -1,0 +1,236 @@
+"""A robot that edits at random, and checks after each step that what was confirmed is there."""
+
+from __future__ import annotations
+
+import json
+import random
+from pathlib import Path
+from typing import Any
+
+import httpx2 as httpx
+from screen import Screen
+from studio_server import StudioServer
+
+import kineme
+from kineme.studio.folder import file_id
+
+Rows = list[dict[str, Any]]
+EDITS = ("split", "delete", "merge", "nudge", "name", "cluster name", "check", "kind", "segment")
+STEPS = (*EDITS, *EDITS, "undo", "undo", "redo", "reload", "kill", "other tab", "next")
+UNDO = 100
+"""Steps that undo goes back."""
+
+
+class Robot:
+    """Two tabs of a studio, and what its tables must be.
+
+    Parameters
+    ----------
+    context : playwright BrowserContext
+    server : StudioServer
+        Which may be killed.
+    takes : list of Path
+        Recordings of its folder.
+    seed : int
+    """
+
+    def __init__(self, context: Any, server: StudioServer, takes: list[Path], seed: int):
+        self.chance = random.Random(seed)
+        self.server, self.takes, self.take = server, takes, takes[0]
+        self.tabs = [Screen(context.new_page()) for _ in range(2)]
+        self.screen = self.tabs[0]
+        self.past: dict[Path, list[Rows]] = {take: [] for take in takes}
+        self.future: dict[Path, list[Rows]] = {take: [] for take in takes}
+        self.left: dict[Path, list[Rows]] = {take: [] for take in takes}
+        self.edits = 0
+        self.open()
+
+    def open(self) -> None:
+        """Both tabs show the present recording."""
+        for tab in self.tabs:
+            tab.page.goto(self.server.address_of(self.take))
+            tab.opened()
+        self.screen.wait("k.unsent.length === 0")
+
+    def step(self) -> str:
+        """Do something at random; what it was."""
+        what = self.chance.choice(STEPS)
+        before = self.rows()
+        if what in EDITS:
+            self.edit(what)
+            self.changed(before, what)
+        elif what == "undo":
+            self.screen.page.keyboard.press("Control+z")
+            self.settled()
+            if self.past[self.take]:
+                self.future[self.take].append(before)
+                self.must_be(self.past[self.take].pop(), what)
+        elif what == "redo":
+            self.screen.page.keyboard.press("Control+Shift+z")
+            self.settled()
+            if self.future[self.take]:
+                self.past[self.take].append(before)
+                self.must_be(self.future[self.take].pop(), what)
+        elif what == "reload":
+            self.screen.page.reload()
+            self.screen.opened()
+            self.must_be(before, what)
+        elif what == "kill":
+            self.kill(before)
+        elif what == "other tab":
+            self.screen = self.tabs[1 - self.tabs.index(self.screen)]
+            self.screen.wait(f"k.revision === {self.revision()}")
+            self.must_be(before, what)
+        else:
+            self.take = self.chance.choice(self.takes)
+            self.open()
+        self.on_the_disk(what)
+        return what
+
+    def edit(self, what: str) -> None:
+        """One edit, by keys or in the panels."""
+        page, keys = self.screen.page, self.screen.page.keyboard
+        frames = int(self.screen.state["duration"] * 60)
+        page.get_by_label("Frame", exact=True).fill(str(self.chance.randrange(frames)))
+        keys.press("Enter")
+        if what == "name":
+            keys.press("n")
+            keys.type(f"n{self.chance.randrange(1000)}")
+            keys.press("Enter")
+        elif what == "cluster name":
+            keys.press("Shift+N")
+            keys.type(f"c{self.chance.randrange(1000)}")
+            keys.press("Enter")
+        elif what == "kind":
+            kind = self.chance.choice(["activity", "transition"])
+            page.locator(".segment-panel select").first.select_option(kind)
+        elif what == "segment":
+            self.segment()
+        else:
+            way = self.chance.choice(["ArrowLeft", "ArrowRight"])
+            nudge = f"Alt+Shift+{way}"
+            known = {"split": "s", "delete": "Delete", "merge": "m", "check": "Shift+K"}
+            keys.press(known.get(what, nudge))
+        self.settled()
+
+    def segment(self) -> None:
+        """Look at another segmentation, and apply or discard it."""
+        page = self.screen.page
+        choice = page.get_by_label("Preset", exact=True)
+        names = ["kineme", "voegele2014", "krueger2017"]
+        names.remove(choice.input_value())
+        before = self.rows()
+        choice.select_option(self.chance.choice(names))
+        self.screen.wait("k.other === 'Preview'")
+        self.must_be(before, "preview")
+        button = self.chance.choice(["Apply", "Apply", "Discard"])
+        page.get_by_role("button", name=button).click()
+        self.screen.wait("k.other === null")
+
+    def kill(self, before: Rows) -> None:
+        """End the server without warning, sometimes with an edit on its way."""
+        page = self.screen.page
+        hasty = self.chance.random() < 0.5
+        if hasty:
+            page.keyboard.press("n")
+            page.keyboard.type(f"k{self.chance.randrange(1000)}")
+            page.keyboard.press("Enter")
+        self.server.kill()
+        self.server.start()
+        page.goto(self.server.address_of(self.take))
+        self.screen.opened()
+        self.screen.wait("k.unsent.length === 0")
+        if hasty:
+            self.changed(before, "kill")
+        else:
+            self.must_be(before, "kill")
+        other = self.tabs[1 - self.tabs.index(self.screen)]
+        other.page.goto(self.server.address_of(self.take))
+        other.opened()
+
+    def rows(self) -> Rows:
+        """What the page shows."""
+        rows: Rows = self.screen.state["segments"]
+        return rows
+
+    def revision(self) -> int:
+        """Of the table, as the server says."""
+        revision: int = self.ask("")["revision"]
+        return revision
+
+    def ask(self, address: str) -> Any:
+        """What the server answers of the present recording."""
+        root, token = self.server.address.split("?token=")
+        name = file_id(self.take)
+        answer = httpx.get(
+            f"{root}api/recordings/{name}{address}", headers={"x-kineme-token": token}, timeout=60
+        )
+        return answer.json()
+
+    def settled(self) -> None:
+        """Until the server has confirmed or refused everything."""
+        self.screen.page.wait_for_timeout(30)
+        self.screen.wait("k.unsent.length === 0")
+        self.screen.wait(f"k.revision === {self.revision()}")
+
+    def changed(self, before: Rows, what: str) -> None:
+        """Count what an edit did; nothing, where it was refused."""
+        if self.can_undo() == len(self.past[self.take]):
+            self.must_be(before, f"refused {what}")
+            return
+        self.edits += 1
+        if self.future[self.take]:
+            self.left[self.take].append(self.future[self.take][0])
+        if what == "segment":
+            self.left[self.take].append(before)
+        self.future[self.take].clear()
+        self.past[self.take] = [*self.past[self.take], before][-UNDO:]
+
+    def can_undo(self) -> int:
+        """How many steps undo goes back: of the history on the disk."""
+        place = self.take.parent / ".kineme" / f"{self.take.stem}.segments" / "history.json"
+        if not place.exists():
+            return 0
+        return len(json.loads(place.read_text())["history"]["past"])
+
+    def must_be(self, rows: Rows, what: str) -> None:
+        """RuntimeError where the page shows another table."""
+        shown = self.rows()
+        if shown != rows:
+            differ = [row for row in shown if row not in rows][:3]
+            said = f"after {self.edits} edits, {what}: another table is shown"
+            raise RuntimeError(f"{said}: {differ} of {len(shown)}, not of {len(rows)}")
+
+    def on_the_disk(self, what: str) -> None:
+        """RuntimeError where the saved table is not the one that the page shows."""
+        path = self.take.with_suffix(".segments.json")
+        if not path.exists():
+            return
+        saved = kineme.read_segments(path).table
+        shown = self.rows()
+        for name in ("level", "kind", "start_frame", "stop_frame", "cluster", "label"):
+            if getattr(saved, name).tolist() != [row[name] for row in shown]:
+                raise RuntimeError(f"after {self.edits} edits, {what}: {name} on the disk differs")
+
+    def finish(self) -> None:
+        """Everything that was replaced is a version; undo and redo give the same tables."""
+        for take in self.takes:
+            self.take = take
+            self.open()
+            versions = self.ask("/versions")["versions"]
+            kept = [
+                self.ask(f"/versions/{v['number']}")["segmentation"]["segments"] for v in versions
+            ]
+            for rows in self.left[take][-50:]:
+                if rows not in kept:
+                    raise RuntimeError(f"a table of {take.name} that was replaced is gone")
+            last, keys = self.rows(), self.screen.page.keyboard
+            for rows in reversed(self.past[take]):
+                keys.press("Control+z")
+                self.settled()
+                self.must_be(rows, "undo")
+            for _ in self.past[take]:
+                keys.press("Control+Shift+z")
+                self.settled()
+            self.must_be(last, "redo")
+            self.future[take].clear()

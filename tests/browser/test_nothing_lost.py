@@ -1,0 +1,30 @@
+"""A robot edits, segments anew, reloads, kills the server and changes tabs: nothing is lost.
+
+benchmarks/studio_robot.py lets it do so 500 times on three recordings, with five seeds.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from robot import Robot
+from studio_server import StudioServer
+
+from conftest import DESKTOP, copy_of_bundled
+
+STEPS = 25
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_robot_loses_nothing(chromium, tmp_path: Path, seed: int) -> None:
+    takes = [copy_of_bundled(tmp_path) for _ in range(2)]
+    context = chromium.new_context(viewport=DESKTOP)
+    context.set_default_timeout(30_000)
+    with StudioServer(tmp_path) as server:
+        robot = Robot(context, server, takes, seed)
+        for _ in range(STEPS):
+            robot.step()
+        robot.finish()
+    context.close()
+    assert robot.edits > 3

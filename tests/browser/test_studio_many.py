@@ -1,0 +1,115 @@
+"""Many segments and many recordings: the table, the review queue, the next recording."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from screen import Screen
+
+import kineme
+from kineme.segments.editing.marks import marked
+
+
+def saved_table(take: Path) -> kineme.Segmentation:
+    return kineme.read_segments(take.with_suffix(".segments.json"))
+
+
+def test_many_rows_are_chosen_with_keys_and_named_in_one_step(page, take):
+    screen = Screen(page)
+    page.locator("#tab-table").click()
+    page.get_by_label("Level", exact=True).select_option("primitive")
+    grid = page.get_by_role("grid", name="Segments")
+    grid.get_by_role("row").nth(2).click()
+    screen.wait("k.selected")
+    assert screen.state["selected"] == screen.lane("primitive")[2]
+    grid.focus()
+    for _ in range(3):
+        page.keyboard.press("Shift+ArrowDown")
+    page.get_by_text("4 chosen").wait_for()
+    assert grid.locator("[aria-selected=true]").count() == 4
+    page.get_by_label("Name for all chosen").fill("step")
+    page.get_by_role("button", name="Name 4").click()
+    page.get_by_text("4 segments named “step”").wait_for()
+    assert screen.labels().count("step") == 4
+    assert saved_table(take).primitives.label.tolist() == screen.labels()
+    page.keyboard.press("Control+z")
+    screen.wait("!k.segments.some((row) => row.label === 'step')")
+
+
+def test_the_queue_shows_the_least_sure_first_and_a_new_segmentation_leaves_what_is_checked(
+    page, take
+):
+    screen = Screen(page)
+    page.locator("#tab-review").click()
+    page.keyboard.press("j")
+    screen.wait("k.selected")
+
+    def sure(row: dict) -> float:
+        known = [row["score"], row["border_confidence"] if row["start_frame"] else None]
+        return min((each for each in known if each is not None), default=2.0)
+
+    least = min(map(sure, screen.state["segments"]))
+    assert sure(screen.state["selected"]) == least
+    first = screen.state["selected"]
+    assert page.locator(".why").inner_text().strip()
+    page.keyboard.press("k")
+    screen.saved()
+    screen.wait(f"k.selected && k.selected.start_frame !== {first['start_frame']}")
+    span = (first["level"], first["start_frame"], first["stop_frame"])
+    assert marked(saved_table(take), "checked") == {span}
+    page.get_by_label("Preset", exact=True).select_option("voegele2014")
+    page.get_by_role("button", name="Apply").click()
+    screen.wait("k.other === null && k.unsent.length === 0")
+    spans = [(r["level"], r["start_frame"], r["stop_frame"]) for r in screen.state["segments"]]
+    assert span in spans
+    assert marked(saved_table(take), "checked") == {span}
+
+
+def test_the_next_recording_opens_at_its_start_and_its_status_is_shown(new_tab, server, take):
+    second = Path(shutil.copy(take, take.with_stem(f"{take.stem}_b")))
+    page = new_tab(server.address_of(take))
+    screen = Screen(page)
+    screen.opened()
+    failed: list[str] = []
+    page.on("response", lambda answer: answer.status == 404 and failed.append(answer.url))
+    page.keyboard.press("End")
+    page.keyboard.press("PageDown")
+    screen.wait(f"k.name === '{second.name}' && k.hasMotion")
+    assert (screen.state["recordings"], screen.state["playhead"]) == ([second.name], 0)
+    for key in ("PageUp", "PageDown") * 3:  # faster than they open
+        page.keyboard.press(key)
+        page.wait_for_timeout(60)
+    page.wait_for_timeout(1500)
+    assert failed == []
+    page.keyboard.press("n")
+    page.keyboard.type("hop")
+    page.keyboard.press("Enter")
+    screen.saved()
+    name = screen.state["name"]
+    page.get_by_label("Show recordings that are").select_option("corrected")
+    page.locator(".recording .name", has_text=name).wait_for()
+
+
+def test_labels_of_others_are_shown_as_labels(new_tab, server, take):
+    columns = {
+        "level": ["activity"] * 3,
+        "kind": ["activity", "transition", "activity"],
+        "start_frame": [0, 600, 1200],
+        "stop_frame": [600, 1200, 2898],
+        "label": ["walk", "rest", "walk"],
+    }
+    table = kineme.Segmentation.from_columns(columns, n_frames=2898, fps=60.0)
+    kineme.write_segments(table, take.with_suffix(".segments.json"))
+    page = new_tab(server.address_of(take))
+    screen = Screen(page)
+    screen.opened()
+    page.locator("#tab-clusters").click()
+    rows = page.locator("table.clusters tbody tr")
+    assert [text.split()[0] for text in rows.all_inner_texts()] == ["walk", "rest"]
+    colors = [
+        row.locator(".swatch").evaluate("(swatch) => getComputedStyle(swatch).backgroundColor")
+        for row in rows.all()
+    ]
+    assert len(set(colors)) == 2
+    assert "rgb(221, 221, 221)" not in colors

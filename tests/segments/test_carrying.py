@@ -1,0 +1,148 @@
+"""What a new segmentation takes over from the table that it takes the place of."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import hypothesis.strategies as st
+from hypothesis import given
+from test_editing import EDITS, spans, walk_pause_jump
+
+from kineme.errors import ParameterError
+from kineme.segments import editing
+from kineme.segments.editing.marks import marked, noted, span_of
+from kineme.segments.segmentation import Segmentation
+from segmentations import segmentations
+
+
+def by_hand(segmentation: Segmentation, edit: str, *arguments: object) -> Segmentation:
+    return noted(segmentation, getattr(editing, edit)(segmentation, *arguments))
+
+
+def other_way() -> Segmentation:
+    """The same minute cut elsewhere, its clusters numbered the other way round."""
+    rows = [
+        ("activity", "activity", 0, 33, 1, ""),
+        ("activity", "transition", 33, 38, -1, ""),
+        ("activity", "activity", 38, 60, 0, ""),
+        ("primitive", "activity", 0, 11, 1, ""),
+        ("primitive", "activity", 11, 22, 1, ""),
+        ("primitive", "activity", 22, 33, 1, ""),
+        ("primitive", "transition", 33, 38, -1, ""),
+        ("primitive", "activity", 38, 60, 0, ""),
+    ]
+    names = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
+    columns = dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
+    return Segmentation.from_columns(columns, n_frames=60, fps=30.0)
+
+
+def test_names_go_to_the_clusters_and_segments_that_match() -> None:
+    before = editing.name_cluster(walk_pause_jump(), 1, "jump")
+    result = editing.carried(before, other_way())
+    assert spans(result.segmentation, "activity") == "0-33 c1 walk | 33-38 t | 38-60 c0 jump"
+    assert spans(result.segmentation, "primitive") == (
+        "0-11 c1 walk | 11-22 c1 limp | 22-33 c1 walk | 33-38 t | 38-60 c0 jump"
+    )
+    assert (result.corrections, result.names, result.lost) == (0, 3, [])
+
+
+def test_names_that_match_nothing_are_listed() -> None:
+    before = editing.name_segment(walk_pause_jump(), "primitive", 50, "hop")
+    result = editing.carried(before, other_way())  # no half of 38-60 is 50-60
+    assert result.lost == ["the name “hop” of the primitive at 1.67 s: no segment matches it"]
+
+
+def test_what_was_made_by_hand_stays_as_it_was_made() -> None:
+    before = by_hand(walk_pause_jump(), "move_border", "activity", 30, 28)
+    result = editing.carried(before, other_way())
+    assert spans(result.segmentation, "activity") == "0-28 c1 walk | 28-40 t | 40-60 c0"
+    assert spans(result.segmentation, "primitive") == (
+        "0-11 c1 walk | 11-20 c1 limp | 20-28 c1 walk | 28-40 t | 40-60 c0"
+    )
+    assert result.corrections == 4
+    assert marked(result.segmentation, "by_hand") == marked(before, "by_hand")
+    again = editing.carried(result.segmentation, walk_pause_jump())
+    assert again.corrections == 4
+    assert spans(again.segmentation, "activity").startswith("0-28 c0 walk | 28-40 t | ")
+
+
+def test_a_cluster_given_by_hand_is_kept_though_none_matches() -> None:
+    before = by_hand(walk_pause_jump(), "set_cluster", "primitive", 10, 2)
+    result = editing.carried(before, other_way())
+    assert "10-20 c2 limp" in spans(result.segmentation, "primitive")
+
+
+def test_what_is_left_beside_a_checked_primitive_stays_in_its_activity() -> None:
+    rows = [(0, 30), (30, 60)]
+    columns = {
+        "level": ["activity"] * 2 + ["primitive"] * 2,
+        "kind": ["activity"] * 4,
+        "start_frame": [start for start, _ in rows * 2],
+        "stop_frame": [stop for _, stop in rows * 2],
+    }
+    found = Segmentation.from_columns(columns, n_frames=60, fps=30.0)
+    before = editing.split(editing.split(found, "primitive", 12), "primitive", 29)
+    checked = editing.check(before, "primitive", [12], True)
+    result = editing.carried(checked, found)
+    assert spans(result.segmentation, "primitive") == "0-12 | 12-29 | 29-30 | 30-60"
+
+
+@given(segmentations(), segmentations(), st.data())
+def test_checked_segments_are_never_changed(before, found, data) -> None:
+    if (before.n_frames, before.fps) != (found.n_frames, found.fps):
+        found = _resampled(found, before)
+    chosen = data.draw(st.sets(st.integers(0, len(before) - 1), max_size=6))
+    for i in chosen:
+        row = before.table[i]
+        before = editing.check(before, row.level, [row.start_frame], True)
+    result = editing.carried(before, found)
+    there = {span_of(row): row.kind for row in result.segmentation}
+    for i in chosen:
+        row = before.table[i]
+        if row.level == "activity" or len(found.primitives):
+            assert there[span_of(row)] == row.kind
+    own = editing.cluster_names(before)
+    assert result.names == len(own) + sum(
+        row.label not in ("", own.get(row.cluster, "")) for row in before
+    )
+
+
+@given(segmentations(), st.lists(EDITS, min_size=1, max_size=6))
+def test_carrying_over_to_the_same_segments_changes_none(before, edits) -> None:
+    now = before
+    for edit, *arguments in edits:
+        try:
+            now = noted(now, edit(now, *arguments))
+        except ParameterError:
+            continue
+    result = editing.carried(now, now)
+    assert result.lost == []
+    for name in ("level", "kind", "start_frame", "stop_frame", "cluster"):
+        assert (getattr(result.segmentation.table, name) == getattr(now.table, name)).all()
+
+
+def test_a_mark_holds_for_the_frames_that_it_was_made_for() -> None:
+    checked = editing.check(walk_pause_jump(), "primitive", [0, 10], True)
+    assert marked(checked, "checked") == {("primitive", 0, 10), ("primitive", 10, 20)}
+    moved = editing.move_border(checked, "primitive", 20, 18)
+    assert marked(moved, "checked") == {("primitive", 0, 10)}
+    assert marked(editing.check(checked, "primitive", [0], False), "checked") == {
+        ("primitive", 10, 20)
+    }
+
+
+def _resampled(found: Segmentation, like: Segmentation) -> Segmentation:
+    """Its first segments, stretched or cut to the length of another."""
+    n = like.n_frames
+    rows = [row for row in found if row.start_frame < n]
+    last = {
+        level: max((r.start_frame for r in rows if r.level == level), default=0)
+        for level in ("activity", "primitive")
+    }
+    rows = [
+        replace(row, stop_frame=n if row.start_frame == last[row.level] else row.stop_frame)
+        for row in rows
+    ]
+    names = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
+    columns = {name: [getattr(row, name) for row in rows] for name in names}
+    return Segmentation.from_columns(columns, n_frames=n, fps=like.fps)

@@ -1,0 +1,243 @@
+"""Nothing that was done to a table is lost: versions, undo after a restart, edits made once."""
+
+from __future__ import annotations
+
+import json
+import random
+import signal
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from studio_clients import Studio
+
+import kineme
+from kineme.segments.history import LONGEST
+from kineme.studio import journal
+
+
+def named(studio: Studio, label: str = "hop") -> dict[str, Any]:
+    """The recording once a border was made and a segment named."""
+    revision = studio.recording()["revision"]
+    split = studio.done(revision, "split", level="activity", frame=50)
+    return studio.done(split["revision"], "name_segment", level="activity", frame=50, label=label)
+
+
+def labels(message: dict[str, Any]) -> set[str]:
+    return {row["label"] for row in message["segmentation"]["segments"]} - {""}
+
+
+def test_a_preview_changes_nothing_and_says_what_would_become_of_the_corrections(studio) -> None:
+    before = named(studio)
+    wanted = {"preset": "voegele2014", "parameters": {}, "keep": True}
+    shown = studio.client.post(f"/api/recordings/{studio.id}/preview", json=wanted).json()
+    assert labels(shown) == {"hop"}
+    assert (shown["corrections"] > 0, shown["names"], shown["lost"]) == (True, 1, [])
+    anew = studio.client.post(
+        f"/api/recordings/{studio.id}/preview", json={**wanted, "keep": False}
+    ).json()
+    assert labels(anew) == set()
+    assert anew["lost"] == [f"{shown['corrections']} corrections and 1 names"]
+    assert studio.recording()["segmentation"] == before["segmentation"]
+    applied = studio.done(before["revision"], "segment", preset="voegele2014", parameters={})
+    assert applied["segmentation"]["segments"] == shown["segmentation"]["segments"]
+    assert 50 in kineme.read_segments(studio.table).cuts("activity")
+
+
+def test_every_table_that_was_replaced_can_be_looked_at_and_restored(start) -> None:
+    studio = start()
+    before = named(studio)
+    anew = {"preset": "voegele2014", "parameters": {}, "keep": False}
+    studio.done(before["revision"], "segment", **anew)
+    studio.end(signal.SIGKILL)
+    again = start()
+    versions = again.get(f"/api/recordings/{again.id}/versions").json()["versions"]
+    assert [(v["edit"]["kind"], v["names"]) for v in versions] == [("name_segment", 1)]
+    address = f"/api/recordings/{again.id}/versions/{versions[0]['number']}"
+    looked_at = again.get(address).json()
+    assert looked_at["segmentation"] == before["segmentation"]
+    state = again.done(again.recording()["revision"], "restore", version=versions[0]["number"])
+    assert state["segmentation"] == before["segmentation"]
+    versions = again.get(f"/api/recordings/{again.id}/versions").json()["versions"]
+    assert [v["edit"]["kind"] for v in versions] == ["segment", "name_segment"]
+    assert again.get(f"/api/recordings/{again.id}/versions/999").status_code == 400
+    assert again.edit(state["revision"], "restore", version=999).status_code == 400
+
+
+def test_undo_and_redo_outlive_the_server(start) -> None:
+    studio = start()
+    tables = [studio.recording()["segmentation"]["segments"]]
+    revision = 1
+    for frame in (50, 70, 90):
+        state = studio.done(revision, "split", level="activity", frame=frame)
+        revision = state["revision"]
+        tables.append(state["segmentation"]["segments"])
+    studio.done(revision, "undo")
+    studio.end(signal.SIGKILL)
+    again = start()
+    message = again.recording()
+    assert (message["can_undo"], message["can_redo"]) == (True, True)
+    assert message["revision"] == revision + 1
+    redone = again.done(message["revision"], "redo")
+    assert redone["segmentation"]["segments"] == tables[3]
+    state = redone
+    for table in reversed(tables[:3]):
+        state = again.done(state["revision"], "undo")
+        assert state["segmentation"]["segments"] == table
+    assert not state["can_undo"]
+
+
+def test_what_was_taken_back_and_cannot_be_redone_is_kept(studio) -> None:
+    before = named(studio)
+    state = studio.done(before["revision"], "undo")
+    studio.done(state["revision"], "split", level="activity", frame=90)
+    versions = studio.get(f"/api/recordings/{studio.id}/versions").json()["versions"]
+    table = studio.get(f"/api/recordings/{studio.id}/versions/{versions[0]['number']}").json()
+    assert table["segmentation"] == before["segmentation"]
+
+
+def test_an_edit_that_is_sent_twice_is_made_once(start) -> None:
+    studio = start()
+    sent = {
+        "revision": studio.recording()["revision"],
+        "edit": {"kind": "split", "level": "activity", "frame": 50},
+        "name": "an edit of its own",
+    }
+    address = f"/api/recordings/{studio.id}/edits"
+    first = studio.client.post(address, json=sent).json()
+    assert studio.client.post(address, json=sent).json()["revision"] == first["revision"]
+    studio.end(signal.SIGKILL)
+    again = start()
+    assert again.client.post(address, json=sent).json()["segmentation"] == first["segmentation"]
+
+
+@pytest.mark.parametrize("cut", ["table", "history"])
+def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_whole(
+    make_studio: Callable[..., Studio], monkeypatch: pytest.MonkeyPatch, cut: str
+) -> None:
+    studio = make_studio()
+    before = named(studio)
+    write = journal._write
+    place = "write" if cut == "table" else "_write"
+    where = "kineme.studio.storage.TableFile" if cut == "table" else "kineme.studio.journal"
+
+    def fail(*arguments: Any) -> None:
+        if cut == "table" or arguments[0].name == "history.json":
+            raise RuntimeError("the end")
+        write(*arguments)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(f"{where}.{place}", fail)
+        sent = {
+            "revision": before["revision"],
+            "edit": {"kind": "split", "level": "activity", "frame": 90},
+            "name": "has no answer",
+        }
+        address = f"/api/recordings/{studio.id}/edits"
+        assert studio.client.post(address, json=sent).status_code == 500
+    again = make_studio()
+    message = again.recording()
+    assert message["segmentation"] == before["segmentation"]
+    made = again.client.post(address, json={**sent, "revision": message["revision"]}).json()
+    assert 90 in again.starts()
+    state = again.done(made["revision"], "undo")
+    assert state["segmentation"] == before["segmentation"]
+    state = again.done(state["revision"], "undo")
+    assert labels(state) == set()
+
+
+def test_a_history_that_cannot_be_read_is_no_obstacle_and_its_tables_stay(
+    make_studio: Callable[..., Studio], folder: Path
+) -> None:
+    named(make_studio())
+    place = folder / ".kineme" / "take.segments"
+    old = {path.name: path.read_bytes() for path in place.glob("[0-9]*.json")}
+    (place / "history.json").write_text("{")
+    studio = make_studio()
+    message = studio.recording()
+    assert labels(message) == {"hop"}
+    assert not message["can_undo"]
+    studio.done(message["revision"], "split", level="activity", frame=90)
+    assert old.items() <= {path.name: path.read_bytes() for path in place.iterdir()}.items()
+
+
+def test_the_history_is_plain_and_bounded(studio, folder: Path, monkeypatch) -> None:
+    monkeypatch.setattr(journal, "MOST_KEPT", 3)
+    state = studio.recording()
+    for _ in range(6):
+        state = studio.done(
+            state["revision"], "segment", preset="voegele2014", parameters={}, keep=False
+        )
+    for turn in range(LONGEST + 5):
+        state = studio.done(
+            state["revision"], "name_segment", level="activity", frame=0, label=f"n{turn}"
+        )
+    place = folder / ".kineme" / "take.segments"
+    said = json.loads((place / "history.json").read_text())
+    assert said["schema"] == "kineme.history/1"
+    assert said["revision"] == state["revision"]
+    tables = sorted(place.glob("[0-9]*.json"))
+    assert len(tables) == LONGEST + 1 + 3
+    assert all(kineme.read_segments(path) is not None for path in tables)
+    assert [f["name"] for f in studio.get("/api/state").json()["annotations"]] == []
+
+
+def test_a_folder_that_leads_elsewhere_is_not_written_to(studio, folder: Path, tmp_path) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    (folder / ".kineme").symlink_to(tmp_path / "elsewhere")
+    answer = studio.edit(1, "split", level="activity", frame=50)
+    assert answer.status_code == 500
+    assert "link" in answer.json()["error"]
+    assert not studio.table.exists()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_random_edits_undone_and_redone_give_the_same_tables(start, seed: int) -> None:
+    """A robot of requests; its sister in tests/browser uses the page."""
+    chance = random.Random(seed)
+    studio = start()
+    message = studio.recording()
+    past, present, revision = [], message["segmentation"], message["revision"]
+    for _ in range(40):
+        if chance.random() < 0.1:
+            studio.end(signal.SIGKILL)
+            studio = start()
+            assert studio.recording()["segmentation"] == present
+        kind = chance.choice(["split", "move_border", "name_segment", "segment", "undo", "merge"])
+        answer = _random_edit(studio, revision, kind, present, chance)
+        if answer.status_code != 200:
+            continue
+        state = answer.json()
+        if kind == "undo":
+            assert state["segmentation"] == past.pop()
+        else:
+            past.append(present)
+        present, revision = state["segmentation"], state["revision"]
+        assert kineme.read_segments(studio.table).cuts().tolist() == studio.starts()[1:]
+    last = present
+    for table in reversed(past):
+        state = studio.done(revision, "undo")
+        revision = state["revision"]
+        assert state["segmentation"] == table
+    for _ in past:
+        state = studio.done(revision, "redo")
+        revision = state["revision"]
+    assert state["segmentation"] == last
+
+
+def _random_edit(
+    studio: Studio, revision: int, kind: str, table: dict[str, Any], chance: random.Random
+) -> Any:
+    rows = [row for row in table["segments"] if row["level"] == "activity"]
+    row = chance.choice(rows)
+    frame = row["start_frame"]
+    rest: dict[str, dict[str, Any]] = {
+        "split": {"level": "activity", "frame": chance.randrange(1, 240)},
+        "move_border": {"level": "activity", "frame": frame, "to": frame + chance.randint(-9, 9)},
+        "name_segment": {"level": "activity", "frame": frame, "label": f"n{chance.random()}"},
+        "merge": {"level": "activity", "start_frame": frame, "stop_frame": rows[-1]["stop_frame"]},
+        "segment": {"preset": chance.choice(["kineme", "voegele2014"]), "parameters": {}},
+        "undo": {},
+    }
+    return studio.edit(revision, kind, **rest[kind])
