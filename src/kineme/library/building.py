@@ -100,7 +100,7 @@ def build(
         How recordings are read and segmented; as the last time by default. Others than those mean
         that everything is done anew.
     jobs : int
-        Processes at once. With more than 1, a script must guard what it runs with
+        Processes at most. With more than 1, a script must guard what it runs with
         ``if __name__ == "__main__"``, as always with processes.
     progress : callable, optional
         Called with a sentence on how far it is.

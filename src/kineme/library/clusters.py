@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 
 from kineme.errors import ParameterError
-from kineme.library.layout import arrow
+from kineme.library.layout import arrow, as_column
 from kineme.library.opened import OpenTables
 
 
@@ -106,10 +106,13 @@ def clusters_of(tables: OpenTables) -> list[Cluster]:
 def cluster_table(clusters: Sequence[Cluster]) -> Any:
     """The clusters as a pyarrow.Table."""
     pa, _ = arrow()
-    types = {int: pa.int64(), float: pa.float64(), str: pa.string()}
     hints = get_type_hints(Cluster)
-    schema = pa.schema([(name, types[hints[name]]) for name in Cluster._fields])
-    return pa.Table.from_pylist([cluster._asdict() for cluster in clusters], schema=schema)
+    return pa.table(
+        {
+            name: as_column([getattr(each, name) for each in clusters], hints[name])
+            for name in Cluster._fields
+        }
+    )
 
 
 def unsure_words(tables: OpenTables) -> list[Word]:

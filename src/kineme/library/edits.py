@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
-from kineme.library.layout import EDITS, arrow, as_array, read_json, write_json
+from kineme.library.layout import EDITS, as_array, as_column, read_json, write_json
 
 SCHEMA = "kineme.library.edits/1"
 Ints = NDArray[np.int64]
@@ -164,9 +164,9 @@ def edited(table: Any, edits: Edits) -> Any:
         if name not in table.column_names:
             continue
         clusters = edits.applied(as_array(table.column(name)), recordings)
-        table = table.set_column(table.column_names.index(name), name, [clusters])
+        table = table.set_column(table.column_names.index(name), name, as_column(clusters, int))
         if label is not None:
-            column = [_names(clusters, edits)]
+            column = _names(clusters, edits)
             at = table.column_names.index(name)
             table = (
                 table.set_column(table.column_names.index(label), label, column)
@@ -180,7 +180,6 @@ def edited(table: Any, edits: Edits) -> Any:
 
 def _names(clusters: Ints, edits: Edits) -> Any:
     """The name of each cluster, as pyarrow has texts."""
-    pa, _ = arrow()
     unique, inverse = np.unique(clusters, return_inverse=True)
-    names = pa.array([edits.name(number) for number in unique.tolist()], pa.string())
-    return names.take(pa.array(inverse))
+    names = as_column([edits.name(number) for number in unique.tolist()], str)
+    return names.take(as_column(inverse, int))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
@@ -148,3 +148,19 @@ def as_array(column: Any) -> NDArray[Any]:
     texts = np.array(coded.dictionary.to_pylist(), dtype=object)
     found: NDArray[Any] = texts[np.from_dlpack(coded.indices)]
     return found
+
+
+def as_column(values: Iterable[Any], kind: type) -> Any:
+    """Texts, or numbers of a type, as a pyarrow.Array.
+
+    By way of buffers: pyarrow's own way imports pandas.
+    """
+    pa, _ = arrow()
+    if kind is str:
+        texts = [str(text).encode() for text in values]
+        ends = np.cumsum([0, *map(len, texts)], dtype=np.int32)
+        buffers = [None, pa.py_buffer(ends), pa.py_buffer(b"".join(texts))]
+        return pa.Array.from_buffers(pa.string(), len(texts), buffers)
+    numbers: NDArray[Any] = np.ascontiguousarray(values, kind)
+    type_ = pa.from_numpy_dtype(numbers.dtype)
+    return pa.Array.from_buffers(type_, len(numbers), [None, pa.py_buffer(numbers)])

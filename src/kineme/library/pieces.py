@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.library.layout import EMBEDDED, arrow, as_array
-from kineme.segments.table import COLUMNS, SegmentTable
+from kineme.library.layout import EMBEDDED, arrow, as_array, as_column
+from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
 
 METADATA = b"kineme.library"
 
@@ -48,9 +48,13 @@ def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float
     pa, parquet = arrow()
     with atomic_write(folder / f"{key}.npy") as draft, draft.open("wb") as file:
         np.save(file, np.ascontiguousarray(features, np.float32), allow_pickle=False)
-    values = pa.array(piece.embeddings.ravel())
+    values = as_column(piece.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(values, EMBEDDED)
-    table = pa.table({**piece.table.columns(), "embedding": embeddings})
+    columns = {
+        name: as_column(column, DESCRIBED[name].type)
+        for name, column in piece.table.columns().items()
+    }
+    table = pa.table({**columns, "embedding": embeddings})
     told = json.dumps(piece.facts, sort_keys=True).encode()
     with atomic_write(folder / f"{key}.parquet") as draft:
         parquet.write_table(
