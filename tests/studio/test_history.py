@@ -139,7 +139,8 @@ def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_wh
     again = make_studio()
     message = again.recording()
     assert message["segmentation"] == before["segmentation"]
-    made = again.client.post(address, json={**sent, "revision": message["revision"]}).json()
+    assert message["revision"] == before["revision"]
+    made = again.client.post(address, json=sent).json()
     assert 90 in again.starts()
     state = again.done(made["revision"], "undo")
     assert state["segmentation"] == before["segmentation"]

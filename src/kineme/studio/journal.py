@@ -107,8 +107,10 @@ class Journal:
             for known in (history, _or_none(history.undone), _or_none(history.redone)):
                 if known is not None and steps[known.present].sha256 == digest:
                     if known is not history:  # the last change was cut short, and has no answer
-                        names = self._record.names[:-1]
-                        self._record = replace(self._record, history=known, names=names)
+                        names, revision = self._record.names[:-1], self._record.revision - 1
+                        self._record = replace(
+                            self._record, history=known, names=names, revision=revision
+                        )
                     return
             self._record = self.changed(table, None, replaced=True).record
         else:
