@@ -872,6 +872,78 @@ def mean_distances(features, segments, unit):
     ]
 
 
+# --- occurrences ------------------------------------------------------------------------------
+
+PATH_STEPS = ((1, 1, 1.0), (1, 2, 1.5), (2, 1, 1.5))
+
+
+def pair_score(samples, costs, i, j, scale, worst):
+    square = float(((samples[i] - samples[j]) ** 2).sum())
+    return max(1 - square / scale**2 - (costs[i] + costs[j]) / 2, worst)
+
+
+def local_path_scores(samples, costs, begins, gap, width, scale, worst):
+    """The score of the best path from each first pair, where there is one above 0."""
+    n = len(samples)
+    at, best = {}, {}
+    for i in range(n):
+        for j in range(i + gap, min(i + width + 1, n)):
+            score = pair_score(samples, costs, i, j, scale, worst)
+            options = [(score, (i, j))]
+            for a, b, weight in PATH_STEPS:
+                crosses = begins[i - a + 1 : i + 1].any() or begins[j - b + 1 : j + 1].any()
+                if (i - a, j - b) in at and i >= a and not crosses:
+                    before, first = at[i - a, j - b]
+                    options.append((before + weight * score, first))
+            total, first = max(options, key=lambda option: option[0])
+            if total > 0:
+                at[i, j] = total, first
+                best[first] = max(best.get(first, 0), total)
+    return best
+
+
+def followed_score(samples, costs, ends, scale, worst):
+    """The score of the best path from the first of two pairs to the second."""
+    i0, j0, i1, j1 = ends
+    scores = {(i0, j0): pair_score(samples, costs, i0, j0, scale, worst)}
+    for i in range(i0, i1 + 1):
+        for j in range(j0, j1 + 1):
+            options = [
+                scores[i - a, j - b] + weight * pair_score(samples, costs, i, j, scale, worst)
+                for a, b, weight in PATH_STEPS
+                if (i - a, j - b) in scores
+            ]
+            if options:
+                scores[i, j] = max(options)
+    return scores[i1, j1]
+
+
+def recurrences_of(start, stop, paths, free, cover):
+    """Where a stretch recurs by paths (first sample, partners, sums): spans and gains."""
+    found = []
+    for first, partners, sums in paths:
+        low, high = max(start, first), min(stop, first + len(sums))
+        before = [0.0, *sums]
+        while low < high and low > first and sums[low - first] <= before[low - first]:
+            low += 1
+        while high - 1 > low and sums[high - 1 - first] <= before[high - 1 - first]:
+            high -= 1
+        if high - low < cover * (stop - start):
+            continue
+        gain = sums[high - 1 - first] - before[low - first]
+        begin, end = round(partners[low - first]), round(partners[high - 1 - first]) + 1
+        elsewhere = end <= start or begin >= stop
+        if gain > 0 and elsewhere and 2 * (end - begin) >= stop - start:
+            found.append((begin, end, gain))
+    kept = []
+    for begin, end, gain in sorted(found, key=lambda each: -each[2]):
+        if 5 * free[begin:end].sum() >= 4 * (end - begin) and all(
+            end <= b or begin >= e for b, e, _ in kept
+        ):
+            kept.append((begin, end, gain))
+    return kept
+
+
 def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
     """Cost and clusters of the cheapest grouping: all clusters compared before each union."""
     clusters = [[g] for g in range(len(lengths))]

@@ -129,15 +129,55 @@ def join_exercises(
     ParameterError
         Exercises that do not fit together, or one without rotations.
     """
-    _check_fit([part.motion for part in parts])
-    motion, starts, halves = _joined([part.motion for part in parts], join)
+    motion, starts, halves = joined([part.motion for part in parts], join)
     said = note or f"{len(parts)} exercises joined"
     provenance = Provenance(format="sequence").noted(said)
     truth = _truth(list(parts), starts, halves, motion.fps)
     return SyntheticRecording(replace(motion, provenance=provenance), truth)
 
 
-def _check_fit(motions: list[Motion]) -> None:
+def joined(
+    motions: Sequence[Motion], join: float = 0.4
+) -> tuple[Motion, NDArray[np.int64], list[int]]:
+    """One motion of all, the first frame of each and the end, and half of each join in frames.
+
+    Parameters
+    ----------
+    motions : sequence of Motion
+        Of one skeleton and one frame rate, with rotations.
+    join : float, optional
+        Seconds over which a join is blended; at most a third of the shorter motion.
+
+    Raises
+    ------
+    ParameterError
+        Motions that do not fit together, or one without rotations.
+    """
+    _check_fit(motions)
+    fps = motions[0].fps
+    placed = [motions[0]]
+    for motion in motions[1:]:
+        placed.append(_placed_after(placed[-1], motion))
+    rotations = [np.array(motion.rotations) for motion in placed]
+    translations = [
+        local_translations(motion.skeleton, motion.positions, motion.rotations) for motion in placed
+    ]
+    halves = []
+    for before, after in pairwise(range(len(placed))):
+        shorter = min(len(rotations[before]), len(rotations[after]))
+        half = min(round(join * fps / 2), shorter // 6)
+        _blend(rotations[before], rotations[after], translations[before], translations[after], half)
+        halves.append(half)
+    motion = Motion.from_rotations(
+        placed[0].skeleton,
+        np.concatenate(rotations),
+        fps,
+        translations=np.concatenate(translations),
+    )
+    return motion, np.cumsum([0, *map(len, rotations)]), halves
+
+
+def _check_fit(motions: Sequence[Motion]) -> None:
     first = motions[0]
     for motion in motions:
         same = motion.skeleton.names == first.skeleton.names and np.allclose(
@@ -165,31 +205,6 @@ def _draw(takes: list[Exercise], count: int, rng: np.random.Generator) -> list[E
     """So many of the takes, none twice before each came once."""
     order = rng.permutation(len(takes))
     return [takes[order[i % len(takes)]] for i in range(count)]
-
-
-def _joined(motions: list[Motion], join: float) -> tuple[Motion, NDArray[np.int64], list[int]]:
-    """One motion of all, the first frame of each and the end, and half of each join in frames."""
-    fps = motions[0].fps
-    placed = [motions[0]]
-    for motion in motions[1:]:
-        placed.append(_placed_after(placed[-1], motion))
-    rotations = [np.array(motion.rotations) for motion in placed]
-    translations = [
-        local_translations(motion.skeleton, motion.positions, motion.rotations) for motion in placed
-    ]
-    halves = []
-    for before, after in pairwise(range(len(placed))):
-        shorter = min(len(rotations[before]), len(rotations[after]))
-        half = min(round(join * fps / 2), shorter // 6)
-        _blend(rotations[before], rotations[after], translations[before], translations[after], half)
-        halves.append(half)
-    motion = Motion.from_rotations(
-        placed[0].skeleton,
-        np.concatenate(rotations),
-        fps,
-        translations=np.concatenate(translations),
-    )
-    return motion, np.cumsum([0, *map(len, rotations)]), halves
 
 
 def _placed_after(before: Motion, motion: Motion) -> Motion:

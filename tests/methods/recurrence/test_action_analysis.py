@@ -107,7 +107,9 @@ def test_similarity_is_looked_for_no_farther_away_than_asked() -> None:
 @few
 def test_moving_and_turning_the_features_changes_nothing(seed, turn, shift) -> None:
     rows = recorded(seed)
-    turned = rows @ ortho_group.rvs(rows.shape[1], random_state=turn) + shift
+    stacked = rows.reshape(len(rows), len(KINEME.offsets), -1)
+    turn_of_poses = ortho_group.rvs(stacked.shape[2], random_state=turn)
+    turned = (stacked @ turn_of_poses).reshape(rows.shape) + shift
     assert_same(analyze_actions(turned, KINEME), analysis_of(seed))
 
 
@@ -159,14 +161,16 @@ def assert_whole(found: RecurrenceFound, frames: int) -> None:
     assert known == list(range(len(known)))
     assert set(labels) <= {-1, *known}
     moving, sure = found.labels >= 0, found.confidence
-    for probabilities, known in ((sure.links, moving), (sure.counts, moving)):
+    periodic = moving & ~np.isin(found.labels, found.not_periodic)
+    for probabilities, known in ((sure.links, moving), (sure.counts, periodic)):
         assert np.isfinite(probabilities).tolist() == known.tolist()
     assert np.isnan(sure.borders[0])
     for probabilities in (sure.links, sure.counts, sure.borders, sure.cuts):
         given = probabilities[np.isfinite(probabilities)]
         assert ((given >= 0) & (given <= 1)).all()
     assert np.isfinite(sure.borders[1:]).all()
-    assert np.isfinite(sure.cuts[1:]).all()
+    begins = np.isin(found.primitives[:-1], found.borders) | periodic[found.evidence.parents]
+    assert np.isfinite(sure.cuts[1:][begins[1:]]).all()
     assert len(sure.cuts) == len(found.primitives) - 1
 
 
@@ -275,4 +279,5 @@ def test_a_gap_in_the_features_is_named() -> None:
 def test_progress_and_timings_name_the_stages() -> None:
     names: list[str] = []
     found = analyze_actions(np.zeros((40, 2)), KINEME, progress=names.append)
-    assert names == [*found.timings] == ["recurrence", "actions", "repetitions", "confidence"]
+    stages = ["recurrence", "actions", "repetitions", "occurrences", "confidence"]
+    assert names == [*found.timings] == stages

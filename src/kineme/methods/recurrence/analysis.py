@@ -15,12 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_features
 from kineme._threads import map_threads
+from kineme.methods.confidence import probability
 from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
 from kineme.methods.recurrence.ends import fitted_ends
-from kineme.methods.recurrence.evidence import evidence
+from kineme.methods.recurrence.evidence import counted, evidence
 from kineme.methods.recurrence.found import RecurrenceFound
+from kineme.methods.recurrence.occurrences import occurrences
 from kineme.methods.recurrence.parts import clusters_of_repetitions
+from kineme.methods.recurrence.placing import Segments, of_actions, placed
 from kineme.methods.recurrence.recurrence import (
     Recurrence,
     narrower,
@@ -76,33 +79,26 @@ def analyze_actions(
         borders, labels, own = _activities(found, narrow, preset, len(rows))
     with stage("repetitions"):
         limits = found.borders * recurring.step
-        counted = _count(recurring, borders, labels, limits, preset)
-        known = labels >= 0
-        ends = fitted_ends(
-            recurring.features,
-            borders[:-1][known],
-            borders[1:][known],
-            labels[known],
-            [each.cuts for each in compress(counted, known)],
-            preset,
-        )
-        borders, activity = _tiled(len(rows), ends.starts, ends.stops)
-        primitives, repeated = _tiled(
-            len(rows), ends.firsts, ends.lasts, [borders, *(each.cuts for each in counted)]
-        )
-        own = np.append(own[known], np.nan)[activity]
-        clusters = clusters_of_repetitions(
-            _poses(recurring.features, preset.offsets),
-            primitives,
-            np.append(labels[known], -1)[repeated],
-            repeated,
-            preset,
-        )
-        labels = np.append(labels[known], -1)[activity]
+        repeating = _count(recurring, borders, labels, limits, preset)
+        segments = _repeated(recurring, borders, labels, own, repeating, preset)
+    with stage("occurrences"):
+        segments = _with_occurrences(recurring, segments, preset)
+    borders, labels, primitives = segments.borders, segments.labels, segments.primitives
     with stage("confidence"):
-        shown = evidence(recurring, preset, borders, labels, own, primitives, clusters >= 0)
+        repeats = segments.repeats
+        shown = evidence(recurring, preset, borders, labels, segments.own, primitives, repeats)
     return RecurrenceFound(
-        rows, recurring, preset, borders, labels, primitives, clusters, shown, narrow, timings
+        rows,
+        recurring,
+        preset,
+        borders,
+        labels,
+        primitives,
+        segments.clusters,
+        segments.not_periodic,
+        shown,
+        narrow,
+        timings,
     )
 
 
@@ -238,6 +234,60 @@ def _activities(
     first = np.concatenate([[True], labels[1:] != labels[:-1]])
     confidence = np.where(labels < 0, np.nan, confidence)
     return np.append(borders[first], n), labels[first], confidence[first]
+
+
+def _repeated(
+    recurring: Recurrence,
+    borders: Frames,
+    labels: Frames,
+    own: NDArray[np.float64],
+    repeating: Sequence[Repetitions],
+    preset: RecurrenceConstants,
+) -> Segments:
+    """Activities and their repetitions, with fitted ends."""
+    n, known = len(recurring.features), labels >= 0
+    ends = fitted_ends(
+        recurring.features,
+        borders[:-1][known],
+        borders[1:][known],
+        labels[known],
+        [each.cuts for each in compress(repeating, known)],
+        preset,
+    )
+    borders, activity = _tiled(n, ends.starts, ends.stops)
+    primitives, repeated = _tiled(
+        n, ends.firsts, ends.lasts, [borders, *(each.cuts for each in repeating)]
+    )
+    labels, own = np.append(labels[known], -1), np.append(own[known], np.nan)
+    clusters = clusters_of_repetitions(
+        _poses(recurring.features, preset.offsets), primitives, labels[repeated], repeated, preset
+    )
+    none = np.empty(0, np.int64)
+    return Segments(borders, labels[activity], own[activity], primitives, clusters, none)
+
+
+def _with_occurrences(
+    recurring: Recurrence, segments: Segments, preset: RecurrenceConstants
+) -> Segments:
+    """Occurrences for primitives in transitions, and in actions whose counts are not probable.
+
+    An action gives its repetitions up where occurrences explain more of it than these are
+    probable. Transitions that are no more than the ends of two activities are left alone.
+    """
+    borders, labels = segments.borders, segments.labels
+    parents, repeats, lengths = segments.parents, segments.repeats, np.diff(borders)
+    counts, _ = counted(
+        recurring.features, segments.primitives, parents, repeats, segments.own, preset
+    )
+    several = np.bincount(parents[repeats], minlength=len(labels)) > 1
+    sure = of_actions(probability(counts, preset.count_weights), lengths * several, labels)
+    ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
+    weak = (sure < preset.unsure_count) & ~ends
+    looked_at = np.repeat(weak, lengths)
+    found = occurrences(_poses(recurring.features, preset.offsets), looked_at, preset)
+    explained = of_actions(found.explained(borders), lengths, labels)
+    free = weak & ((labels < 0) | (explained > sure))
+    return placed(segments, found.within(borders, free), free)
 
 
 def _tiled(

@@ -25,6 +25,8 @@ Frames = NDArray[np.int64]
 
 # For pictures: neighbours per frame at most.
 PICTURED = 256
+# Activities that a note lists at most.
+LISTED = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +47,9 @@ class RecurrenceFound:
     primitives : (primitives + 1,) array
         Borders of the primitives, from 0 to n, those of activities included.
     clusters : (primitives,) array
-        Cluster of each, -1 where it is no repetition.
+        Cluster of each, -1 where it is neither repetition nor occurrence.
+    not_periodic : array of int
+        Actions whose primitives are occurrences.
     evidence : Evidence
         By which it is told how sure all that is.
     narrow : Recurrence
@@ -61,6 +65,7 @@ class RecurrenceFound:
     labels: Frames
     primitives: Frames
     clusters: Frames
+    not_periodic: Frames
     evidence: Evidence
     narrow: Recurrence
     timings: dict[str, float] = field(default_factory=dict)
@@ -103,5 +108,18 @@ class RecurrenceFound:
         )
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """A sentence for each cluster, count or border that is not sure, at most five."""
-        return doubts(columns, fps, self.preset)
+        """A sentence for each cluster, count or border that is not sure, at most five.
+
+        And one for the activities that are not periodic.
+        """
+        found = doubts(columns, fps, self.preset)
+        loose = (columns["level"] == "activity") & np.isin(columns["cluster"], self.not_periodic)
+        if loose.any():
+            spans = zip(columns["start_frame"][loose], columns["stop_frame"][loose], strict=True)
+            listed = [f"{start / fps:.2f} to {stop / fps:.2f} s" for start, stop in spans]
+            more = f" and {len(listed) - LISTED} more" if len(listed) > LISTED else ""
+            found.append(
+                f"not periodic: {', '.join(listed[:LISTED])}{more}; "
+                "their primitives are what recurs anywhere"
+            )
+        return found

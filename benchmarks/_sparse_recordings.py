@@ -1,0 +1,181 @@
+"""Sparse events: exercises of HDM05 at irregular times among walking and other movement.
+
+What people do now and then and never twice in a row: three exercises of one
+actor, four to six times each, every time another take of it as far as there
+are takes. Between two of them lies one second to five of other movement: walking
+(of subject 86, on the actor's skeleton), standing, or an exercise or activity
+that comes once in the whole recording.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from _recordings import ACTORS, exercises, subject_86
+from kineme.datasets.sequences import joined
+from kineme.recordings import Motion
+from kineme.recordings.operations import cut
+
+LOCOMOTION = ("jogLeftCircle4StepsRstart", "sneak2StepsLStart")
+TARGETS = 3
+OCCURRENCES = (4, 6)
+BETWEEN_S = (1.0, 5.0)
+WALKING, STANDING = 0.5, 0.2
+"""Shares of what lies between events; the rest is movement that comes once."""
+SWAY = 0.02
+"""Radians by which somebody who stands sways."""
+BLOCK_S = 0.5
+"""Of movement that is shuffled."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """One target: what it is, and its frames [start, stop)."""
+
+    name: str
+    start: int
+    stop: int
+
+
+@dataclass(frozen=True)
+class SparseCase:
+    """A recording and its targets."""
+
+    name: str
+    motion: Motion
+    events: tuple[Event, ...]
+
+
+def sparse_events(seeds: int) -> Iterator[SparseCase]:
+    """Recordings with sparse events, actors in turn."""
+    for seed in range(seeds):
+        actor = ACTORS[seed % len(ACTORS)]
+        motion, events = _recording(actor, np.random.default_rng(seed))
+        yield SparseCase(f"{actor} {seed}", motion, events)
+
+
+def shuffled(motion: Motion, seed: int) -> Motion:
+    """The movement of a recording in blocks of half a second, in random order.
+
+    Every other block runs backwards in time.
+    """
+    rng = np.random.default_rng(seed)
+    length = round(BLOCK_S * motion.fps)
+    blocks = [cut(motion, at, at + length) for at in range(0, motion.n_frames - length, length)]
+    order = rng.permutation(len(blocks)).tolist()
+    turned = [_backwards(blocks[b]) if i % 2 else blocks[b] for i, b in enumerate(order)]
+    return joined(turned, BLOCK_S / 3)[0]
+
+
+def _recording(actor: str, rng: np.random.Generator) -> tuple[Motion, tuple[Event, ...]]:
+    takes = _takes(actor)
+    names = [name for name in sorted(takes) if name not in LOCOMOTION]
+    targets = rng.permutation(names)[:TARGETS].tolist()
+    order = [
+        (name, take)
+        for name in targets
+        for take in _draw(takes[name], int(rng.integers(OCCURRENCES[0], OCCURRENCES[1] + 1)), rng)
+    ]
+    singles = [takes[name][0] for name in sorted(takes) if name not in targets]
+    singles = [singles[i] for i in rng.permutation(len(singles))] + [
+        _others(actor)[i] for i in rng.permutation(len(_others(actor)))
+    ]
+    parts = [_between(actor, singles, rng)]
+    marked = []
+    for i in rng.permutation(len(order)).tolist():
+        name, take = order[i]
+        marked.append((len(parts), name))
+        parts += [take, _between(actor, singles, rng)]
+    motion, starts, _ = joined(parts)
+    events = (Event(name, int(starts[i]), int(starts[i + 1])) for i, name in marked)
+    return motion, tuple(events)
+
+
+def _between(actor: str, singles: list[Motion], rng: np.random.Generator) -> Motion:
+    """Movement that is no target; what comes once is taken from the list."""
+    kind, seconds = rng.random(), float(rng.uniform(*BETWEEN_S))
+    if kind < WALKING or (kind >= WALKING + STANDING and not singles):
+        return _piece(_walks(actor)[int(rng.integers(len(_walks(actor))))], seconds, rng)
+    if kind < WALKING + STANDING:
+        stood = _takes(actor)["squat1Reps"]
+        return _standing(stood[int(rng.integers(len(stood)))], seconds, rng)
+    return _piece(singles.pop(), BETWEEN_S[1], rng)
+
+
+def _piece(motion: Motion, seconds: float, rng: np.random.Generator) -> Motion:
+    length = min(round(seconds * motion.fps), motion.n_frames)
+    start = int(rng.integers(motion.n_frames - length + 1))
+    return cut(motion, start, start + length)
+
+
+def _standing(motion: Motion, seconds: float, rng: np.random.Generator) -> Motion:
+    """The first pose of a motion held, swaying."""
+    from scipy.spatial.transform import Rotation
+
+    n = round(seconds * motion.fps)
+    pose = np.array(motion.rotations)[0]
+    rates, phases = rng.uniform(0.1, 0.5, (2, len(pose), 3)) * [[[1]], [[20]]]
+    angles = SWAY * np.sin(2 * np.pi * rates * np.arange(n)[:, None, None] / motion.fps + phases)
+    still = Rotation.from_quat(np.roll(np.tile(pose, (n, 1)), -1, -1))
+    swaying = still * Rotation.from_rotvec(angles.reshape(-1, 3))
+    rotations = np.roll(swaying.as_quat(), 1, -1).reshape(n, *pose.shape)
+    root = np.repeat(motion.positions[:1, 0], n, axis=0)
+    return Motion.from_rotations(motion.skeleton, rotations, motion.fps, root)
+
+
+def _backwards(motion: Motion) -> Motion:
+    rotations = np.array(motion.rotations)[::-1]
+    root = motion.positions[::-1, 0]
+    return Motion.from_rotations(motion.skeleton, rotations, motion.fps, root)
+
+
+def _draw(takes: list[Motion], count: int, rng: np.random.Generator) -> list[Motion]:
+    """So many of the takes, none twice before each came once."""
+    order = rng.permutation(len(takes))
+    return [takes[order[i % len(takes)]] for i in range(count)]
+
+
+@cache
+def _takes(actor: str) -> dict[str, list[Motion]]:
+    takes: dict[str, list[Motion]] = {}
+    for exercise in exercises(actor):
+        takes.setdefault(exercise.name, []).append(exercise.motion)
+    return takes
+
+
+@cache
+def _walks(actor: str) -> list[Motion]:
+    return [motion for name, motion in _retold(actor) if name == "walk"]
+
+
+@cache
+def _others(actor: str) -> list[Motion]:
+    """One stretch of each activity of subject 86 but walking."""
+    return list({name: motion for name, motion in _retold(actor) if name != "walk"}.values())
+
+
+@cache
+def _retold(actor: str) -> list[tuple[str, Motion]]:
+    """The activities of subject 86, by name, on the skeleton of an actor."""
+    skeleton = next(iter(_takes(actor).values()))[0].skeleton
+    height = skeleton_height(next(iter(_takes(actor).values()))[0])
+    found = []
+    for case in subject_86():
+        motion, truth = case.motion, case.truth
+        ratio = motion.fps / truth.fps
+        starts = np.append(0, truth.latest) * ratio
+        stops = np.append(truth.earliest, truth.frames) * ratio
+        root = motion.positions[:, 0] * height / skeleton_height(motion)
+        told = Motion.from_rotations(skeleton, motion.rotations, motion.fps, root)
+        for name, start, stop in zip(truth.labels, starts, stops, strict=True):
+            found.append((name, cut(told, int(start), min(int(stop), told.n_frames))))
+    return found
+
+
+def skeleton_height(motion: Motion) -> float:
+    """How high the root is most of the time."""
+    return float(np.median(motion.positions[:, 0, 1]))

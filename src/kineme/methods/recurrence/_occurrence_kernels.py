@@ -1,0 +1,224 @@
+"""Compiled loops over pairs of samples: warping paths anywhere, and the sets that they make.
+
+A pair of samples scores ``1 - distance² / scale²`` less what stillness costs, a
+path the sum over its pairs; a step that passes over a sample counts its pair one
+and a half times. Naive twins are in ``tests/naive.py``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from kineme._compiled import OPTIONS
+
+SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
+
+
+@njit("float64(float64[:, ::1], float64[::1], int64, int64, float64, float64)", **SUMS)
+def pair_score(samples, costs, i, j, scale, worst):
+    """1 where two samples are equal, falling with the square of their distance to ``worst``."""
+    square = 0.0
+    for d in range(samples.shape[1]):
+        difference = samples[i, d] - samples[j, d]
+        square += difference * difference
+    return max(1 - square / (scale * scale) - (costs[i] + costs[j]) / 2, worst)
+
+
+@njit(
+    "Tuple((int64[:, ::1], float64[::1]))(float64[:, ::1], float64[::1], boolean[::1], int64,"
+    " int64, float64, float64, float64)",
+    **OPTIONS,
+)
+def local_paths(samples, costs, begins, gap, width, scale, worst, least):
+    """First and last pair (i, j, i, j) and score of the best path from each first pair.
+
+    Pairs are ``gap`` to ``width`` samples apart. A path steps by one sample on
+    both sides or by two on one of them, never into a sample that ``begins`` a
+    stretch, and goes on for as long as its score is above 0. Of those that score
+    ``least`` or more, one for each branch of each first pair is kept, at its best.
+    """
+    n = len(samples)
+    scores = np.zeros((3, n))
+    firsts = np.zeros((3, n), np.int64)
+    records = np.full((3, n), -1, np.int64)
+    found = [(0, 0, 0, 0, 0.0)]
+    for i in range(n):
+        row, one, two = i % 3, (i - 1) % 3, (i - 2) % 3
+        for j in range(max(i + gap - 3, 0), min(i + gap, n)):
+            scores[row, j] = 0
+        go, skip = i > 0 and not begins[i], i > 1 and not (begins[i] or begins[i - 1])
+        for j in range(i + gap, min(i + width + 1, n)):
+            score = pair_score(samples, costs, i, j, scale, worst)
+            best, first, record = score, i * n + j, np.int64(-1)
+            if go and not begins[j]:
+                before = scores[one, j - 1]
+                if before > 0 and before + score > best:
+                    best, first, record = before + score, firsts[one, j - 1], records[one, j - 1]
+                before = scores[one, j - 2]
+                if not begins[j - 1] and before > 0 and before + 1.5 * score > best:
+                    best, first = before + 1.5 * score, firsts[one, j - 2]
+                    record = records[one, j - 2]
+                before = scores[two, j - 1]
+                if skip and before > 0 and before + 1.5 * score > best:
+                    best, first = before + 1.5 * score, firsts[two, j - 1]
+                    record = records[two, j - 1]
+            scores[row, j] = max(best, 0)
+            firsts[row, j], records[row, j] = first, record
+            if best >= least:
+                if record < 0:
+                    records[row, j] = len(found)
+                    found.append((first // n, first % n, i, j, best))
+                elif best > found[record][4]:
+                    found[record] = (first // n, first % n, i, j, best)
+    ends = np.empty((len(found) - 1, 4), np.int64)
+    totals = np.empty(len(found) - 1)
+    for k in range(len(totals)):
+        ends[k, 0], ends[k, 1], ends[k, 2], ends[k, 3], totals[k] = found[k + 1]
+    return ends, totals
+
+
+@njit(
+    "Tuple((float64[::1], float64[::1], float64[::1], float64[::1]))(float64[:, ::1],"
+    " float64[::1], int64[::1], float64, float64)",
+    **OPTIONS,
+)
+def follow(samples, costs, ends, scale, worst):
+    """The best path between two pairs: its partner of each sample, and its score up to there.
+
+    Both seen from the first side and from the second.
+    """
+    i0, j0 = ends[0], ends[1]
+    rows, columns = ends[2] - i0 + 1, ends[3] - j0 + 1
+    scores = np.full((rows, columns), -np.inf)
+    steps = np.zeros((rows, columns), np.int8)
+    scores[0, 0] = pair_score(samples, costs, i0, j0, scale, worst)
+    for i in range(1, rows):
+        for j in range(max(1, (i - 1) // 2), min(columns, 2 * i + 2)):
+            score = pair_score(samples, costs, i0 + i, j0 + j, scale, worst)
+            scores[i, j], steps[i, j] = scores[i - 1, j - 1] + score, 1
+            if j > 1 and scores[i - 1, j - 2] + 1.5 * score > scores[i, j]:
+                scores[i, j], steps[i, j] = scores[i - 1, j - 2] + 1.5 * score, 2
+            if i > 1 and scores[i - 2, j - 1] + 1.5 * score > scores[i, j]:
+                scores[i, j], steps[i, j] = scores[i - 2, j - 1] + 1.5 * score, 3
+    partners, sums = np.empty(rows), np.empty(rows)
+    other_partners, other_sums = np.empty(columns), np.empty(columns)
+    i, j = rows - 1, columns - 1
+    while True:
+        partners[i] = j0 + j
+        other_partners[j] = i0 + i
+        sums[i] = other_sums[j] = scores[i, j]
+        if steps[i, j] == 0:
+            return partners, sums, other_partners, other_sums
+        if steps[i, j] == 1:
+            i, j = i - 1, j - 1
+        elif steps[i, j] == 2:
+            other_partners[j - 1] = i0 + i - 0.5
+            other_sums[j - 1] = (scores[i, j] + scores[i - 1, j - 2]) / 2
+            i, j = i - 1, j - 2
+        else:
+            partners[i - 1] = j0 + j - 0.5
+            sums[i - 1] = (scores[i, j] + scores[i - 2, j - 1]) / 2
+            i, j = i - 2, j - 1
+
+
+@njit(
+    "Tuple((float64, int64))(int64, int64, int64[::1], int64[::1], float64[::1], float64[::1],"
+    " int64[::1], int64[::1], boolean[::1], float64, int64[:, ::1], float64[::1])",
+    **OPTIONS,
+)
+def recurrences(
+    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
+):
+    """Where ``[start, stop)`` recurs, written to spans and gains: their sum and their number.
+
+    Each is the partner of what a path covers of it, ``cover`` at least; the
+    strongest come first, none reaches into another, into itself or into
+    samples that are not free.
+    """
+    length = stop - start
+    middle = (start + stop) // 2
+    candidates = row_paths[row_ptr[middle] : row_ptr[middle + 1]]
+    found = np.empty((len(candidates), 2), np.int64)
+    scores = np.empty(len(candidates))
+    n = 0
+    for path in candidates:
+        first = starts[path]
+        base = ptr[path] - first
+        low, high = max(start, first), min(stop, first + ptr[path + 1] - ptr[path])
+        while low < high and low > first and sums[base + low] <= sums[base + low - 1]:
+            low += 1
+        while high - 1 > low and sums[base + high - 1] <= sums[base + high - 2]:
+            high -= 1
+        if high - low < cover * length:
+            continue
+        score = sums[base + high - 1] - (sums[base + low - 1] if low > first else 0.0)
+        begin, end = round(partners[base + low]), round(partners[base + high - 1]) + 1
+        if score > 0 and (end <= start or begin >= stop) and 2 * (end - begin) >= length:
+            found[n, 0], found[n, 1], scores[n] = begin, end, score
+            n += 1
+    total, count = 0.0, 0
+    for k in np.argsort(-scores[:n], kind="mergesort"):
+        begin, end = found[k]
+        clear = 5 * free[begin:end].sum() >= 4 * (end - begin)
+        for other in range(count):
+            clear = clear and (end <= spans[other, 0] or begin >= spans[other, 1])
+        if clear:
+            spans[count, 0], spans[count, 1], gains[count] = begin, end, scores[k]
+            total += scores[k]
+            count += 1
+    return total, count
+
+
+@njit(
+    "Tuple((int64[:, ::1], float64[::1], int64[::1]))(int64[::1], int64[::1], int64[::1],"
+    " float64[::1], float64[::1], int64[::1], int64[::1], boolean[::1], float64)",
+    **OPTIONS,
+)
+def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, cover):
+    """Spans, gains and set of each occurrence: of all stretches the one that gains most, and so on.
+
+    Gains hardly ever rise as samples are taken, so that old ones do for all but the
+    best (lazy greedy, after Minoux 1978). Changes ``free``.
+    """
+    n = len(free)
+    spans, gains = np.empty((n, 2), np.int64), np.empty(n)
+    of_stretch = np.zeros((n, len(lengths)))
+    known = np.zeros((n, len(lengths)), np.int64)
+    best = np.zeros(n)
+    found = [(0, 0, 0.0, 0)]
+    rank = 0
+    for start in range(n):
+        for k in range(len(lengths)):
+            stop = start + lengths[k]
+            if stop <= n and free[start:stop].all():
+                of_stretch[start, k] = recurrences(
+                    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover,
+                    spans, gains,
+                )[0]  # fmt: skip
+        best[start] = of_stretch[start].max()
+    while n > 0 and best.max() > 0:
+        start = int(best.argmax())
+        k = int(of_stretch[start].argmax())
+        stop = start + lengths[k]
+        count = 0
+        total = 0.0
+        if free[start:stop].all():
+            total, count = recurrences(
+                start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans,
+                gains,
+            )  # fmt: skip
+        if known[start, k] == rank and count > 0:
+            found.append((start, stop, gains[:count].max(), rank))
+            free[start:stop] = False
+            for other in range(count):
+                found.append((spans[other, 0], spans[other, 1], gains[other], rank))
+                free[spans[other, 0] : spans[other, 1]] = False
+            rank += 1
+        of_stretch[start, k], known[start, k] = total, rank
+        best[start] = of_stretch[start].max()
+    places = np.empty((len(found) - 1, 2), np.int64)
+    scores, ranks = np.empty(len(places)), np.empty(len(places), np.int64)
+    for k in range(len(places)):
+        places[k, 0], places[k, 1], scores[k], ranks[k] = found[k + 1]
+    return places, scores, ranks

@@ -1,0 +1,193 @@
+"""Occurrences: stretches of movement that recur anywhere, whether or not back to back.
+
+What is looked at is not time but *movement time*: it goes by as fast as the body
+moves, hardly while it stands still, so that standing still twice is no event. A
+sample is a pose and its velocity, which nothing that merely passes the same pose
+shares: played backwards, no recording that was looked at recurs in itself.
+
+Two stretches match along a warping path, whose score is the time for which they
+are similar, in seconds of usual movement. A set is a stretch with all others that
+match it and do not overlap. Of all stretches the one whose matches score most is
+taken, then the next best of what is left (sets chosen greedily as in LoCoMotif,
+Van Wesenbeeck, Yurtman, Meert and Blockeel 2024; scores are ours).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.methods.recurrence import _occurrence_kernels as kernels
+from kineme.methods.segments import by_first_appearance
+
+if TYPE_CHECKING:
+    from kineme.methods.recurrence.constants import RecurrenceConstants
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+# Lengths of stretches that are tried, between the shortest and the longest.
+LENGTHS = 24
+# What a pair of samples scores at least, however far they are apart.
+WORST = -2.0
+
+
+@dataclass(frozen=True, eq=False)
+class Occurrences:
+    """Stretches that recur, in time order; none overlaps another.
+
+    Attributes
+    ----------
+    starts, stops : (occurrences,) array of int
+        Frames of the working rate.
+    clusters : (occurrences,) array of int
+        Equal numbers recur as each other; from 0 by first appearance.
+    similarity : (occurrences,) array
+        How similar each is to the one that stands for its set, 0 to 1.
+    """
+
+    starts: Ints
+    stops: Ints
+    clusters: Ints
+    similarity: Floats
+
+    def __len__(self) -> int:
+        return len(self.starts)
+
+    def explained(self, borders: Ints) -> Floats:
+        """The share of each segment that recurs, by how similarly: 0 to 1."""
+        lengths = (self.stops - self.starts) * self.similarity
+        inside = np.bincount(self._segments(borders), lengths, len(borders) - 1)
+        return inside / np.diff(borders)
+
+    def within(self, borders: Ints, wanted: NDArray[np.bool_]) -> Occurrences:
+        """Those with their middle in a segment that is wanted, as long as they recur there."""
+        kept = wanted[self._segments(borders)]
+        kept &= np.bincount(self.clusters[kept], minlength=len(self))[self.clusters] > 1
+        clusters = by_first_appearance(self.clusters[kept])
+        return Occurrences(self.starts[kept], self.stops[kept], clusters, self.similarity[kept])
+
+    def _segments(self, borders: Ints) -> Ints:
+        middles = (self.starts + self.stops) // 2
+        segments: Ints = np.searchsorted(borders, middles, side="right") - 1
+        return segments
+
+
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """Frames at equal steps of movement time.
+
+    Attributes
+    ----------
+    rows : (samples, dims) array
+        Poses and velocities.
+    edges : (samples, 2) array
+        First frame of each sample, and one past its last.
+    seconds : (samples,) array
+        How long each lasts, in steps: 1 where the body moves as fast as usual.
+    begins : (samples,) array of bool
+        Whether it follows something that is not looked at.
+    """
+
+    rows: Floats
+    edges: Ints
+    seconds: Floats
+    begins: NDArray[np.bool_]
+
+
+def occurrences(
+    poses: NDArray[np.floating], free: NDArray[np.bool_], preset: RecurrenceConstants
+) -> Occurrences:
+    """What recurs among the frames that are free.
+
+    Parameters
+    ----------
+    poses : (frames, dims) array
+        At the working rate, in body sizes, without their neighbours in time.
+    free : (frames,) array of bool
+        Where to look.
+    preset : RecurrenceConstants
+
+    Returns
+    -------
+    Occurrences
+    """
+    per_second = preset.working_fps / preset.step
+    samples = _samples(np.asarray(poses, np.float64), free, preset)
+    if len(samples.rows) < 2:
+        none = np.empty(0, np.int64)
+        return Occurrences(none, none, none, np.empty(0))
+    costs = preset.event_cost * samples.seconds
+    shortest = max(1, preset.samples(preset.min_event))
+    ends, _ = kernels.local_paths(
+        samples.rows,
+        costs,
+        samples.begins,
+        shortest,
+        preset.samples(preset.event_window),
+        preset.event_scale,
+        WORST,
+        preset.event_link * preset.min_recurrence * per_second,
+    )
+    longest = max(shortest, preset.samples(preset.max_event))
+    lengths = np.unique(np.geomspace(shortest, longest, LENGTHS).round().astype(np.int64))
+    spans, scores, ranks = kernels.best_sets(
+        lengths,
+        *_flat_paths(samples, costs, ends, preset.event_scale),
+        np.ones(len(samples.rows), np.bool_),
+        preset.event_cover,
+    )
+    strongest = np.zeros(len(ranks))
+    np.maximum.at(strongest, ranks, scores)
+    sure = strongest[ranks] >= preset.min_recurrence * per_second
+    order = np.flatnonzero(sure)[np.argsort(spans[sure, 0])]
+    spans, ranks = spans[order], ranks[order]
+    similarity = np.clip(scores[order] / np.maximum(np.diff(spans)[:, 0], 1), 0, 1)
+    starts, stops = samples.edges[spans[:, 0], 0], samples.edges[spans[:, 1] - 1, 1]
+    stops[:-1] = np.minimum(stops[:-1], starts[1:])
+    return Occurrences(starts, stops, by_first_appearance(ranks), similarity)
+
+
+def _samples(poses: Floats, free: NDArray[np.bool_], preset: RecurrenceConstants) -> _Samples:
+    """The free frames at equal steps of movement time."""
+    n, step = len(poses), preset.step
+    frames = np.arange(n)
+    before, after = np.maximum(frames - 1, 0), np.minimum(frames + 1, n - 1)
+    elapsed = np.maximum(after - before, 1)[:, None] / preset.working_fps
+    velocities = (poses[after] - poses[before]) / elapsed
+    speeds = np.linalg.norm(velocities, axis=1)
+    usual = speeds.mean()
+    if usual * preset.max_event < preset.event_scale:  # nobody moves: all is one pose
+        free = np.zeros(n, np.bool_)
+    rates = preset.event_rest + (1 - preset.event_rest) * speeds / max(usual, 1e-12)
+    time = np.append(0, np.cumsum(rates))
+    at = np.interp(np.arange(0, time[-1], step), time, np.arange(n + 1))
+    edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
+    edges = np.column_stack([edges[:-1], edges[1:]])
+    kept = np.flatnonzero(free[edges[:, 0]])
+    begins = np.diff(kept, prepend=-2) > 1
+    rows = np.hstack([poses, preset.event_velocity * velocities])[edges[kept, 0]]
+    seconds = np.diff(at, append=n)[kept] / step
+    return _Samples(np.ascontiguousarray(rows), edges[kept], seconds, begins)
+
+
+def _flat_paths(
+    samples: _Samples, costs: Floats, ends: Ints, scale: float
+) -> tuple[Ints, Ints, Floats, Floats, Ints, Ints]:
+    """Paths seen from either side: first samples, partners, sums, and the paths of each sample."""
+    starts, partners, sums = [], [np.empty(0)], [np.empty(0)]
+    for each in ends:
+        forth, forth_sums, back, back_sums = kernels.follow(samples.rows, costs, each, scale, WORST)
+        starts += [each[0], each[1]]
+        partners += [forth, back]
+        sums += [forth_sums, back_sums]
+    sizes = np.array([len(each) for each in partners[1:]], np.int64)
+    ptr = np.append(0, np.cumsum(sizes))
+    first = np.array(starts, np.int64)
+    rows = np.repeat(first - ptr[:-1], sizes) + np.arange(ptr[-1])
+    row_paths = np.repeat(np.arange(len(sizes)), sizes)[np.argsort(rows, kind="stable")]
+    row_ptr = np.append(0, np.cumsum(np.bincount(rows, minlength=len(samples.rows))))
+    return first, ptr, np.concatenate(partners), np.concatenate(sums), row_ptr, row_paths

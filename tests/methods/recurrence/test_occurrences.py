@@ -1,0 +1,202 @@
+"""Occurrences: what recurs is found wherever it is, and nothing else is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import hypothesis.strategies as st
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+import naive
+from kineme.methods.recurrence import _occurrence_kernels as kernels
+from kineme.methods.recurrence.analysis import analyze_actions
+from kineme.methods.recurrence.occurrences import Occurrences, occurrences
+from kineme.methods.recurrence.preset import KINEME
+
+seconds = settings(max_examples=40)
+
+
+@st.composite
+def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Samples, what they cost, and where a stretch begins."""
+    n = draw(st.integers(2, 24))
+    rng = np.random.default_rng(draw(st.integers(0, 99)))
+    samples = rng.integers(0, 3, (n, 2)) / 2 + rng.normal(0, 1e-3, (n, 2))
+    begins = rng.random(n) < draw(st.sampled_from([0.0, 0.1]))
+    begins[0] = True
+    return samples, rng.uniform(0, 0.3, n), begins
+
+
+@given(walks(), st.integers(1, 4), st.integers(4, 30), st.sampled_from([0.5, 2.0]))
+@seconds
+def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
+    samples, costs, begins = walk
+    ends, scores = kernels.local_paths(samples, costs, begins, gap, width, 0.8, -2.0, least)
+    found: dict[tuple[int, int], float] = {}
+    for (i, j, *_), score in zip(ends.tolist(), scores, strict=True):
+        found[i, j] = max(found.get((i, j), 0), score)
+    best = naive.local_path_scores(samples, costs, begins, gap, width, 0.8, -2.0)
+    assert found == pytest.approx({first: s for first, s in best.items() if s >= least})
+
+
+@given(walks())
+@seconds
+def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
+    samples, costs, begins = walk
+    ends, scores = kernels.local_paths(samples, costs, begins, 1, 30, 0.8, -2.0, 1.0)
+    for each, score in zip(ends, scores, strict=True):
+        partners, sums, other_partners, other_sums = kernels.follow(samples, costs, each, 0.8, -2.0)
+        expected = naive.followed_score(samples, costs, each.tolist(), 0.8, -2.0)
+        assert sums[-1] == pytest.approx(expected)
+        assert other_sums[-1] == pytest.approx(expected)
+        assert expected >= score - 1e-9
+        assert partners[[0, -1]].tolist() == [each[1], each[3]]
+        assert other_partners[[0, -1]].tolist() == [each[0], each[2]]
+        assert (np.diff(partners) > 0).all()
+
+
+def paths_of(rng: np.random.Generator, n: int) -> list[tuple[int, np.ndarray, np.ndarray]]:
+    paths = []
+    for _ in range(12):
+        length = int(rng.integers(2, n // 2))
+        first, other = rng.integers(0, n - length, 2)
+        scores = rng.uniform(-0.3, 1, length)
+        paths.append((int(first), other + np.arange(length, dtype=float), scores.cumsum()))
+    return paths
+
+
+@given(st.integers(0, 10_000))
+@seconds
+def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> None:
+    rng = np.random.default_rng(seed)
+    n, cover = 30, 0.8
+    paths = paths_of(rng, n)
+    free = np.ones(n, np.bool_)
+    starts = np.array([first for first, _, _ in paths])
+    sizes = np.array([len(sums) for _, _, sums in paths])
+    ptr = np.append(0, np.cumsum(sizes))
+    rows = np.concatenate([first + np.arange(len(sums)) for first, _, sums in paths])
+    row_paths = np.repeat(np.arange(len(paths)), sizes)[np.argsort(rows, kind="stable")]
+    row_ptr = np.append(0, np.cumsum(np.bincount(rows, minlength=n)))
+    flat = [np.concatenate([path[k] for path in paths]) for k in (1, 2)]
+    lengths = np.array([3, 5, 8])
+    spans, gains = np.empty((n, 2), np.int64), np.empty(n)
+    totals = {}
+    for start in range(n):
+        for stop in start + lengths[start + lengths <= n]:
+            total, count = kernels.recurrences(
+                start, stop, starts, ptr, *flat, row_ptr, row_paths, free, cover, spans, gains
+            )
+            expected = naive.recurrences_of(start, stop, paths, free, cover)
+            assert [tuple(span) for span in spans[:count].tolist()] == [e[:2] for e in expected]
+            assert total == pytest.approx(sum(gain for *_, gain in expected))
+            totals[start, int(stop)] = total
+    places, _, ranks = kernels.best_sets(
+        lengths, starts, ptr, *flat, row_ptr, row_paths, free, cover
+    )
+    if len(places):
+        assert totals[tuple(places[0].tolist())] == max(totals.values())
+    assert (np.diff(ranks) >= 0).all()
+
+
+def wandering(rng: np.random.Generator, n: int) -> np.ndarray:
+    """Movement that hardly ever comes back: body sizes, 30 frames a second."""
+    noise = rng.normal(0, 1, (n + 60, 6))
+    window = np.hanning(45)
+    smooth = [np.convolve(column, window / np.linalg.norm(window), "valid") for column in noise.T]
+    return 0.3 * np.column_stack(smooth)[:n]
+
+
+def with_gestures(seed: int, places: list[int]) -> np.ndarray:
+    """A gesture of 40 frames at some places of such movement, begun and ended at one pose."""
+    rows = wandering(np.random.default_rng(seed), 900)
+    angle = np.linspace(0, 2 * np.pi, 40)
+    gesture = 0.3 * np.column_stack([np.sin(k * angle) for k in (1, 2, 1, 3, 1, 2)])
+    away = np.ones((len(rows), 1))
+    for place in places:
+        far = np.abs(np.arange(len(rows)) - place - 19.5) - 19.5
+        away = np.minimum(away, np.clip(far / 15, 0, 1)[:, None])
+    rows *= away
+    for place in places:
+        rows[place : place + 40] = gesture
+    return rows
+
+
+def found_in(rows: np.ndarray, free: np.ndarray | None = None) -> Occurrences:
+    everywhere = np.ones(len(rows), np.bool_)
+    return occurrences(rows, everywhere if free is None else free, KINEME)
+
+
+def test_a_gesture_made_now_and_then_is_one_cluster() -> None:
+    places = [100, 310, 555, 790]
+    found = found_in(with_gestures(1, places))
+    assert found.clusters.tolist() == [0, 0, 0, 0]
+    assert np.abs(found.starts - places).max() <= 6
+    assert np.abs(found.stops - places - 40).max() <= 6
+    assert (found.similarity > 0.3).all()
+
+
+def test_what_is_not_free_is_not_looked_at() -> None:
+    rows = with_gestures(2, [100, 310, 555])
+    free = np.ones(len(rows), np.bool_)
+    free[300:360] = False
+    found = found_in(rows, free)
+    assert len(found) == 2
+    assert found.stops[0] <= 300
+    assert found.starts[1] >= 360
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_movement_that_never_comes_back_has_no_occurrences(seed) -> None:
+    assert len(found_in(wandering(np.random.default_rng(seed), 900))) == 0
+
+
+def stacked(rows: np.ndarray) -> np.ndarray:
+    """Features of the method: each pose with those before and after, scaled."""
+    shifts = [round(offset * KINEME.working_fps) for offset in KINEME.offsets]
+    places = np.arange(len(rows)) + np.array(shifts)[:, None]
+    return np.hstack(rows[places.clip(0, len(rows) - 1)]) / len(shifts) ** 0.5
+
+
+def test_gestures_are_primitives_where_nothing_is_counted() -> None:
+    places = [100, 310, 555, 790]
+    found = analyze_actions(stacked(with_gestures(1, places)), KINEME)
+    occurring = found.clusters > found.labels.max()
+    assert np.abs(found.primitives[:-1][occurring] - places).max() <= 6
+    assert (found.clusters[~occurring] < 0).all()
+    columns = found.columns()
+    assert np.isnan(columns["score"][columns["level"] == "primitive"]).all()
+
+
+def test_what_is_counted_for_sure_keeps_its_repetitions() -> None:
+    angle = 2 * np.pi * np.arange(600) / 45
+    rows = 0.3 * np.column_stack([np.sin(k * angle + k) for k in (1, 2, 1, 3, 1, 2)])
+    found = analyze_actions(stacked(rows), KINEME)
+    assert np.abs(np.diff(found.primitives)[found.clusters == 0] - 45).max() <= 4
+    assert found.clusters.max() == 0
+    assert found.not_periodic.size == 0
+    assert found.doubts(found.columns(), 30.0) == []
+
+
+def test_a_note_says_what_is_not_periodic() -> None:
+    found = analyze_actions(
+        np.tile(stacked(wandering(np.random.default_rng(0), 90)), (6, 1)), KINEME
+    )
+    loose = replace(found, not_periodic=np.array([0]))
+    notes = loose.doubts(loose.columns(), 30.0)
+    assert "not periodic: 0.00 to 18.00 s; their primitives are what recurs anywhere" in notes
+
+
+def test_standing_still_does_not_recur() -> None:
+    rng = np.random.default_rng(0)
+    assert len(found_in(rng.normal(0, 1e-4, (900, 6)))) == 0
+    assert len(found_in(np.zeros((900, 6)))) == 0
+    assert len(found_in(np.zeros((1, 6)))) == 0
+
+
+def test_backwards_is_another_movement() -> None:
+    rows = with_gestures(3, [100, 400])
+    rows[400:440] = rows[400:440][::-1]
+    assert len(found_in(rows)) == 0

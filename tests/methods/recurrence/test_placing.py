@@ -1,0 +1,85 @@
+"""Occurrences in their place: nothing is cut, periodic activities keep their repetitions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from kineme.methods.recurrence.occurrences import Occurrences
+from kineme.methods.recurrence.placing import Segments, of_actions, placed
+
+BORDERS = np.array([0, 100, 130, 300, 400])
+LABELS = np.array([0, -1, 1, 0])
+
+
+def segments() -> Segments:
+    """An activity of two repetitions, a transition, an activity of one, and the first again."""
+    return Segments(
+        BORDERS,
+        LABELS,
+        np.array([0.9, np.nan, 0.8, 0.7]),
+        np.array([0, 50, 100, 130, 300, 400]),
+        np.array([0, 0, -1, 1, 0]),
+        np.empty(0, np.int64),
+    )
+
+
+def occurring(*spans: tuple[int, int]) -> Occurrences:
+    starts, stops = np.array(spans, np.int64).reshape(-1, 2).T
+    return Occurrences(starts, stops, np.zeros(len(spans), np.int64), np.full(len(spans), 0.5))
+
+
+FREE = np.array([False, True, True, False])
+
+
+def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
+    found = placed(segments(), occurring((140, 180), (220, 260)), FREE)
+    assert found.primitives.tolist() == [0, 50, 100, 130, 140, 180, 220, 260, 300, 400]
+    assert found.clusters.tolist() == [0, 0, -1, -1, 2, -1, 2, -1, 0]
+    assert found.repeats.tolist() == [True, True] + 6 * [False] + [True]
+    assert found.borders.tolist() == BORDERS.tolist()
+    assert found.not_periodic.tolist() == [1]
+
+
+def test_without_occurrences_a_free_activity_has_no_primitive() -> None:
+    found = placed(segments(), occurring(), FREE)
+    assert found.clusters.tolist() == [0, 0, -1, -1, 0]
+
+
+def test_numbers_go_on_after_repetitions_that_are_another_movement() -> None:
+    parts = replace(segments(), clusters=np.array([0, 3, -1, 2, 0]))
+    found = placed(parts, occurring((140, 180), (220, 260)), FREE)
+    assert found.clusters.tolist() == [0, 2, -1, -1, 3, -1, 3, -1, 0]
+    untouched = placed(parts, occurring(), np.zeros(4, np.bool_))
+    assert untouched.clusters.tolist() == [0, 2, -1, 3, 0]
+    assert untouched.not_periodic.size == 0
+
+
+def test_borders_go_to_the_nearer_end_of_an_occurrence() -> None:
+    found = placed(segments(), occurring((120, 180), (220, 260)), FREE)
+    assert found.borders.tolist() == [0, 100, 120, 300, 400]
+    found = placed(segments(), occurring((100, 135), (220, 260)), FREE)
+    assert found.borders.tolist() == [0, 100, 135, 300, 400]
+
+
+def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
+    found = placed(segments(), occurring((100, 270), (280, 300)), FREE)
+    assert found.borders.tolist() == [0, 100, 300, 400]
+    assert found.labels.tolist() == [0, 1, 0]
+    assert found.clusters.tolist() == [0, 0, 2, -1, 2, 0]
+
+
+def test_shares_are_those_of_actions() -> None:
+    shares = np.array([0.8, np.nan, 0.5, 0.2])
+    found = of_actions(shares, np.diff(BORDERS), LABELS)
+    np.testing.assert_allclose(found, [0.5, 0, 0.5, 0.5])
+    found = of_actions(shares, np.diff(BORDERS) * [True, True, False, False], LABELS)
+    np.testing.assert_allclose(found, [0.8, 0, 0, 0.8])
+
+
+def test_occurrences_within_some_segments_recur_there() -> None:
+    found = occurring((140, 180), (220, 260), (310, 350))
+    kept = found.within(BORDERS, FREE)
+    assert kept.starts.tolist() == [140, 220]
+    assert not len(occurring((140, 180), (310, 350)).within(BORDERS, FREE))
