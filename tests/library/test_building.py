@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Generator
 from pathlib import Path
 
 import pytest
@@ -117,6 +118,26 @@ def test_recordings_of_one_name_are_told_apart_and_keep_their_names(
 def test_the_number_of_processes_changes_no_byte(built: Path, takes: Path, tmp_path: Path) -> None:
     build(takes, tmp_path / "library", jobs=2)
     assert contents(tmp_path / "library") == contents(built)
+
+
+def test_few_small_files_are_left_to_one_process(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started = []
+
+    def pool(waiting: list[object], jobs: int) -> Generator[None, None, list[object]]:
+        waiting.clear()
+        started.append(jobs)
+        yield from ()
+        return []
+
+    monkeypatch.setattr(work_module, "_in_a_pool", pool)
+    for size in (10, work_module.PER_WORKER):
+        for name in "abcdefgh":
+            (tmp_path / name).write_bytes(b" " * size)
+        tasks = [work_module.Task(tmp_path / name, tmp_path, Settings()) for name in "abcdefgh"]
+        list(work_module.outcomes_of(tasks, 4))
+    assert started == [1, 4]
 
 
 def test_a_build_that_was_killed_goes_on_to_the_same_bytes(

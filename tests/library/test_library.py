@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import json
 import shutil
+import subprocess
+import sys
 from itertools import pairwise
 from pathlib import Path
 
@@ -15,6 +17,7 @@ import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.constants import VOCABULARY
+from kineme.library.layout import as_column
 from kineme.library.tables import DESCRIBED
 from kineme.matching import THRESHOLD
 from kineme.segments.table import COLUMNS
@@ -241,3 +244,22 @@ def test_columns_of_the_docs_are_those_of_the_tables() -> None:
 
 def test_words_are_joined_as_far_as_a_search_reaches() -> None:
     assert VOCABULARY.join == THRESHOLD
+
+
+def test_tables_are_made_and_read_without_pandas(folder: Path) -> None:
+    # It takes a third of a second to load, in each process of a build.
+    code = (
+        "import sys, kineme; library = kineme.Library(sys.argv[1]); library.name(0, 'walk');"
+        "[library.table(name) for name in ('segments', 'words', 'embeddings', 'clusters')];"
+        "print('pandas' in sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(folder)], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "False"
+
+
+def test_columns_hold_any_text_and_number_or_none() -> None:
+    for values, kind in ((["", "Zürich", "歩く\n"], str), ([3, -1], int), ([0.5], float)):
+        assert as_column(values, kind).to_pylist() == values
+        assert as_column([], kind).to_pylist() == []

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import shutil
-import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from kineme._checks import is_number
 from kineme._version import __version__
-from kineme.errors import ParameterError, WriteError
+from kineme.errors import ParameterError
 from kineme.library.constants import VOCABULARY
 from kineme.library.edits import read_edits
+from kineme.library.gathering import Progress, gather
 from kineme.library.layout import (
     HEAD,
     LOCK_EDITS,
     PIECES,
     SCHEMA,
-    SEEN,
     TABLES,
     arrow,
     held,
@@ -29,10 +28,15 @@ from kineme.library.layout import (
 from kineme.library.pieces import has_piece
 from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import Settings
-from kineme.library.sources import Glances, listed, names_of
+from kineme.library.sources import listed, names_of
 from kineme.library.tables import read_table, write_tables
 
-Progress = Callable[[str], None]
+Head = Mapping[str, Any]
+"""What ``library.json`` says; nothing where there is none yet."""
+Known = Mapping[Path, tuple[str, str]]
+"""Name and piece of recordings that the library has."""
+Entry = tuple[str, Path, str]
+"""A recording: its name, where it was read from, and its piece."""
 
 NOT_THERE = "there is no such file or folder"
 GONE = "is not there: its recordings are kept; --remove takes them out"
@@ -96,7 +100,7 @@ def build(
         How recordings are read and segmented; as the last time by default. Others than those mean
         that everything is done anew.
     jobs : int
-        Processes at once. With more than 1, a script must guard what it runs with
+        Processes at most. With more than 1, a script must guard what it runs with
         ``if __name__ == "__main__"``, as always with processes.
     progress : callable, optional
         Called with a sentence on how far it is.
@@ -135,24 +139,64 @@ def build(
         return _built(plan, head, int(jobs), progress or _silent)
 
 
-def _built(plan: Plan, head: dict[str, Any], jobs: int, progress: Progress) -> Built:
+def _built(plan: Plan, head: Head, jobs: int, progress: Progress) -> Built:
+    """The library brought up to date, for one that holds it."""
     progress("looking for recordings")
     before = _before(plan.folder, head)
     found = listed(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
     gone = [source for source in plan.sources if not source.exists()]
-    kept = {
-        path: source
-        for path in before
-        for source in gone
-        if path not in found and path.is_relative_to(source)
-    }
-    failed = dict.fromkeys(gone, GONE)
-    keys, new = _keys(plan, found, jobs, progress, failed)
-    keys |= {path: before[path][1] for path in kept if has_piece(plan.pieces, before[path][1])}
+    unseen = {path: known for path, known in before.items() if path not in found}
+    kept = _kept(plan, unseen, gone)
+    gathered = gather(plan, list(found), jobs, progress)
+    failed = dict.fromkeys(gone, GONE) | gathered.failed
+    keys = {path: plan.settings.key(digest) for path, digest in gathered.digests.items()}
+    keys |= {path: before[path][1] for path in kept}
     names = names_of(
         {path: source for path, source in {**found, **kept}.items() if path in keys},
         {path: name for path, (name, _) in before.items()},
     )
+    entries = sorted((name, path, keys[path]) for path, name in names.items())
+    with held(plan.folder, "build", LOCK_EDITS):
+        tables = _written(plan, head, before, entries, failed, progress)
+    _clean(plan.folder, {key for _, _, key in entries}, tables)
+    return Built(
+        plan.folder,
+        tuple(path for _, path, _ in entries),
+        gathered.new,
+        len(before.keys() - keys.keys()),
+        plan.recursive,
+        failed | dict.fromkeys(plan.missing, NOT_THERE),
+    )
+
+
+def _before(folder: Path, head: Head) -> Known:
+    """The recordings that the library has."""
+    if not head:
+        return {}
+    table = read_table(folder, head["tables"], "recordings")
+    columns = (table.column(name).to_pylist() for name in ("path", "recording", "piece"))
+    return {Path(path): (name, key) for path, name, key in zip(*columns, strict=True)}
+
+
+def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
+    """Recordings of sources that are gone, by source: as on a disk that is not there now."""
+    return {
+        path: source
+        for path, (_, key) in unseen.items()
+        for source in gone
+        if path.is_relative_to(source) and has_piece(plan.pieces, key)
+    }
+
+
+def _written(
+    plan: Plan,
+    head: Head,
+    before: Known,
+    entries: Sequence[Entry],
+    failed: Mapping[Path, str],
+    progress: Progress,
+) -> str:
+    """The name of the tables of these recordings, which the head of the library tells now."""
     wanted = {
         "schema": SCHEMA,
         "kineme": __version__,
@@ -162,91 +206,20 @@ def _built(plan: Plan, head: dict[str, Any], jobs: int, progress: Progress) -> B
         "vocabulary": dict(VOCABULARY.parameters()),
         "failed": {str(path): reason for path, reason in sorted(failed.items())},
     }
-    entries = sorted((name, path, keys[path]) for path, name in names.items())
     same = {path: (name, key) for name, path, key in entries} == before
-    with held(plan.folder, "build", LOCK_EDITS):
-        if same and all(head.get(name) == wanted[name] for name in ("kineme", "vocabulary")):
-            following, tables = head["following"], head["tables"]
-        else:
-            from kineme.library.compiling import compiled
+    if same and all(head.get(name) == wanted[name] for name in ("kineme", "vocabulary")):
+        following, tables = head["following"], head["tables"]
+    else:
+        from kineme.library.compiling import compiled
 
-            progress("clusters in common")
-            following = max(head.get("following", 0), read_edits(plan.folder).following)
-            made, following = compiled(plan.folder, entries, head.get("tables"), following)
-            tables = write_tables(plan.folder, made)
-        now = {**wanted, "following": following, "tables": tables}
-        if now != head:
-            write_json(plan.folder / HEAD, now)
-    _clean(plan.folder, {key for _, _, key in entries}, tables)
-    removed = len(before.keys() - keys.keys())
-    paths = tuple(path for _, path, _ in entries)
-    failed |= dict.fromkeys(plan.missing, NOT_THERE)
-    return Built(plan.folder, paths, new, removed, plan.recursive, failed)
-
-
-def _before(folder: Path, head: Mapping[str, Any]) -> dict[Path, tuple[str, str]]:
-    """Name and piece of each recording that the library has."""
-    if not head:
-        return {}
-    table = read_table(folder, head["tables"], "recordings")
-    columns = (table.column(name).to_pylist() for name in ("path", "recording", "piece"))
-    return {Path(path): (name, key) for path, name, key in zip(*columns, strict=True)}
-
-
-def _keys(
-    plan: Plan,
-    found: Mapping[Path, Path],
-    jobs: int,
-    progress: Progress,
-    failed: dict[Path, str],
-) -> tuple[dict[Path, str], int]:
-    """The piece of each recording, made where there is none; and how many were made."""
-    seen = read_json(plan.folder / SEEN)
-    glances = Glances(plan.settings.options().skeleton)
-    looks = {path: glances.at(path) for path in found}
-    digests: dict[Path, str] = {}
-    for path in found:
-        glance, digest = seen.get(str(path), ("", ""))
-        if glance and glance == looks[path] and has_piece(plan.pieces, plan.settings.key(digest)):
-            digests[path] = digest
-    waiting = [path for path in found if path not in digests]
-    new = _described(plan, waiting, jobs, progress, digests, failed) if waiting else 0
-    told = {str(path): [looks[path], digest] for path, digest in digests.items()}
-    if told != seen:
-        write_json(plan.folder / SEEN, told)
-    return {path: plan.settings.key(digest) for path, digest in digests.items()}, new
-
-
-def _described(
-    plan: Plan,
-    waiting: Sequence[Path],
-    jobs: int,
-    progress: Progress,
-    digests: dict[Path, str],
-    failed: dict[Path, str],
-) -> int:
-    """Make the pieces of recordings, note their digests or why there are none; how many are new."""
-    from kineme.library.work import Task, outcomes_of
-
-    tasks = [Task(path, plan.pieces, plan.settings) for path in waiting]
-    new = 0
-    started = time.monotonic()
-    for done, (task, outcome) in enumerate(outcomes_of(tasks, jobs), 1):
-        if outcome.fatal:
-            raise WriteError(plan.folder, outcome.error)
-        if outcome.error:
-            failed[task.path] = outcome.error
-        else:
-            digests[task.path] = outcome.digest
-        new += outcome.new
-        progress(_told(done, len(tasks), time.monotonic() - started))
-    return new
-
-
-def _told(done: int, of: int, seconds: float) -> str:
-    left = seconds / done * (of - done)
-    shown = f"{left:.0f} s" if left < 90 else f"{left / 60:.0f} min"
-    return f"{done} of {of}" + (f", {shown} left" if done < of else "")
+        progress("clusters in common")
+        following = max(head.get("following", 0), read_edits(plan.folder).following)
+        made, following = compiled(plan.folder, entries, head.get("tables"), following)
+        tables = write_tables(plan.folder, made)
+    now = {**wanted, "following": following, "tables": tables}
+    if now != head:
+        write_json(plan.folder / HEAD, now)
+    return str(tables)
 
 
 def _clean(folder: Path, keys: set[str], tables: str) -> None:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
-from numpy.typing import NDArray
 
-from kineme.library.edits import Edits
-from kineme.library.layout import arrow
-
-Columns = Mapping[str, NDArray[Any]]
+from kineme.errors import ParameterError
+from kineme.library.layout import arrow, as_column
+from kineme.library.opened import OpenTables
 
 
 class Cluster(NamedTuple):
@@ -73,35 +71,10 @@ class Word(NamedTuple):
     confidence: float
 
 
-def unsure_words(words: Columns, most: float) -> list[Word]:
-    """The words of least confidence, below ``most``, the least sure first.
-
-    Parameters
-    ----------
-    words : mapping of str to array
-        The table of a library, edits applied.
-    most : float
-    """
-    rows = np.flatnonzero((words["confidence"] < most) & (words["cluster"] != words["following"]))
-    rows = rows[np.argsort(words["confidence"][rows], kind="stable")]
-    columns = (words[name][rows].tolist() for name in Word._fields)
-    return [Word(*row) for row in zip(*columns, strict=True)]
-
-
-def clusters_of(
-    words: Columns, segments: Columns, vocabularies: Mapping[str, str], edits: Edits
-) -> list[Cluster]:
-    """The clusters, those of most seconds first.
-
-    Parameters
-    ----------
-    words, segments : mapping of str to array
-        The tables of a library, edits applied.
-    vocabularies : mapping of str to str
-        That of each recording.
-    edits : Edits
-        Names.
-    """
+def clusters_of(tables: OpenTables) -> list[Cluster]:
+    """The clusters of a library, those of most seconds first."""
+    words, segments, told = tables.columns("words"), tables.columns("segments"), tables.recordings
+    vocabularies = dict(zip(told["recording"], told["vocabulary"], strict=True))
     lasts = segments["stop_s"] - segments["start_s"]
     active = segments["kind"] == "activity"
     finer = segments["level"] == "primitive"
@@ -115,7 +88,7 @@ def clusters_of(
         found.append(
             Cluster(
                 number,
-                edits.name(number),
+                tables.edits.name(number),
                 vocabularies[recording],
                 len(set(words["recording"][own].tolist())),
                 int((rows & ~finer).sum()),
@@ -133,7 +106,43 @@ def clusters_of(
 def cluster_table(clusters: Sequence[Cluster]) -> Any:
     """The clusters as a pyarrow.Table."""
     pa, _ = arrow()
-    types = {int: pa.int64(), float: pa.float64(), str: pa.string()}
     hints = get_type_hints(Cluster)
-    schema = pa.schema([(name, types[hints[name]]) for name in Cluster._fields])
-    return pa.Table.from_pylist([cluster._asdict() for cluster in clusters], schema=schema)
+    return pa.table(
+        {
+            name: as_column([getattr(each, name) for each in clusters], hints[name])
+            for name in Cluster._fields
+        }
+    )
+
+
+def unsure_words(tables: OpenTables) -> list[Word]:
+    """The words that may as well be in another cluster, the least sure first."""
+    words, most = tables.columns("words"), tables.head["vocabulary"]["unsure"]
+    rows = np.flatnonzero((words["confidence"] < most) & (words["cluster"] != words["following"]))
+    rows = rows[np.argsort(words["confidence"][rows], kind="stable")]
+    columns = (words[name][rows].tolist() for name in Word._fields)
+    return [Word(*row) for row in zip(*columns, strict=True)]
+
+
+def numbers_of(tables: OpenTables, cluster: int | str) -> list[int]:
+    """The numbers of the clusters of that number or name, one at least.
+
+    Parameters
+    ----------
+    tables : OpenTables
+    cluster : int or str
+
+    Raises
+    ------
+    ParameterError
+        There is none.
+    """
+    there = sorted(set(tables.columns("words")["cluster"].tolist()))
+    edits, text = tables.edits, str(cluster)
+    found = [number for number in there if edits.name(number) == text]
+    if not found and text.isdecimal():
+        found = [number for number in there if number == edits.number(int(text))]
+    if not found:
+        names = ", ".join(edits.name(number) or str(number) for number in there[:20])
+        raise ParameterError(f"no cluster is called {text:.60}; there are {names or 'none'}")
+    return found

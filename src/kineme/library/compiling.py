@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.library.constants import VOCABULARY
-from kineme.library.layout import EMBEDDED, PIECES, arrow
+from kineme.library.layout import EMBEDDED, PIECES, arrow, as_array, as_column
 from kineme.library.numbering import Spans, lasting_numbers
 from kineme.library.pieces import Piece, read_piece
 from kineme.library.tables import read_table, table_of
@@ -132,7 +132,7 @@ def _before(folder: Path, before: str | None) -> dict[str, Spans]:
         return {}
     table = read_table(folder, before, "segments")
     names = ("recording", "level", "kind", "start_s", "stop_s", "cluster")
-    columns = {name: np.asarray(table.column(name).to_numpy()) for name in names}
+    columns = {name: as_array(table.column(name)) for name in names}
     first = np.unique(columns["recording"], return_index=True)[1]
     edges = [*np.sort(first).tolist(), len(table)]
     found = {}
@@ -197,7 +197,7 @@ def _embeddings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
         name: np.asarray(column)[embedded] if len(column) else column
         for name, column in _rows(entries, pieces).items()
     }
-    flat = pa.array(values[embedded].ravel().astype(np.float32))
+    flat = as_column(values[embedded].ravel(), np.float32)
     return {**rows, "embedding": pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)}
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
-from kineme.library.layout import EDITS, read_json, write_json
+from kineme.library.layout import EDITS, as_array, as_column, read_json, write_json
 
 SCHEMA = "kineme.library.edits/1"
 Ints = NDArray[np.int64]
@@ -159,14 +159,14 @@ def edited(table: Any, edits: Edits) -> Any:
     pyarrow.Table
         With ``label`` for ``cluster``, and ``action_label`` for ``action`` where there is one.
     """
-    recordings = np.asarray(table.column("recording").to_numpy())
+    recordings = as_array(table.column("recording"))
     for name, label in (("cluster", "label"), ("following", None), ("action", "action_label")):
         if name not in table.column_names:
             continue
-        clusters = edits.applied(table.column(name).to_numpy(), recordings)
-        table = table.set_column(table.column_names.index(name), name, [clusters])
+        clusters = edits.applied(as_array(table.column(name)), recordings)
+        table = table.set_column(table.column_names.index(name), name, as_column(clusters, int))
         if label is not None:
-            column = [_names(clusters, edits)]
+            column = _names(clusters, edits)
             at = table.column_names.index(name)
             table = (
                 table.set_column(table.column_names.index(label), label, column)
@@ -178,7 +178,8 @@ def edited(table: Any, edits: Edits) -> Any:
     return table
 
 
-def _names(clusters: Ints, edits: Edits) -> NDArray[Any]:
+def _names(clusters: Ints, edits: Edits) -> Any:
+    """The name of each cluster, as pyarrow has texts."""
     unique, inverse = np.unique(clusters, return_inverse=True)
-    names = np.array([edits.name(number) for number in unique.tolist()], dtype=object)
-    return names[inverse]
+    names = as_column([edits.name(number) for number in unique.tolist()], str)
+    return names.take(as_column(inverse, int))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,25 +13,13 @@ from kineme.errors import ParameterError, ReadError
 from kineme.formats import read
 from kineme.library.descriptions import Description, describe
 from kineme.library.layout import PIECES
+from kineme.library.opened import OpenTables
 from kineme.library.pieces import read_features
 from kineme.library.searching import Example
-from kineme.library.settings import Settings
 from kineme.recordings import Motion, Signals
 
 AnyPath = str | PathLike[str]
 Float32s = NDArray[np.float32]
-
-
-class Home(Protocol):
-    """What a library tells of its recordings."""
-
-    folder: Path
-
-    @property
-    def recordings(self) -> dict[str, list[Any]]: ...
-    @property
-    def settings(self) -> Settings: ...
-    def path_of(self, recording: str) -> Path: ...
 
 
 def as_examples(
@@ -55,13 +42,13 @@ def as_examples(
 
 
 def features_of(
-    library: Home, examples: Sequence[Example], *, mirror: bool = False
+    tables: OpenTables, examples: Sequence[Example], *, mirror: bool = False
 ) -> list[tuple[str, Float32s]]:
     """Vocabulary and features of each example, and of its mirror image.
 
     Parameters
     ----------
-    library : Home
+    tables : OpenTables
     examples : sequence of Example
     mirror : bool
         The mirror images, too.
@@ -76,7 +63,7 @@ def features_of(
     found = []
     for example in examples:
         for mirrored in (False, True)[: 1 + mirror]:
-            described = _description(library, example.recording, mirrored=mirrored)
+            described = _description(tables, example.recording, mirrored=mirrored)
             lasts = len(described.features) / described.fps
             stop_s = lasts if example.stop_s is None else min(example.stop_s, lasts)
             if example.start_s >= stop_s:
@@ -97,19 +84,19 @@ def one_vocabulary(wanted: Sequence[tuple[str, Float32s]]) -> str:
 
 
 def _description(
-    library: Home, recording: AnyPath | Motion | Signals, *, mirrored: bool
+    tables: OpenTables, recording: AnyPath | Motion | Signals, *, mirrored: bool
 ) -> Description:
     """The features of a recording, from the library where it is one of it."""
-    told, settings = library.recordings, library.settings
+    told, settings = tables.recordings, tables.settings
     if isinstance(recording, str) and not Path(recording).exists():
         if recording not in told["recording"]:
             raise ReadError(recording, "there is no such file, and no recording of that name")
         if not mirrored:
             row = told["recording"].index(recording)
-            features = read_features(library.folder / PIECES, told["piece"][row])
+            features = read_features(tables.folder / PIECES, told["piece"][row])
             known = Description(told["vocabulary"][row], features, told["features_fps"][row])
             return _comparable(known, recording)
-        recording = library.path_of(recording)
+        recording = tables.path_of(recording)
     seen = recording
     if not isinstance(seen, Motion | Signals):
         seen = read(seen, **settings.reading)

@@ -5,11 +5,14 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ReadError, WriteError
@@ -130,3 +133,34 @@ def arrow() -> tuple[Any, Any]:
     except ImportError as error:
         raise MissingDependencyError("pyarrow", EXTRA) from error
     return pa, parquet
+
+
+def as_array(column: Any) -> NDArray[Any]:
+    """A column of a pyarrow.Table as an array, of objects where it holds texts.
+
+    By way of DLPack: pyarrow's own way imports pandas.
+    """
+    pa, _ = arrow()
+    whole = column.combine_chunks()
+    if not pa.types.is_string(whole.type):
+        return np.from_dlpack(whole)
+    coded = whole.dictionary_encode()
+    texts = np.array(coded.dictionary.to_pylist(), dtype=object)
+    found: NDArray[Any] = texts[np.from_dlpack(coded.indices)]
+    return found
+
+
+def as_column(values: Iterable[Any], kind: type) -> Any:
+    """Texts, or numbers of a type, as a pyarrow.Array.
+
+    By way of buffers: pyarrow's own way imports pandas.
+    """
+    pa, _ = arrow()
+    if kind is str:
+        texts = [str(text).encode() for text in values]
+        ends = np.cumsum([0, *map(len, texts)], dtype=np.int32)
+        buffers = [None, pa.py_buffer(ends), pa.py_buffer(b"".join(texts))]
+        return pa.Array.from_buffers(pa.string(), len(texts), buffers)
+    numbers: NDArray[Any] = np.ascontiguousarray(values, kind)
+    type_ = pa.from_numpy_dtype(numbers.dtype)
+    return pa.Array.from_buffers(type_, len(numbers), [None, pa.py_buffer(numbers)])

@@ -12,10 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.errors import ReadError
+from kineme.errors import ParameterError, ReadError
+from kineme.formats import read
 from kineme.library.edits import Edits, edited, read_edits
-from kineme.library.layout import LOCK_EDITS, held, read_head
+from kineme.library.layout import LOCK_EDITS, as_array, held, read_head
+from kineme.library.settings import Settings
 from kineme.library.tables import DESCRIBED, read_table
+from kineme.recordings import Motion, Signals
 
 Columns = dict[str, NDArray[Any]]
 
@@ -30,13 +33,14 @@ class OpenTables:
 
     Attributes
     ----------
+    folder : Path
     head : dict
         What ``library.json`` says.
     edits : Edits
     """
 
     def __init__(self, folder: Path):
-        self._folder = folder
+        self.folder = folder
         self.head = read_head(folder)
         try:
             self._computed = self._read()
@@ -45,10 +49,33 @@ class OpenTables:
             self._computed = self._read()
         self._take(read_edits(folder))
 
+    @property
+    def settings(self) -> Settings:
+        """How its recordings are read and segmented."""
+        return Settings.from_json(self.head["settings"])
+
+    @cached_property
+    def recordings(self) -> dict[str, list[Any]]:
+        """The table of recordings by column."""
+        found: dict[str, list[Any]] = self.table("recordings").to_pydict()
+        return found
+
+    def path_of(self, recording: str) -> Path:
+        """The file that a recording of the library was read from."""
+        try:
+            row = self.recordings["recording"].index(recording)
+        except ValueError:
+            raise ParameterError(f"no recording is called {recording!r:.60}") from None
+        return Path(self.recordings["path"][row])
+
+    def read(self, recording: str) -> Motion | Signals:
+        """A recording of the library, read as it was when the library was built."""
+        return read(self.path_of(recording), **self.settings.reading)
+
     def table(self, name: str) -> Any:
         """A table, one of `kineme.library.tables.DESCRIBED`, as a pyarrow.Table."""
         if name not in self._computed:
-            self._computed[name] = read_table(self._folder, self.head["tables"], name)
+            self._computed[name] = read_table(self.folder, self.head["tables"], name)
         if name not in self._edited:
             self._edited[name] = edited(self._computed[name], self.edits)
         return self._edited[name]
@@ -58,7 +85,7 @@ class OpenTables:
         if name not in self._arrays:
             table = self.table(name)
             self._arrays[name] = {
-                column: np.asarray(table.column(column).to_numpy()) for column in table.column_names
+                column: as_array(table.column(column)) for column in table.column_names
             }
         return self._arrays[name]
 
@@ -66,7 +93,7 @@ class OpenTables:
     def rows(self) -> dict[str, tuple[int, int]]:
         """First row and end of the segments of each recording."""
         names = self.table("segments").column("recording").combine_chunks().dictionary_encode()
-        codes = names.indices.to_numpy()
+        codes = np.from_dlpack(names.indices)
         edges = [*np.flatnonzero(np.diff(codes, prepend=-1)).tolist(), len(codes)]
         called = names.dictionary.to_pylist()
         return {called[codes[a]]: (a, b) for a, b in pairwise(edges)}
@@ -74,13 +101,13 @@ class OpenTables:
     @contextmanager
     def editing(self) -> Iterator[None]:
         """A block in which `edits` are all that were made, and nobody else makes any."""
-        with held(self._folder, "try again", LOCK_EDITS):
-            self._take(read_edits(self._folder))
+        with held(self.folder, "try again", LOCK_EDITS):
+            self._take(read_edits(self.folder))
             yield
 
     def write(self, edits: Edits) -> None:
         """Keep edits, and go on with them."""
-        edits.write(self._folder)
+        edits.write(self.folder)
         self._take(edits)
 
     def _take(self, edits: Edits) -> None:
@@ -91,4 +118,4 @@ class OpenTables:
     def _read(self) -> dict[str, Any]:
         """All tables but the embeddings, which few need."""
         names = (name for name in DESCRIBED if name != "embeddings")
-        return {name: read_table(self._folder, self.head["tables"], name) for name in names}
+        return {name: read_table(self.folder, self.head["tables"], name) for name in names}

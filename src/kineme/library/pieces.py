@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.library.layout import EMBEDDED, arrow
-from kineme.segments.table import COLUMNS, SegmentTable
+from kineme.library.layout import EMBEDDED, arrow, as_array, as_column
+from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
 
 METADATA = b"kineme.library"
 
@@ -48,9 +48,13 @@ def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float
     pa, parquet = arrow()
     with atomic_write(folder / f"{key}.npy") as draft, draft.open("wb") as file:
         np.save(file, np.ascontiguousarray(features, np.float32), allow_pickle=False)
-    values = pa.array(piece.embeddings.ravel())
+    values = as_column(piece.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(values, EMBEDDED)
-    table = pa.table({**piece.table.columns(), "embedding": embeddings})
+    columns = {
+        name: as_column(column, DESCRIBED[name].type)
+        for name, column in piece.table.columns().items()
+    }
+    table = pa.table({**columns, "embedding": embeddings})
     told = json.dumps(piece.facts, sort_keys=True).encode()
     with atomic_write(folder / f"{key}.parquet") as draft:
         parquet.write_table(
@@ -77,7 +81,7 @@ def read_piece(folder: Path, key: str) -> Piece:
         table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
         facts = json.loads(table.schema.metadata[METADATA])
         columns = {name: _column(table, name) for name in COLUMNS}
-        flat = table.column("embedding").combine_chunks().flatten().to_numpy()
+        flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
     return Piece(facts, SegmentTable(**columns), flat.reshape(-1, EMBEDDED))
 
 
@@ -100,5 +104,5 @@ def read_features(folder: Path, key: str) -> NDArray[np.float32]:
 
 
 def _column(table: Any, name: str) -> NDArray[Any]:
-    column: NDArray[Any] = table.column(name).to_numpy()
+    column = as_array(table.column(name))
     return column.astype(np.str_) if column.dtype == object else column

@@ -32,6 +32,15 @@ def files_of(path: Path, skeleton: AnyPath | None) -> list[Path]:
         return [path]
 
 
+def size_of(path: Path) -> int:
+    """The bytes of a recording; 0 where they cannot be told."""
+    try:
+        files = path.iterdir() if path.is_dir() else [path]
+        return sum(file.stat().st_size for file in files)
+    except OSError:
+        return 0
+
+
 def content_digest(path: Path, skeleton: AnyPath | None) -> str:
     """SHA-256 of what a recording is read from, and of its suffix, which tells the format.
 

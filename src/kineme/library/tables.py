@@ -16,7 +16,7 @@ from typing import Any
 from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import WriteError
-from kineme.library.layout import EMBEDDED, TABLES, arrow
+from kineme.library.layout import EMBEDDED, TABLES, arrow, as_column
 from kineme.segments.table import DESCRIBED as SEGMENTS
 from kineme.segments.table import Column
 
@@ -62,16 +62,20 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
 
 
 def table_of(name: str, columns: Mapping[str, Any]) -> Any:
-    """A table of computed columns, a pyarrow.Table; of any number of rows, with none, too."""
+    """A table of computed columns, a pyarrow.Table; of any number of rows, with none, too.
+
+    Embeddings are a pyarrow.Array already.
+    """
     pa, _ = arrow()
-    types = {str: pa.string(), int: pa.int64(), float: pa.float64()}
-    schema = [
-        (column, pa.list_(pa.float32(), EMBEDDED) if column == "embedding" else types[known.type])
-        for column, known in DESCRIBED[name].items()
-        if column in columns
-    ]
-    held = {column: columns[column] if len(columns[column]) else [] for column, _ in schema}
-    return pa.table(held, schema=pa.schema(schema))
+    return pa.table(
+        {
+            column: columns[column]
+            if column == "embedding"
+            else as_column(columns[column], known.type)
+            for column, known in DESCRIBED[name].items()
+            if column in columns
+        }
+    )
 
 
 def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:

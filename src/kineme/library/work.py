@@ -24,10 +24,12 @@ from kineme.library.descriptions import describe
 from kineme.library.layout import EMBEDDED
 from kineme.library.pieces import Piece, has_piece, write_piece
 from kineme.library.settings import Settings
-from kineme.library.sources import content_digest
+from kineme.library.sources import content_digest, size_of
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.segmenter import segment
 
+PER_WORKER = 1 << 20
+"""Bytes of recordings for which one process more is started: a start costs seconds."""
 DIED = "the process that worked on it died: it may need more memory than there is"
 
 
@@ -70,7 +72,7 @@ def outcomes_of(tasks: Sequence[Task], jobs: int) -> Iterator[tuple[Task, Outcom
     ----------
     tasks : sequence of Task
     jobs : int
-        Processes at once; 1 stays in this one.
+        Processes at most; 1 stays in this one.
 
     Yields
     ------
@@ -82,8 +84,9 @@ def outcomes_of(tasks: Sequence[Task], jobs: int) -> Iterator[tuple[Task, Outcom
             yield task, work_on(task)
         return
     waiting = list(reversed(tasks))
+    workers = min(jobs, 1 + sum(size_of(task.path) for task in tasks) // PER_WORKER)
     while waiting:
-        suspects = yield from _in_a_pool(waiting, jobs)
+        suspects = yield from _in_a_pool(waiting, workers)
         for task in suspects:  # alone, so that it is known who ends its process
             dying = yield from _in_a_pool([task], 1)
             if dying:

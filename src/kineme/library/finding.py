@@ -1,0 +1,116 @@
+"""All recordings of a library, looked through for what is like examples."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from kineme._checks import is_number
+from kineme._threads import map_threads
+from kineme.errors import ParameterError
+from kineme.library.clusters import numbers_of
+from kineme.library.examples import features_of, one_vocabulary
+from kineme.library.layout import PIECES
+from kineme.library.opened import OpenTables
+from kineme.library.pieces import read_features
+from kineme.library.searching import Example, Hit, best, spans_like
+from kineme.matching import Matches
+
+TYPICAL = 5
+"""Words that stand for a cluster in a search, the most typical ones."""
+
+
+def hits_like(
+    tables: OpenTables,
+    examples: Sequence[Example],
+    counterexamples: Sequence[Example],
+    *,
+    threshold: float,
+    top: int | None,
+    max_per_recording: int | None,
+    mirror: bool,
+) -> list[Hit]:
+    """Where the recordings of a library are like one of the examples, the nearest first.
+
+    Parameters
+    ----------
+    tables : OpenTables
+        Of the library.
+    examples, counterexamples : sequence of Example
+        What is more like a counter-example than like any example is left out.
+    threshold : float
+        Largest distance.
+    top : int, optional
+        Hits at most.
+    max_per_recording : int, optional
+        Of one recording at most.
+    mirror : bool
+        Search for the mirror images of the examples as well.
+
+    Raises
+    ------
+    ParameterError
+        A limit is below 1, or the examples do not compare with each other, or with no recording.
+    ReadError
+        One cannot be read, or has no body.
+    """
+    for name, value in (("top", top), ("max_per_recording", max_per_recording)):
+        if value is not None and not (is_number(value) and value >= 1):
+            raise ParameterError(f"{name} must be a whole number above 0, not {value!r:.60}")
+    wanted = features_of(tables, examples, mirror=mirror)
+    vocabulary = one_vocabulary(wanted)
+    refused = [part for kind, part in features_of(tables, counterexamples) if kind == vocabulary]
+    rows = _rows_of(tables, vocabulary)
+    parts = [part for _, part in wanted]
+
+    def spans_in(row: int) -> Matches:
+        features = read_features(tables.folder / PIECES, tables.recordings["piece"][row])
+        return spans_like(
+            features, parts, refused, threshold=threshold, top=max_per_recording or top
+        )
+
+    with threadpool_limits(1):  # recordings are searched side by side
+        found = map_threads(spans_in, rows)
+    chosen = best(found, top=top, most=max_per_recording)
+    return [_hit(tables, rows[i], *span) for i, span in chosen]
+
+
+def typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
+    """The most typical words of a cluster, by number or name, as examples."""
+    words = tables.columns("words")
+    rows = np.flatnonzero(np.isin(words["cluster"], numbers_of(tables, cluster)))
+    rows = rows[np.argsort(words["spread"][rows], kind="stable")][:TYPICAL]
+    columns = (words[name][rows].tolist() for name in ("recording", "start_s", "stop_s"))
+    return [Example(*one) for one in zip(*columns, strict=True)]
+
+
+def _rows_of(tables: OpenTables, vocabulary: str) -> list[int]:
+    """The recordings of a vocabulary, by row; ParameterError where there are none."""
+    kinds = tables.recordings["vocabulary"]
+    rows = [row for row, kind in enumerate(kinds) if kind == vocabulary]
+    if not rows:
+        there = "; ".join(sorted(set(kinds) - {""}))
+        raise ParameterError(
+            f"the example is of {vocabulary}, the library has {there or 'nothing'}"
+        )
+    return rows
+
+
+def _hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -> Hit:
+    """A span of a recording, samples, with the cluster of the segment that covers most of it.
+
+    Of segments that cover as much, that of the finer level counts.
+    """
+    recording = tables.recordings["recording"][row]
+    fps, lasts = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
+    start_s, stop_s = start / fps, min(stop / fps, lasts)
+    segments = tables.columns("segments")
+    rows = slice(*tables.rows[recording])
+    shared = np.minimum(segments["stop_s"][rows], stop_s)
+    shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)
+    covers = int(np.lexsort((segments["level"][rows] == "primitive", shared))[-1])
+    cluster = int(segments["cluster"][rows][covers])
+    label = tables.edits.name(cluster) if cluster >= 0 else ""
+    return Hit(recording, start_s, stop_s, round(distance, 4), cluster, label)
