@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import groupby, pairwise
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -160,19 +160,15 @@ def check_source(motion: Motion, first: Motion) -> None:
 
 
 def _nodes_of(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
-    """All primitives, transitions that touch as one, and the edges to their successors."""
+    """All primitives, and the edges to their successors."""
     nodes: list[Node] = []
     edges: list[Edge] = []
     for source, segmentation in enumerate(found):
         rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
         first = len(nodes)
-        for (kind, label), group in groupby(rows, key=lambda row: (row.kind, row.label)):
-            parts = list(group)
-            runs = [parts] if kind == "transition" else [[part] for part in parts]
-            nodes += [
-                Node(source, run[0].start_frame, run[-1].stop_frame, run[0].cluster, label)
-                for run in runs
-            ]
+        nodes += [
+            Node(source, row.start_frame, row.stop_frame, row.cluster, row.label) for row in rows
+        ]
         for a, b in pairwise(range(first, len(nodes))):
             edges.append(Edge(a, b, nodes[a].stop, nodes[b].start, jump=False))
     return nodes, edges
