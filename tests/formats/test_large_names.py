@@ -27,20 +27,20 @@ def test_names_made_unique_are_those_of_the_plain_way(names: list[str]) -> None:
 
 
 def test_many_names() -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     assert len(set(unique(["a"] * 60_000))) == 60_000
     assert unique(map(str, range(60_000)))[-1] == "59999"
-    assert time.perf_counter() - start < SECONDS
+    assert time.process_time() - start < SECONDS
 
 
 def test_many_bones(tmp_path) -> None:
     bones = "".join(f"begin\nname b{i}\ndirection 0 1 0\nlength 1\nend\n" for i in range(N))
     tree = "".join(f"b{i - 1} b{i}\n" for i in range(1, N))
     text = f":root\norder TX TY TZ\n:bonedata\n{bones}:hierarchy\nbegin\nroot b0\n{tree}end\n"
-    start = time.perf_counter()
+    start = time.process_time()
     figure = read_asf(FileContent(tmp_path / "a.asf", text.encode()))
     assert figure.skeleton.n_joints == N + 2
-    assert time.perf_counter() - start < SECONDS
+    assert time.process_time() - start < SECONDS
 
 
 def test_many_end_sites(tmp_path) -> None:
@@ -50,8 +50,8 @@ def test_many_end_sites(tmp_path) -> None:
         f"{ends}}}\nMOTION\nFrames: 2\nFrame Time: 0.01\n0 1 0\n0 1 0\n"
     )
     (tmp_path / "a.bvh").write_text(text)
-    start = time.perf_counter()
+    start = time.process_time()
     motion = kineme.read(tmp_path / "a.bvh", unit=1.7)
     assert motion.skeleton.names[-1] == f"hip_end{N}"
     assert np.isfinite(motion.positions).all()
-    assert time.perf_counter() - start < SECONDS
+    assert time.process_time() - start < SECONDS

@@ -65,7 +65,10 @@ def other_value(constant: Constant) -> Any:
         return not value
     if isinstance(value, tuple):
         longer = len(value) > 2 and Ellipsis in get_args(constant.hint)
-        return value[:-1] if longer else tuple(each + 1 for each in value)
+        if not longer:
+            return tuple(each + 1 for each in value)
+        first = next(x for x in (0.95 * value[0], 0.5) if x != value[0])
+        return (first, *value[1:])
     if value is None:
         return hint(4)
     near = (value - 1, value + 1) if hint is int else (0.95 * value, 0.5)

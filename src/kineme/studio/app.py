@@ -9,12 +9,13 @@ from pathlib import Path
 from starlette.applications import Starlette
 from starlette.background import BackgroundTask
 from starlette.exceptions import HTTPException
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from kineme.errors import KinemeError, WriteError
+from kineme.studio.bodies import TooSlowError
 from kineme.studio.events import Hub
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
@@ -30,6 +31,7 @@ STATUS: dict[type[Exception], int] = {
     KinemeError: 400,
     UnknownError: 404,
     TooLargeError: 413,
+    TooSlowError: 408,
     WriteError: 500,
 }
 
@@ -86,6 +88,7 @@ def create_app(
         exception_handlers={
             **handlers,
             ConflictError: _conflict,
+            ClientDisconnect: _gone,
             HTTPException: _http_error,
             Exception: _failed,
         },
@@ -103,6 +106,10 @@ def _conflict(_: Request, error: Exception) -> Response:
         return _failed(_, error)
     fields = {name: getattr(error.present, name) for name in error.present.__struct_fields__}
     return MessageResponse(Conflict(**fields, error=str(error)), 409)
+
+
+def _gone(_: Request, __: Exception) -> Response:
+    return Response(status_code=400)  # nobody is there to read it
 
 
 def _http_error(_: Request, error: Exception) -> Response:

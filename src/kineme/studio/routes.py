@@ -13,7 +13,7 @@ from urllib.parse import quote
 
 from msgspec import UNSET
 from starlette.concurrency import run_in_threadpool
-from starlette.requests import ClientDisconnect, Request
+from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 
@@ -22,16 +22,20 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
+from kineme.studio.bodies import body, chunks
 from kineme.studio.events import Hub
 from kineme.studio.folder import file_id
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.progress import progress
-from kineme.studio.uploads import LIMIT, TooLargeError, Upload, recording_suffixes
+from kineme.studio.uploads import (
+    LIMIT,
+    Upload,
+    recording_suffixes,
+)
 from kineme.web.encoding import from_json, to_json
 from kineme.web.messages import Comparison, FileChoice, Listing, Preview, State, Versions
 from kineme.web.requests import CompareRequest, EditRequest, PreviewRequest
 
-MOST_JSON = 1_000_000
 """Bytes of a request; the largest that a page makes has a few hundred."""
 
 
@@ -69,11 +73,8 @@ class Api:
             limit=self._limit,
         )
         with upload:
-            try:
-                async for chunk in request.stream():
-                    upload.write(chunk)
-            except ClientDisconnect:
-                return Response(status_code=400)  # nobody is there to read it
+            async for chunk in chunks(request):
+                upload.write(chunk)
             path = await run_in_threadpool(upload.finish)
         self._recordings.folder.add(path)
         self._hub.tell(file_id(path), 0)
@@ -102,12 +103,12 @@ class Api:
         return Response(found, media_type="image/png")
 
     async def edit(self, request: Request) -> Response:
-        sent = from_json(await _body(request), EditRequest)
+        sent = from_json(await body(request), EditRequest)
         name, work = request.path_params["id"], self._recordings.edit
         return MessageResponse(await run_in_threadpool(work, name, sent))
 
     async def preview(self, request: Request) -> Response:
-        sent = from_json(await _body(request), PreviewRequest)
+        sent = from_json(await body(request), PreviewRequest)
 
         def work() -> Preview:
             return self._recordings.get(request.path_params["id"]).preview(sent)
@@ -130,7 +131,7 @@ class Api:
         return MessageResponse(await run_in_threadpool(work))
 
     async def compare(self, request: Request) -> Response:
-        sent = from_json(await _body(request), CompareRequest)
+        sent = from_json(await body(request), CompareRequest)
         name = request.path_params["id"]
         return MessageResponse(await run_in_threadpool(self._compare, name, sent))
 
@@ -235,13 +236,3 @@ def _listing(name: str, path: Path) -> Listing:
 def _number(text: str) -> int:
     """The number of a tile; -1, which no tile has, for anything else."""
     return int(text) if text.isascii() and text.isdigit() and len(text) < 9 else -1
-
-
-async def _body(request: Request) -> bytes:
-    """What was sent, which is read no farther than a request may be long."""
-    body = bytearray()
-    async for chunk in request.stream():
-        body += chunk
-        if len(body) > MOST_JSON:
-            raise TooLargeError(f"a request has at most {MOST_JSON} bytes")
-    return bytes(body)
