@@ -124,7 +124,7 @@ def test_a_single_point_is_refused() -> None:
             marks=pytest.mark.xfail(
                 reason="its first two steps are taken for an action of their own"
             ),
-        ),  # fmt: skip
+        ),
         ("Eb015pi.c3d", {0: 3}),  # swings of the right foot
         ("Dec_real.c3d", {}),  # a single cycle
     ],
