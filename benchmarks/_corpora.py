@@ -12,9 +12,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
+import numpy as np
+from numpy.typing import NDArray
+
 import kineme
 from _recordings import ACTORS, DATA, subject_86
+from kineme.features.canonical import matching
 from kineme.recordings import Motion
+from kineme.recordings.operations import resample
 
 WALKS = ("02_01.amc", "02_01.bvh", "02_01.c3d", "PyMO_AV_8Walk.bvh", "subject01_walk.trc")
 """Takes of ``others`` in which people walk from beginning to end."""
@@ -75,3 +80,9 @@ def others() -> Iterator[Take]:
     for path in OTHERS:
         name = path.rpartition("/")[2]
         yield Take(name, name.partition(".")[0], kineme.read(DATA / path))
+
+
+def poses_of(take: Take) -> NDArray[np.float64]:
+    """The stacked poses of a take, 15 a second."""
+    motion = resample(take.motion, matching.POSE_FPS)
+    return matching.stacked_poses(matching.poses_of(motion))

@@ -17,20 +17,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from _corpora import Take, corpora
+from _corpora import corpora, poses_of
 from kineme.features.canonical import matching
-from kineme.recordings.operations import resample
 
 Floats = NDArray[np.float64]
 
 SHRINKING = 0.3
 """Of the largest variance; added to that of each axis before its root divides."""
-
-
-def poses_of(take: Take) -> Floats:
-    """The stacked poses of a take, 15 a second."""
-    motion = resample(take.motion, matching.POSE_FPS)
-    return matching.stacked_poses(matching.poses_of(motion))
 
 
 def make_basis(parts: Sequence[Floats]) -> tuple[Floats, Floats]:

@@ -26,9 +26,8 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks
 
 import kineme
-from _corpora import WALKS, Take, corpora
+from _corpora import WALKS, Take, corpora, poses_of
 from _measure import interleaved
-from canonical_basis import poses_of
 from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
 from kineme.features.canonical.matching import OFFSETS_S, basis, directions
 from kineme.matching import THRESHOLD, search, two_way_distance

@@ -29,6 +29,7 @@ Ints = NDArray[np.int64]
 
 COARSER = (0.125, 0.25, 0.5, 0.75)
 FINER = (2.0, 4.0, 8.0)
+DETAILS = (*COARSER, *FINER)
 """The details that are offered beside 1."""
 
 

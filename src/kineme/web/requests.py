@@ -162,25 +162,7 @@ class Together(EditBase, frozen=True, kw_only=True, tag="together"):
     edits: list[ByHand]
 
 
-Edit = (
-    MoveBorder
-    | Split
-    | Merge
-    | DeleteBorder
-    | NameSegment
-    | NameCluster
-    | SetCluster
-    | SetKind
-    | MergeClusters
-    | Check
-    | Together
-    | SegmentAgain
-    | TakeLabels
-    | Transfer
-    | Restore
-    | Undo
-    | Redo
-)
+Edit = ByHand | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo
 
 
 class EditRequest(Request, frozen=True, kw_only=True):

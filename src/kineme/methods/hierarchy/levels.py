@@ -35,16 +35,15 @@ def levels_of(found: HierarchyFound, columns: Columns) -> Mapping[float, Columns
     """
     preset = found.preset
     pieces, frames = _pieces(found)
-    details = (*levels.COARSER, *levels.FINER)
     at = levels.clusters_at(
         pieces,
-        details,
+        levels.DETAILS,
         border_price=preset.samples(preset.segment_cost),
         cluster_price=preset.samples(preset.cluster_cost),
     )
     return {
         detail: levels.at_detail(columns, frames, at[detail], 0.0 if detail < 1 else None)
-        for detail in details
+        for detail in levels.DETAILS
     }
 
 

@@ -37,15 +37,14 @@ def levels_of(found: RecurrenceFound, columns: Columns) -> Mapping[float, Column
     """
     preset = found.preset
     pieces, frames = _pieces(found)
-    details = (*levels.COARSER, *levels.FINER)
     cost = preset.border_cost * preset.working_fps / preset.step
-    at = levels.clusters_at(pieces, details, border_price=cost, cluster_price=cost)
+    at = levels.clusters_at(pieces, levels.DETAILS, border_price=cost, cluster_price=cost)
     longest = preset.frames(preset.min_action)
     return {
         detail: levels.at_detail(
             columns, frames, at[detail], longest / detail if detail < 1 else None
         )
-        for detail in details
+        for detail in levels.DETAILS
     }
 
 
