@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -46,8 +47,10 @@ class Piece:
 def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float32]) -> None:
     """Leave a piece, and the features (samples, dims) of its recording, in a folder."""
     pa, parquet = arrow()
-    with atomic_write(folder / f"{key}.npy") as draft, draft.open("wb") as file:
-        np.save(file, np.ascontiguousarray(features, np.float32), allow_pickle=False)
+    array = BytesIO()  # into a file itself, numpy does not tell that the disk is full
+    np.save(array, np.ascontiguousarray(features, np.float32), allow_pickle=False)
+    with atomic_write(folder / f"{key}.npy") as draft:
+        draft.write_bytes(array.getbuffer())
     values = as_column(piece.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(values, EMBEDDED)
     columns = {
