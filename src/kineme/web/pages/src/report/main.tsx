@@ -5,7 +5,8 @@ import { startKeys } from "../keys";
 import { startPlayer } from "../player";
 import { exposeSnapshot } from "../snapshot";
 import { EmbeddedData } from "../recordingData";
-import { loadMotion, openRecording, Store } from "../store";
+import { loadMotion, openRecording } from "../opened";
+import { Store } from "../store";
 import { Report } from "./Report";
 
 async function start(): Promise<void> {

@@ -8,7 +8,8 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Parameter, PresetChoice, Segments } from "../../messages";
 import type { EditedRecording } from "../editing/editedRecording";
 import { counted } from "../editing/words";
-import type { Choice, Proposal, Session } from "../session";
+import type { Choice, Proposal } from "../editing/beside";
+import type { Session } from "../session";
 
 const PAUSE = 120; // milliseconds without a change before the server is asked
 
@@ -42,7 +43,7 @@ function Presets({ session, edited, presets, fallback }: Props): JSX.Element {
   const keep = useSignal(true);
   const timer = useRef(0);
   const { revision, segmentation: table } = edited.confirmed.value;
-  const proposal = session.proposal.value;
+  const proposal = session.beside.proposal.value;
   const busy = edited.busy.value || draft.value !== null;
   const used = usedBy(table, presets, fallback);
   const { preset, values } = draft.value ?? proposal?.choice ?? used;
@@ -52,7 +53,7 @@ function Presets({ session, edited, presets, fallback }: Props): JSX.Element {
     draft.value = next;
     window.clearTimeout(timer.current);
     timer.current = window.setTimeout(() => {
-      void session.propose(next, keep.value).then(() => {
+      void session.beside.propose(next, keep.value).then(() => {
         if (draft.value === next) draft.value = null;
       });
     }, pause);
@@ -157,14 +158,14 @@ function Proposed(props: {
         </details>
       )}
       <p class="actions">
-        <button type="button" onClick={() => session.discard()}>
+        <button type="button" onClick={() => session.beside.discard()}>
           Discard
         </button>
         <button
           type="button"
           class="primary"
           disabled={keep !== proposal.keep}
-          onClick={() => session.apply()}
+          onClick={() => session.beside.apply()}
         >
           {some ? (keep ? "Apply" : `Apply: replaces ${own}`) : "Apply"}
         </button>
