@@ -8,6 +8,7 @@ inferred is said in the motion's provenance.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from decimal import Decimal
 from math import ceil, floor
 
@@ -48,6 +49,16 @@ _HEAD = re.compile("head", re.IGNORECASE)
 _FOOT = re.compile("foot|feet|toe|ankle", re.IGNORECASE)
 
 
+BLOCK = 2048
+"""Frames."""
+
+
+def blocks(n_frames: int) -> Iterator[slice]:
+    """The frames in order, as many at a time as stay in the processor's cache."""
+    for start in range(0, n_frames, BLOCK):
+        yield slice(start, min(start + BLOCK, n_frames))
+
+
 def metres(unit: str | float) -> float:
     """The metres in one ``unit``, a name in `UNITS` or already a length."""
     return UNITS[unit] if isinstance(unit, str) else float(unit)
@@ -65,8 +76,11 @@ def unit_named(word: str) -> str | None:
 
 
 def upright(points: Floats, up: str) -> Floats:
-    """The points (..., 3) turned so that their axis ``up`` becomes y."""
-    return points if up == "y" else rot.rotate(up_rotation(up), points)
+    """The points (frames, points, 3), turned in place so that their axis ``up`` becomes y."""
+    if up != "y":
+        for span in blocks(len(points)):
+            points[span] = rot.rotate(up_rotation(up), points[span])
+    return points
 
 
 def up_rotation(up: str) -> Floats:

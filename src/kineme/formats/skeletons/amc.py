@@ -30,8 +30,8 @@ from kineme.formats.registry import Format
 from kineme.formats.skeletons.amc_frames import read_frames
 from kineme.formats.skeletons.amc_writer import write_amc
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
-from kineme.formats.skeletons.placing import BYTES_PER_JOINT, blocks, place
-from kineme.formats.units import metres
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
+from kineme.formats.units import blocks, metres
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]

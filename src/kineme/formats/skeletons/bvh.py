@@ -32,8 +32,8 @@ from kineme.formats.registry import Format
 from kineme.formats.skeletons.bvh_frames import read_frames
 from kineme.formats.skeletons.bvh_hierarchy import Joint, read_joints
 from kineme.formats.skeletons.bvh_writer import write_bvh
-from kineme.formats.skeletons.placing import BYTES_PER_JOINT, blocks, place
-from kineme.formats.units import rate_from_period
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
+from kineme.formats.units import blocks, rate_from_period
 from kineme.recordings import Motion, Provenance, Skeleton
 
 Floats = NDArray[np.float64]

@@ -6,30 +6,29 @@ arrays, in blocks of frames that stay in the processor's cache.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.formats.units import BODIES, height_of, infer_unit, infer_up, metres, up_rotation
+from kineme.formats.units import (
+    BODIES,
+    blocks,
+    height_of,
+    infer_unit,
+    infer_up,
+    metres,
+    up_rotation,
+)
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
 
 Floats = NDArray[np.float64]
 
-BLOCK = 2048
-"""Frames."""
-
 BYTES_PER_JOINT = 2 * 8 * (4 + 3)
 """What a joint takes in a frame: rotation, position, and as much again."""
-
-
-def blocks(n_frames: int) -> Iterator[slice]:
-    """The frames, in order, a block at a time."""
-    for start in range(0, n_frames, BLOCK):
-        yield slice(start, min(start + BLOCK, n_frames))
 
 
 def place(
