@@ -22,6 +22,8 @@ from kineme.library.layout import EMBEDDED, arrow, as_array, as_column
 from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
 
 METADATA = b"kineme.library"
+LARGEST = 1e30
+"""Sum of the squares of all features of a recording; no distance overflows below it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,12 +96,19 @@ def read_features(folder: Path, key: str) -> NDArray[np.float32]:
         They are gone, as after a build that took the recording out, or damaged.
     """
     path = folder / f"{key}.npy"
+    damaged = ReadError(path, "is damaged: remove it and build the library again")
     try:
         features: NDArray[np.float32] = np.load(path, allow_pickle=False)
     except FileNotFoundError as error:
         raise ReadError(path, "is gone: the library was built anew, open it again") from error
-    except (OSError, ValueError) as error:
-        raise ReadError(path, "is damaged: remove it and build the library again") from error
+    except Exception as error:
+        raise damaged from error
+    if features.ndim != 2 or features.dtype != np.float32:
+        raise damaged
+    with np.errstate(all="ignore"):
+        squares = float(np.vdot(features, features))  # one pass, and not finite if any of them is
+    if not squares < LARGEST:
+        raise damaged
     return features
 
 
