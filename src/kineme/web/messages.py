@@ -73,7 +73,10 @@ class MatrixHead(Struct, frozen=True, kw_only=True):
 
 
 class Recording(Struct, frozen=True, kw_only=True):
-    """Everything a page needs of one recording but the binary parts."""
+    """Everything a page needs of one recording but the binary parts.
+
+    While ``finding`` its segments are still to be found, and the table is a single transition.
+    """
 
     id: str
     name: str
@@ -86,6 +89,7 @@ class Recording(Struct, frozen=True, kw_only=True):
     can_undo: bool
     can_redo: bool
     saved: str
+    finding: bool = False
     warnings: list[str]
 
 

@@ -78,7 +78,11 @@ export interface MatrixHead {
   band: number | null;
 }
 
-/** Everything a page needs of one recording but the binary parts. */
+/**
+ * Everything a page needs of one recording but the binary parts.
+ *
+ * While `finding` its segments are still to be found, and the table is a single transition.
+ */
 export interface Recording {
   id: string;
   name: string;
@@ -91,6 +95,7 @@ export interface Recording {
   can_undo: boolean;
   can_redo: boolean;
   saved: string;
+  finding?: boolean;
   warnings: string[];
 }
 
