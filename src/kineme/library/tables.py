@@ -15,7 +15,7 @@ from typing import Any
 
 from kineme._doors import reading
 from kineme._files import atomic_write
-from kineme.errors import WriteError
+from kineme.errors import ReadError, WriteError
 from kineme.library.layout import EMBEDDED, TABLES, arrow, as_column
 from kineme.segments.table import DESCRIBED as SEGMENTS
 from kineme.segments.table import Column
@@ -59,6 +59,9 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     },
 }
 """The columns of each table, edits applied, and what is in them."""
+
+ADDED = ("label", "action_label")
+"""Columns that come with the edits, where a table has none."""
 
 
 def table_of(name: str, columns: Mapping[str, Any]) -> Any:
@@ -129,4 +132,19 @@ def read_table(folder: Path, named: str, name: str) -> Any:
     pa, parquet = arrow()
     path = folder / TABLES / named / f"{name}.parquet"
     with reading(path):
-        return parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
+        table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
+        table.validate(full=True)
+    for column, known in DESCRIBED[name].items():
+        if column not in table.column_names and column not in ADDED:
+            raise ReadError(path, f"is damaged: it lacks {column!r}; build the library again")
+        if column in table.column_names and not _is_sound(table.column(column), known.type):
+            raise ReadError(path, f"is damaged in {column!r}; build the library again")
+    return table
+
+
+def _is_sound(column: Any, kind: type) -> bool:
+    """Whether a column is of its type, and has a value in every row."""
+    pa, _ = arrow()
+    types = {str: pa.string(), int: pa.int64(), float: pa.float64()}
+    embedding = pa.types.is_fixed_size_list(column.type) and column.type.list_size == EMBEDDED
+    return column.null_count == 0 and (column.type == types[kind] or embedding)
