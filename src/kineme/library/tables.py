@@ -13,10 +13,12 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ReadError, WriteError
-from kineme.library.layout import EMBEDDED, TABLES, arrow, as_column
+from kineme.library.layout import EMBEDDED, TABLES, arrow, as_array, as_column
 from kineme.segments.table import DESCRIBED as SEGMENTS
 from kineme.segments.table import Column
 
@@ -59,6 +61,9 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     },
 }
 """The columns of each table, edits applied, and what is in them."""
+
+LARGEST = 1e30
+"""Of any number in a table."""
 
 ADDED = ("label", "action_label")
 """Columns that come with the edits, where a table has none."""
@@ -146,5 +151,10 @@ def _is_sound(column: Any, kind: type) -> bool:
     """Whether a column is of its type, and has a value in every row."""
     pa, _ = arrow()
     types = {str: pa.string(), int: pa.int64(), float: pa.float64()}
-    embedding = pa.types.is_fixed_size_list(column.type) and column.type.list_size == EMBEDDED
-    return column.null_count == 0 and (column.type == types[kind] or embedding)
+    if column.null_count:
+        return False
+    if pa.types.is_fixed_size_list(column.type):
+        return bool(column.type.value_type == pa.float32() and column.type.list_size == EMBEDDED)
+    if column.type != types[kind]:
+        return False
+    return kind is not float or not (np.abs(as_array(column)) > LARGEST).any()
