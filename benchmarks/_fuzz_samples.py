@@ -120,7 +120,7 @@ def _others(root: Path, motion: Motion, truth: Segmentation) -> None:
 
 def _library(root: Path, motion: Motion, _: Segmentation) -> None:
     takes = _made(root.parent / "takes")
-    for name, part in (("walk.bvh", motion[:600]), ("jacks.bvh", motion[2200:2800])):
+    for name, part in (("walk.bvh", motion[:300]), ("jacks.bvh", motion[2400:2640])):
         formats.write(part, takes / name)
     folder = root / "library"
     build(takes, folder)

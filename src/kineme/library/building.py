@@ -17,6 +17,7 @@ from kineme.library.edits import read_edits
 from kineme.library.executors import Executor
 from kineme.library.executors.cluster import connected
 from kineme.library.gathering import Progress, gather
+from kineme.library.index.kept import write_index
 from kineme.library.layout import (
     HEAD,
     LOCK_EDITS,
@@ -224,6 +225,7 @@ def _written(
         following = max(head.get("following", 0), read_edits(plan.folder).following)
         made, following = compiled(plan.folder, entries, head.get("tables"), following)
         tables = write_tables(plan.folder, made)
+        write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**wanted, "following": following, "tables": tables}
     if now != head:
         write_json(plan.folder / HEAD, now)
@@ -233,7 +235,7 @@ def _written(
 def _clean(folder: Path, keys: set[str], tables: str) -> None:
     """Remove what nothing names any more, and drafts of builds that were ended."""
     for path in (folder / PIECES).iterdir():
-        if path.suffix not in (".npy", ".parquet") or path.stem not in keys:
+        if path.suffix not in (".npy", ".parquet") or path.name.partition(".")[0] not in keys:
             path.unlink(missing_ok=True)
     for path in (folder / TABLES).iterdir():
         if path.name != tables:

@@ -48,6 +48,7 @@ def make_piece(
         "fps": recording.fps,
         "vocabulary": described.vocabulary,
         "features_fps": described.fps,
+        "samples": len(described.features),
         "notes": [*found.provenance["notes"], *filter(None, [reason])],
     }
     return Piece(facts, found.table, embeddings), described.features
