@@ -118,17 +118,13 @@ def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_wh
 ) -> None:
     studio = make_studio()
     before = named(studio)
-    write = journal._write
-    place = "write" if cut == "table" else "_write"
-    where = "kineme.studio.storage.TableFile" if cut == "table" else "kineme.studio.journal"
+    places = {"table": "storage.TableFile.write", "history": "journal.write_record"}
 
-    def fail(*arguments: Any) -> None:
-        if cut == "table" or arguments[0].name == "history.json":
-            raise RuntimeError("the end")
-        write(*arguments)
+    def fail(*_: Any) -> None:
+        raise RuntimeError("the end")
 
     with monkeypatch.context() as patch:
-        patch.setattr(f"{where}.{place}", fail)
+        patch.setattr(f"kineme.studio.{places[cut]}", fail)
         sent = {
             "revision": before["revision"],
             "edit": {"kind": "split", "level": "activity", "frame": 90},
