@@ -1,6 +1,6 @@
 """What a library of many hours costs, and whether its index finds what an exact search finds.
 
-    python benchmarks/scale.py [costs] [words] [search] [--hours 1000] [--record]
+    python benchmarks/scale.py [costs] [words] [search] [--hours 1000] [--library DIR] [--record]
 
 ``costs``: processor seconds for an hour of recording (subject 86, AMC, 120 frames a second): read,
 segmented, described and kept; and the bytes of it. ``words``: joining the clusters of more and more
@@ -119,11 +119,12 @@ def words() -> None:
     record("scale.pair", round(1e6 * seconds / pairs), unit="us")
 
 
-def search(hours: float) -> None:
+def search(hours: float, kept: Path | None) -> None:
     """A library of so many hours, searched with its index and exactly."""
     with TemporaryDirectory() as home:
-        folder = Path(home) / "lib"
-        simulated(folder, hours)
+        folder = kept or Path(home) / "lib"
+        if not (folder / HEAD).exists():
+            simulated(folder, hours)
         library = Library(folder)
         named = folder / TABLES / library.head["tables"]
         index = sum(path.stat().st_size for path in named.glob("windows.*.npy"))
@@ -259,6 +260,7 @@ def main() -> None:
     options = argparse.ArgumentParser()
     options.add_argument("parts", nargs="*", default=["costs", "words", "search"])
     options.add_argument("--hours", type=float, default=1000.0)
+    options.add_argument("--library", type=Path, help="keep it here, or take it from here")
     add_option(options)
     given = options.parse_args()
     if "costs" in given.parts:
@@ -266,7 +268,7 @@ def main() -> None:
     if "words" in given.parts:
         words()
     if "search" in given.parts:
-        search(given.hours)
+        search(given.hours, given.library)
 
 
 if __name__ == "__main__":

@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._doors import reading
-from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.library.index.windows import all_windows
 from kineme.library.layout import BODIES, EMBEDDED, arrow, as_array, as_column
+from kineme.library.storage.places import near, written
 from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
 
 METADATA = b"kineme.library"
@@ -55,7 +55,7 @@ def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float
     if piece.facts["vocabulary"] == BODIES:
         arrays[WINDOWS] = all_windows(values)
     for suffix, array in arrays.items():
-        with atomic_write(folder / f"{key}{suffix}") as draft, draft.open("wb") as file:
+        with written(folder / f"{key}{suffix}") as draft, draft.open("wb") as file:
             np.save(file, array, allow_pickle=False)
     flat = as_column(piece.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)
@@ -65,7 +65,7 @@ def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float
     }
     table = pa.table({**columns, "embedding": embeddings})
     told = json.dumps(piece.facts, sort_keys=True).encode()
-    with atomic_write(folder / f"{key}.parquet") as draft:
+    with written(folder / f"{key}.parquet") as draft:
         parquet.write_table(
             table.replace_schema_metadata({METADATA: told}), draft, compression="zstd"
         )
@@ -124,7 +124,7 @@ def read_parts(
     """
     path = folder / f"{key}{FEATURES}"
     found = []
-    with _opening(path), path.open("rb", buffering=0) as file:
+    with _opening(path), near(path).open("rb", buffering=0) as file:
         head = file.read(10)
         data = 10 + int.from_bytes(head[8:10], "little")  # after the header of an npy file
         for start, stop in parts:
@@ -136,7 +136,7 @@ def read_parts(
 
 def _read_array(path: Path) -> NDArray[Any]:
     with _opening(path):
-        array: NDArray[Any] = np.load(path, allow_pickle=False)
+        array: NDArray[Any] = np.load(near(path), allow_pickle=False)
         return array
 
 
