@@ -35,7 +35,7 @@ from kineme.library.compiling import compiled
 from kineme.library.constants import VOCABULARY
 from kineme.library.index.kept import write_index
 from kineme.library.layout import HEAD, PIECES, SCHEMA, TABLES, write_json
-from kineme.library.pieces import Piece, write_piece
+from kineme.library.pieces import Piece, has_piece, write_piece
 from kineme.library.searching import Example, Hit
 from kineme.library.tables import write_tables
 from kineme.library.vocabulary import joined
@@ -195,8 +195,7 @@ def examples() -> Iterator[Example]:
 
 def simulated(folder: Path, hours: float) -> None:
     """A library of recordings put together from takes of several laboratories."""
-    (folder / PIECES).mkdir(parents=True)
-    rng = np.random.default_rng(0)
+    (folder / PIECES).mkdir(parents=True, exist_ok=True)
     own = [
         matching_features(take.motion, mirrored=mirrored)
         for name in corpora()
@@ -208,6 +207,10 @@ def simulated(folder: Path, hours: float) -> None:
     segments = nameless(table.table)
     entries = []
     for number in range(round(hours * 3600 / LASTS_S)):
+        entries.append((f"{number:05d}", folder / f"{number:05d}", f"{number:032x}"))
+        if has_piece(folder / PIECES, f"{number:032x}"):  # of a run that was ended
+            continue
+        rng = np.random.default_rng(number)
         laid, lasts = [], 0
         while lasts < n:
             laid.append(shaken(faster(own[rng.integers(len(own))], rng), rng))
@@ -218,7 +221,6 @@ def simulated(folder: Path, hours: float) -> None:
         }  # fmt: skip
         piece = Piece(facts, segments, table.embeddings)
         write_piece(folder / PIECES, f"{number:032x}", piece, np.concatenate(laid)[:n])
-        entries.append((f"{number:05d}", folder / f"{number:05d}", f"{number:032x}"))
     tables, following = compiled(folder, entries, None, 0)
     named = write_tables(folder, tables)
     start = process_time()

@@ -54,9 +54,8 @@ class Library:
     """
 
     def __init__(self, folder: AnyPath):
-        check_path(folder, "Library")
         arrow()
-        self.folder = place(folder)
+        self.folder = place(folder, "Library")
         with reaching(self.folder):
             self._tables = OpenTables(self.folder)
 

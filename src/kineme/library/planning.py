@@ -9,7 +9,6 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import check_path
 from kineme.errors import ParameterError, WriteError
 from kineme.library.layout import HEAD, PIECES, read_head, read_json
 from kineme.library.settings import Settings
@@ -93,8 +92,7 @@ def known_sources(
 
 def opened(into: AnyPath) -> Path:
     """The folder of a library, made where there is none."""
-    check_path(into, "build")
-    folder = place(into)
+    folder = place(into, "build")
     if (folder / HEAD).is_file():
         read_head(folder)
         return folder
@@ -112,10 +110,7 @@ def as_paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
     """One path or several as a list; ParameterError where one is none."""
     if isinstance(given, str | PathLike):
         return [place(given)]
-    paths = list(given)
-    for path in paths:
-        check_path(path, "build")
-    return [place(path) for path in paths]
+    return [place(path, "build") for path in given]
 
 
 def absolute(path: Path) -> Path:

@@ -14,6 +14,7 @@ from typing import Any, cast
 from urllib.parse import urlparse
 from urllib.request import url2pathname
 
+from kineme._checks import check_path
 from kineme._files import atomic_write
 from kineme.errors import (
     KinemeError,
@@ -28,23 +29,32 @@ EXTRA = "remote"
 _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
 
 
-def place(given: str | PathLike[str]) -> Path:
+def place(given: str | PathLike[str], door: str = "place") -> Path:
     """A path, or what behaves like one where a URL is given.
+
+    Parameters
+    ----------
+    given : path-like
+    door : str
+        The public function that was given it.
 
     Raises
     ------
     MissingDependencyError
         universal_pathlib is not installed.
     ParameterError
-        Nothing that is installed reaches such a URL.
+        It is no path, or nothing that is installed reaches such a URL.
 
     Examples
     --------
     >>> place("file:///tmp/takes").name
     'takes'
     """
+    if is_remote(given):
+        return cast("Path", given)
+    check_path(given, door)
     if not isinstance(given, str) or not _URL.match(given):
-        return cast("Path", given) if is_remote(given) else Path(given)
+        return Path(given)
     if given.lower().startswith("file://"):
         return Path(url2pathname(urlparse(given).path))
     try:
