@@ -64,7 +64,7 @@ ROOMS = {
         "features graph methods recordings segments",
     ),
     "labels": Room("segment tables from files and back: one registry", "formats segments"),
-    "plot": Room("pictures, each on given axes", "graph segmentation segments"),
+    "plot": Room("pictures, each on given axes", "graph methods segmentation segments"),
     "clips": Room("a file per segment, loops that close", "formats labels recordings segments"),
     "interop": Room(
         "segments and recordings as other libraries have them",
@@ -126,14 +126,10 @@ BUNDLING = "kineme.features.bundling"
 
 
 class Imports(ast.NodeVisitor):
-    """Modules of the package that a module imports anywhere, but for its type checker."""
+    """Modules of the package that a module imports anywhere, be it for its type checker only."""
 
     def __init__(self) -> None:
         self.found: set[str] = set()
-
-    def visit_If(self, node: ast.If) -> None:
-        if "TYPE_CHECKING" not in ast.unparse(node.test):
-            self.generic_visit(node)
 
     def visit_Import(self, node: ast.Import) -> None:
         self.found |= {alias.name for alias in node.names if alias.name in MODULES}

@@ -26,6 +26,8 @@ from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
 
 METADATA = b"kineme.library"
 FEATURES, WINDOWS = ".npy", ".windows.npy"
+LARGEST = 1e30
+"""Sum of the squares of all features of a recording; no distance overflows below it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,13 +104,13 @@ def read_features(folder: Path, key: str) -> NDArray[np.float32]:
     ReadError
         They are gone, as after a build that took the recording out, or damaged.
     """
-    features: NDArray[np.float32] = _read_array(folder / f"{key}{FEATURES}")
+    features: NDArray[np.float32] = _read_array(folder / f"{key}{FEATURES}", np.float32)
     return features
 
 
 def read_windows(folder: Path, key: str) -> NDArray[np.float16]:
     """The windows of these features, as `kineme.library.index.windows.all_windows` gives them."""
-    windows: NDArray[np.float16] = _read_array(folder / f"{key}{WINDOWS}")
+    windows: NDArray[np.float16] = _read_array(folder / f"{key}{WINDOWS}", np.float16)
     return windows
 
 
@@ -130,14 +132,25 @@ def read_parts(
         for start, stop in parts:
             file.seek(data + 4 * dims * start)
             values = np.frombuffer(file.read(4 * dims * (stop - start)), np.float32)
-            found.append(values.reshape(stop - start, dims))
+            found.append(_sound(values.reshape(stop - start, dims), np.float32))
     return found
 
 
-def _read_array(path: Path) -> NDArray[Any]:
+def _read_array(path: Path, kind: type[np.floating[Any]]) -> NDArray[Any]:
     with _opening(path):
-        array: NDArray[Any] = np.load(near(path), allow_pickle=False)
-        return array
+        return _sound(np.load(near(path), allow_pickle=False), kind)
+
+
+def _sound(rows: NDArray[Any], kind: type[np.floating[Any]]) -> NDArray[Any]:
+    """These rows, or a ValueError where they are not what a build writes."""
+    if rows.ndim != 2 or rows.dtype != kind:
+        raise ValueError("not rows of features")
+    if kind is np.float32:  # half precision cannot hold what overflows a distance
+        with np.errstate(all="ignore"):
+            squares = float(np.vdot(rows, rows))  # one pass, and not finite if any of them is not
+        if not squares < LARGEST:
+            raise ValueError("features that no recording has")
+    return rows
 
 
 @contextmanager
@@ -147,7 +160,7 @@ def _opening(path: Path) -> Iterator[None]:
         yield
     except FileNotFoundError as error:
         raise ReadError(path, "is gone: the library was built anew, open it again") from error
-    except (OSError, ValueError) as error:
+    except Exception as error:
         raise ReadError(path, "is damaged: remove it and build the library again") from error
 
 

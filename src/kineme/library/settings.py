@@ -73,10 +73,21 @@ class Settings:
 
     @classmethod
     def from_json(cls, held: Mapping[str, Any]) -> Settings:
-        """Settings as `to_json` gave them."""
-        constants = {name: _tupled(value) for name, value in held["constants"].items()}
-        reading = {name: _tupled(value) for name, value in held["reading"].items()}
-        return cls(held["preset"], constants, reading, held["effectors"])
+        """Settings as `to_json` gave them.
+
+        Raises
+        ------
+        ParameterError
+            They are not.
+        """
+        try:
+            constants = {name: _tupled(value) for name, value in held["constants"].items()}
+            reading = {name: _tupled(value) for name, value in held["reading"].items()}
+            return cls(held["preset"], constants, reading, held["effectors"])
+        except (KeyError, TypeError, AttributeError) as error:
+            raise ParameterError(
+                "the settings of the library are not as they were written: build it anew"
+            ) from error
 
     def key(self, digest: str) -> str:
         """The name of the piece of a recording whose files have this digest."""

@@ -14,10 +14,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import numpy as np
+
 from kineme._doors import reading
 from kineme._files import atomic_write
-from kineme.errors import WriteError
-from kineme.library.layout import EMBEDDED, TABLES, arrow, as_column
+from kineme.errors import ReadError, WriteError
+from kineme.library.layout import EMBEDDED, TABLES, arrow, as_array, as_column
 from kineme.library.storage.places import is_remote, written
 from kineme.segments.table import DESCRIBED as SEGMENTS
 from kineme.segments.table import Column
@@ -62,6 +64,12 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     },
 }
 """The columns of each table, edits applied, and what is in them."""
+
+LARGEST = 1e30
+"""Of any number in a table."""
+
+ADDED = ("label", "action_label")
+"""Columns that come with the edits, where a table has none."""
 
 
 def table_of(name: str, columns: Mapping[str, Any]) -> Any:
@@ -144,4 +152,24 @@ def read_table(folder: Path, named: str, name: str) -> Any:
     pa, parquet = arrow()
     path = folder / TABLES / named / f"{name}.parquet"
     with reading(path):
-        return parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
+        table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
+        table.validate(full=True)
+    for column, known in DESCRIBED[name].items():
+        if column not in table.column_names and column not in ADDED:
+            raise ReadError(path, f"is damaged: it lacks {column!r}; build the library again")
+        if column in table.column_names and not _is_sound(table.column(column), known.type):
+            raise ReadError(path, f"is damaged in {column!r}; build the library again")
+    return table
+
+
+def _is_sound(column: Any, kind: type) -> bool:
+    """Whether a column is of its type, and has a value in every row."""
+    pa, _ = arrow()
+    types = {str: pa.string(), int: pa.int64(), float: pa.float64()}
+    if column.null_count:
+        return False
+    if pa.types.is_fixed_size_list(column.type):
+        return bool(column.type.value_type == pa.float32() and column.type.list_size == EMBEDDED)
+    if column.type != types[kind]:
+        return False
+    return kind is not float or not (np.abs(as_array(column)) > LARGEST).any()
