@@ -11,6 +11,7 @@ import json
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -56,9 +57,11 @@ def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float
     arrays: dict[str, NDArray[Any]] = {FEATURES: values}
     if piece.facts["vocabulary"] == BODIES:
         arrays[WINDOWS] = all_windows(values)
-    for suffix, array in arrays.items():
-        with written(folder / f"{key}{suffix}") as draft, draft.open("wb") as file:
-            np.save(file, array, allow_pickle=False)
+    for suffix, held in arrays.items():
+        array = BytesIO()  # into a file itself, numpy does not tell that the disk is full
+        np.save(array, held, allow_pickle=False)
+        with written(folder / f"{key}{suffix}") as draft:
+            draft.write_bytes(array.getbuffer())
     flat = as_column(piece.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)
     columns = {
