@@ -14,16 +14,13 @@ Each line says what was promised.
 from __future__ import annotations
 
 import argparse
-import os
-import subprocess
-import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
 import numpy as np
 
-from _measure import verdict
+from _measure import kineme, verdict
 from _recordings import DATA
 from kineme import Library, read
 from kineme._version import __version__
@@ -41,19 +38,6 @@ SHAKEN = 0.05
 LASTS_S = 360.0
 """Of a simulated recording, seconds."""
 WALK = ("86_01.amc", 2.0, 3.2)
-
-
-def kineme(*arguments: object) -> tuple[float, float, float]:
-    """Seconds that a command takes, of clock and processors; gigabytes of its largest process."""
-    start = perf_counter()
-    process = subprocess.Popen(
-        [sys.executable, "-m", "kineme", *map(str, arguments)], stdout=subprocess.DEVNULL
-    )
-    _, status, usage = os.wait4(process.pid, 0)
-    if status:
-        raise SystemExit(f"{arguments} ended with {status}")
-    used = usage.ru_utime + usage.ru_stime
-    return perf_counter() - start, used, usage.ru_maxrss / 1e6
 
 
 def copies(folder: Path, n: int, *, frames: int | None = None) -> None:

@@ -26,7 +26,7 @@ from kineme.segments.table import COLUMNS
 def test_columns_are_those_described(library: Library) -> None:
     for name, columns in DESCRIBED.items():
         assert sorted(library.table(name).column_names) == sorted(columns)
-    pieces = {path.stem for path in (library.folder / "pieces").iterdir()}
+    pieces = {path.name.split(".")[0] for path in (library.folder / "pieces").iterdir()}
     assert pieces == set(library.recordings["piece"])
 
 

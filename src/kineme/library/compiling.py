@@ -144,7 +144,7 @@ def _before(folder: Path, before: str | None) -> dict[str, Spans]:
 
 def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
     facts = [piece.facts for piece in pieces]
-    kept = ("vocabulary", "format", "n_frames", "fps", "features_fps")
+    kept = ("vocabulary", "format", "n_frames", "fps", "features_fps", "samples")
     columns: Columns = {name: [each[name] for each in facts] for name in kept}
     return {
         "recording": [name for name, _, _ in entries],
@@ -153,6 +153,7 @@ def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
         "duration_s": [each["n_frames"] / each["fps"] for each in facts],
         "piece": [key for _, _, key in entries],
         "features_fps": columns["features_fps"],
+        "samples": columns["samples"],
         "notes": ["\n".join(each["notes"]) for each in facts],
     }
 

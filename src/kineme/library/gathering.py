@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from kineme.errors import WriteError
+from kineme.library.executors import Executor
 from kineme.library.layout import SEEN, read_json, write_json
 from kineme.library.pieces import has_piece
 from kineme.library.planning import Plan
@@ -35,7 +36,9 @@ class Gathered:
     new: int = 0
 
 
-def gather(plan: Plan, found: Sequence[Path], jobs: int, progress: Progress) -> Gathered:
+def gather(
+    plan: Plan, found: Sequence[Path], executor: Executor | int, progress: Progress
+) -> Gathered:
     """The pieces of recordings, made where there is none.
 
     Files that look as they did when they were last read are not read again.
@@ -45,8 +48,8 @@ def gather(plan: Plan, found: Sequence[Path], jobs: int, progress: Progress) -> 
     plan : Plan
     found : sequence of Path
         The recordings.
-    jobs : int
-        Processes at once.
+    executor : Executor or int
+        Where they are made; a number is that of processes of this machine at most.
     progress : callable
         Called with a sentence on how far it is.
 
@@ -61,7 +64,7 @@ def gather(plan: Plan, found: Sequence[Path], jobs: int, progress: Progress) -> 
     there = Gathered(_unchanged(plan, looks, seen))
     waiting = [path for path in found if path not in there.digests]
     if waiting:
-        _make(plan, waiting, jobs, progress, there)
+        _make(plan, waiting, executor, progress, there)
     told = {str(path): [looks[path], digest] for path, digest in there.digests.items()}
     if told != seen:
         write_json(plan.folder / SEEN, told)
@@ -81,14 +84,20 @@ def _unchanged(
 
 
 def _make(
-    plan: Plan, waiting: Sequence[Path], jobs: int, progress: Progress, into: Gathered
+    plan: Plan,
+    waiting: Sequence[Path],
+    executor: Executor | int,
+    progress: Progress,
+    into: Gathered,
 ) -> None:
     """Make the pieces of recordings; what came of each is noted."""
-    from kineme.library.work import Task, outcomes_of
+    from kineme.library.work import Task, executor_for, outcomes_of
 
     tasks = [Task(path, plan.pieces, plan.settings) for path in waiting]
+    if isinstance(executor, int):
+        executor = executor_for(tasks, executor)
     started = time.monotonic()
-    for done, (task, outcome) in enumerate(outcomes_of(tasks, jobs), 1):
+    for done, (task, outcome) in enumerate(outcomes_of(tasks, executor), 1):
         if outcome.fatal:
             raise WriteError(plan.folder, outcome.error)
         if outcome.error:

@@ -20,13 +20,15 @@ from kineme.errors import MissingDependencyError, ReadError, WriteError
 if sys.platform != "win32":
     import fcntl
 
-SCHEMA = "kineme.library/1"
+SCHEMA = "kineme.library/2"
 """Of the folder; a change that old readers would misunderstand gets the next number."""
 HEAD, EDITS, SEEN = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"
 TABLES, PIECES = "tables", "pieces"
 EMBEDDED = 32
 """Numbers in an embedding."""
+BODIES = "bodies"
+"""The vocabulary of everything that has a body."""
 EXTRA = "library"
 """The extra that installs what libraries need."""
 
@@ -56,7 +58,7 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
         raise ReadError(
             path,
             f"is of the schema {head.get('schema')!r:.40}, this version of kineme reads "
-            f"{SCHEMA}: build the library anew",
+            f"{SCHEMA}: build the library anew, into another folder",
         )
     return head
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import nullcontext
 from os import PathLike
 from pathlib import Path
 from typing import Any, Self
@@ -12,6 +13,7 @@ from kineme.errors import ParameterError
 from kineme.library.clusters import Cluster, Word, clusters_of, numbers_of, unsure_words
 from kineme.library.editing import merge_clusters, name_cluster, split_cluster
 from kineme.library.examples import as_examples
+from kineme.library.executors.cluster import connected
 from kineme.library.exporting import answer, table_called, write_hits, write_table
 from kineme.library.finding import hits_like, typical_examples
 from kineme.library.layout import arrow
@@ -123,10 +125,12 @@ class Library:
         top: int | None = 50,
         max_per_recording: int | None = None,
         mirror: bool = False,
+        client: Any = None,
     ) -> list[Hit]:
         """Where the recordings of the library are like an example, the nearest first.
 
-        Segments play no part: short recordings and parts of activities are found as well.
+        Segments play no part: short recordings and parts of activities are found as well. Of more
+        than 100 hours of bodies an index tells what is looked at; all, if ``top`` is None.
 
         Parameters
         ----------
@@ -146,6 +150,8 @@ class Library:
             Of one recording at most.
         mirror : bool
             Search for the mirror images of the examples as well; of bodies only.
+        client : dask.distributed.Client or str, optional
+            Search on this cluster, or on that of the scheduler at an address.
 
         Raises
         ------
@@ -159,15 +165,11 @@ class Library:
             examples += typical_examples(self._tables, cluster)
         if not examples:
             raise ParameterError("nothing to search for: give an example or a cluster")
-        return hits_like(
-            self._tables,
-            examples,
-            unlike,
-            threshold=threshold,
-            top=top,
-            max_per_recording=max_per_recording,
-            mirror=mirror,
-        )
+        with nullcontext() if client is None else connected(client) as executor:
+            return hits_like(
+                self._tables, examples, unlike, threshold=threshold, top=top, mirror=mirror,
+                max_per_recording=max_per_recording, executor=executor,
+            )  # fmt: skip
 
     def clips(self, hits: Sequence[Hit], folder: AnyPath) -> list[Path]:
         """The clips of hits in a new or empty folder, with a manifest; see `kineme.clips.split`.

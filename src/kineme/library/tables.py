@@ -31,6 +31,7 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
         "duration_s": Column(float, "seconds"),
         "piece": Column(str, "name of the files in `pieces/` that hold what is kept of it"),
         "features_fps": Column(float, "samples of its features per second"),
+        "samples": Column(int, "of its features; 0 where it is not searched"),
         "notes": Column(str, "what had to be inferred and what is unsure, one a line"),
     },
     "segments": {

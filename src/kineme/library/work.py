@@ -1,26 +1,22 @@
-"""Making pieces, here or in several processes; whatever happens to one recording costs it only."""
+"""Making pieces, by any executor; whatever happens to one recording costs it only."""
 
 from __future__ import annotations
 
-import os
-import threading
 import warnings
-from collections.abc import Generator, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from multiprocessing import get_context, parent_process
-from multiprocessing.connection import wait as wait_for
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from kineme._threads import n_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, WriteError
 from kineme.formats import read_quietly
 from kineme.library.descriptions import describe
+from kineme.library.executors import Executor
+from kineme.library.executors.here import Here
+from kineme.library.executors.processes import Processes
 from kineme.library.layout import EMBEDDED
 from kineme.library.pieces import Piece, has_piece, write_piece
 from kineme.library.settings import Settings
@@ -65,32 +61,36 @@ class Outcome:
     fatal: bool = False
 
 
-def outcomes_of(tasks: Sequence[Task], jobs: int) -> Iterator[tuple[Task, Outcome]]:
+def outcomes_of(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
     """Each task and what came of it, as they come.
 
     Parameters
     ----------
     tasks : sequence of Task
-    jobs : int
-        Processes at most; 1 stays in this one.
+    executor : Executor
+        Where they are worked on.
 
     Yields
     ------
     task : Task
     outcome : Outcome
     """
+    for task, outcome in executor.completed(work_on, tasks):
+        yield task, outcome or Outcome(error=DIED)
+
+
+def executor_for(tasks: Sequence[Task], jobs: int) -> Executor:
+    """As many processes as pay for so many and so large recordings.
+
+    Parameters
+    ----------
+    tasks : sequence of Task
+    jobs : int
+        Processes at most; 1 stays in this one.
+    """
     if jobs == 1 or len(tasks) < 2:
-        for task in tasks:
-            yield task, work_on(task)
-        return
-    waiting = list(reversed(tasks))
-    workers = min(jobs, 1 + sum(size_of(task.path) for task in tasks) // PER_WORKER)
-    while waiting:
-        suspects = yield from _in_a_pool(waiting, workers)
-        for task in suspects:  # alone, so that it is known who ends its process
-            dying = yield from _in_a_pool([task], 1)
-            if dying:
-                yield task, Outcome(error=DIED)
+        return Here()
+    return Processes(min(jobs, 1 + sum(size_of(task.path) for task in tasks) // PER_WORKER))
 
 
 def work_on(task: Task) -> Outcome:
@@ -147,49 +147,10 @@ def make_piece(
         "fps": recording.fps,
         "vocabulary": described.vocabulary,
         "features_fps": described.fps,
+        "samples": len(described.features),
         "notes": [*found.provenance["notes"], *filter(None, [reason])],
     }
     return Piece(facts, found.table, embeddings), described.features
-
-
-def _in_a_pool(waiting: list[Task], jobs: int) -> Generator[tuple[Task, Outcome], None, list[Task]]:
-    """Work on tasks from the end of the list; those in work when a process died are returned."""
-    share = max(1, n_threads() // jobs)
-    # Started anew, for a copy of this process could wait forever for threads that it lacks.
-    pool = ProcessPoolExecutor(
-        min(jobs, len(waiting)),
-        mp_context=get_context("spawn"),
-        initializer=_prepare,
-        initargs=(share,),
-    )
-    running: dict[Future[Outcome], Task] = {}
-    try:
-        while waiting or running:
-            while waiting and len(running) < jobs:
-                task = waiting.pop()
-                running[pool.submit(work_on, task)] = task
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
-                outcome = future.result()
-                yield running.pop(future), outcome
-    except BrokenProcessPool:
-        return list(running.values())
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-    return []
-
-
-def _prepare(threads: int) -> None:
-    """Make a worker one of several, which ends when the process that started it is gone."""
-    os.environ["KINEME_THREADS"] = str(threads)
-    parent = parent_process()
-    if parent is not None:
-        sentinel = parent.sentinel
-
-        def watch() -> None:
-            wait_for([sentinel])
-            os._exit(1)
-
-        threading.Thread(target=watch, daemon=True).start()
 
 
 def _said(error: BaseException) -> str:

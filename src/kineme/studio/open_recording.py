@@ -14,11 +14,12 @@ import threading
 from pathlib import Path
 from typing import Any
 
-from msgspec import structs
+from msgspec import UNSET, structs
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.segments import editing
 from kineme.segments.editing.carrying import names_of
+from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.journal import Change, Journal
@@ -182,7 +183,8 @@ class OpenRecording:
         from kineme.web.page_data import segments_message
 
         before = self.table
-        found = self.loaded.segment(wanted.preset, wanted.parameters)
+        detail = DEFAULT_DETAIL if wanted.detail is UNSET else wanted.detail
+        found = self.loaded.segment(wanted.preset, wanted.parameters, detail)
         result = editing.carried(before, found)
         shown = result.segmentation if wanted.keep else found
         lost = [f"{result.corrections} corrections and {result.names} names"]
@@ -191,6 +193,8 @@ class OpenRecording:
             corrections=result.corrections,
             names=result.names,
             lost=result.lost if wanted.keep else lost,
+            details=list(found.hierarchy.details) if found.hierarchy else [DEFAULT_DETAIL],
+            detail=found.hierarchy.detail if found.hierarchy else DEFAULT_DETAIL,
         )
 
     def versions(self) -> list[Version]:

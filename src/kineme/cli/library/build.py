@@ -9,6 +9,7 @@ import typer
 
 from kineme.cli.help import RECORDINGS
 from kineme.cli.inputs import Batch
+from kineme.cli.library.folder import Scheduler
 from kineme.cli.messages import Failures, progress
 from kineme.cli.preset_options import PRESET, with_preset_options
 from kineme.cli.reading import Effectors, Quiet, with_reading_options
@@ -41,6 +42,7 @@ def build(
         int | None,
         typer.Option(min=1, help="Processes at once.", show_default="one for each core"),
     ] = None,
+    scheduler: Scheduler = None,
     recursive: Annotated[
         bool | None,
         typer.Option(
@@ -84,6 +86,7 @@ def build(
                 recursive=recursive,
                 settings=settings,
                 jobs=_cores() if jobs is None else jobs,
+                client=scheduler,
                 progress=stage,
             )
         if not quiet:

@@ -18,6 +18,13 @@ Folder = Annotated[
     Path, typer.Argument(metavar="LIB", help="Library that `kineme library build` made.")
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON, one object a line.")]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ADDRESS",
+        help="Work on the cluster of this dask scheduler, such as tcp://10.0.0.1:8786.",
+    ),
+]
 Cluster = Annotated[str, typer.Argument(help="A cluster by its number or name.")]
 
 
