@@ -14,6 +14,7 @@ from kineme._version import __version__
 from kineme.library import Settings
 from kineme.library.compiling import compiled
 from kineme.library.constants import VOCABULARY
+from kineme.library.index.kept import write_index
 from kineme.library.layout import HEAD, PIECES, SCHEMA, write_json
 from kineme.library.making import make_piece
 from kineme.library.pieces import Piece, has_piece, write_piece
@@ -54,6 +55,7 @@ def joined(folder: Path, keys: Mapping[str, str]) -> float:
         "following": following,
         "tables": write_tables(folder, tables),
     }
+    write_index(folder, head["tables"], tables["recordings"].to_pydict())
     write_json(folder / HEAD, head)
     return perf_counter() - start
 
@@ -71,7 +73,8 @@ def simulated(folder: Path, hours: float) -> float:
         whole = np.concatenate([own, *parts, *parts])[:n]
         shaken = whole + SHAKEN * rng.normal(size=whole.shape).astype(np.float32)
         shaken /= np.linalg.norm(shaken, axis=1, keepdims=True)
-        facts = {**piece.facts, "n_frames": round(LASTS_S * piece.facts["fps"])}
+        frames = round(LASTS_S * piece.facts["fps"])
+        facts = {**piece.facts, "n_frames": frames, "samples": n}
         key = keys[f"{number:05d}"] = f"{number:032x}"
         write_piece(folder / PIECES, key, Piece(facts, piece.table, piece.embeddings), shaken)
     return joined(folder, keys)

@@ -21,6 +21,7 @@ from kineme.library.opened import OpenTables
 from kineme.library.pictures import write_pictures
 from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
+from kineme.library.storage.places import place, reaching
 from kineme.matching import THRESHOLD
 from kineme.recordings import Motion, Signals
 
@@ -28,14 +29,12 @@ AnyPath = str | PathLike[str]
 
 
 class Library:
-    """A library, opened for reading; edits are written at once.
-
-    Wherever a cluster is asked for, its number or its name will do.
+    """A library, opened for reading; edits are written at once. Clusters go by number or name.
 
     Parameters
     ----------
     folder : path-like
-        What `kineme.library.build` made.
+        What `kineme.library.build` made; or a URL, such as ``s3://bucket/library``.
 
     Raises
     ------
@@ -56,10 +55,10 @@ class Library:
     """
 
     def __init__(self, folder: AnyPath):
-        check_path(folder, "Library")
         arrow()
-        self.folder = Path(folder)
-        self._tables = OpenTables(self.folder)
+        self.folder = place(folder, "Library")
+        with reaching(self.folder):
+            self._tables = OpenTables(self.folder)
 
     @property
     def head(self) -> dict[str, Any]:

@@ -21,6 +21,7 @@ from kineme.library.executors.processes import Processes
 from kineme.library.pieces import has_piece, write_piece
 from kineme.library.settings import Settings
 from kineme.library.sources import content_digest, size_of
+from kineme.library.storage.recordings import fetched
 
 PER_WORKER = 1 << 20
 """Bytes of recordings for which one process more is started: a start costs seconds."""
@@ -116,11 +117,12 @@ def work_on(task: Task) -> Outcome:
         with warnings.catch_warnings(), threadpool_limits(1):  # sums do not depend on threads
             warnings.simplefilter("ignore", KinemeWarning)
             options = task.settings.options()
-            digest = content_digest(task.path, options.skeleton)
-            key = task.settings.key(digest)
-            if has_piece(task.pieces, key):
-                return Outcome(digest)
-            recording = read_quietly(task.path, options)
+            with fetched(task.path, options.skeleton) as path:
+                digest = content_digest(path, options.skeleton)
+                key = task.settings.key(digest)
+                if has_piece(task.pieces, key):
+                    return Outcome(digest)
+                recording = read_quietly(path, options)
             write_piece(task.pieces, key, *make_piece(recording, task.settings))
     except (WriteError, MissingDependencyError) as error:
         return Outcome(error=_said(error), fatal=isinstance(error, WriteError))
