@@ -20,6 +20,20 @@ for profile, examples in (("kineme", 50), ("thorough", 500)):
     )
 settings.load_profile("kineme")
 
+HERE = Path(__file__).parent
+
+
+SLOWEST_FIRST = ("fuzz", "browser", "test_one_place.py", "test_docs.py", "cli", "studio", "methods")
+"""Files and folders of these tests; else two workers would wait for the last file of one."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    def turn(item: pytest.Item) -> int:
+        place = item.path.relative_to(HERE).parts[0]
+        return SLOWEST_FIRST.index(place) if place in SLOWEST_FIRST else len(SLOWEST_FIRST)
+
+    items.sort(key=turn)
+
 
 def find_data_dir() -> Path | None:
     """The folder of recordings: ``KINEME_DATA``, else ``../shared/data``, else None."""

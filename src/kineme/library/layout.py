@@ -86,6 +86,7 @@ def _is_whole(head: Mapping[str, Any]) -> bool:
         re.fullmatch("[0-9a-f]{1,64}", head["tables"]) is not None
         and 0 <= head["following"] < MOST_CLUSTERS
         and all(isinstance(text, str) for text in (*head["sources"], *head["failed"].values()))
+        and "unsure" in constants
         and all(is_number(value) for value in constants.values())
     )
 

@@ -118,5 +118,12 @@ class OpenTables:
 
     def _read(self) -> dict[str, Any]:
         """All tables but the embeddings, which few need."""
-        names = (name for name in DESCRIBED if name != "embeddings")
-        return {name: read_table(self.folder, self.head["tables"], name) for name in names}
+        names = [name for name in DESCRIBED if name != "embeddings"]
+        tables = {name: read_table(self.folder, self.head["tables"], name) for name in names}
+        known = {*tables["recordings"].column("recording").to_pylist()}
+        for name in names:
+            if not known.issuperset(tables[name].column("recording").unique().to_pylist()):
+                raise ReadError(
+                    self.folder, f"{name} and recordings do not fit: build the library again"
+                )
+        return tables

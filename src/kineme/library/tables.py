@@ -155,9 +155,11 @@ def read_table(folder: Path, named: str, name: str) -> Any:
         table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
         table.validate(full=True)
     for column, known in DESCRIBED[name].items():
-        if column not in table.column_names and column not in ADDED:
-            raise ReadError(path, f"is damaged: it lacks {column!r}; build the library again")
-        if column in table.column_names and not _is_sound(table.column(column), known.type):
+        times = table.column_names.count(column)
+        if times > 1 or (times == 0 and column not in ADDED):
+            said = "holds twice" if times else "lacks"
+            raise ReadError(path, f"is damaged: it {said} {column!r}; build the library again")
+        if times and not _is_sound(table.column(column), known.type):
             raise ReadError(path, f"is damaged in {column!r}; build the library again")
     return table
 
