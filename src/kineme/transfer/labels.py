@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import as_floats, check_type, is_number
+from kineme._checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.matching import THRESHOLD
 from kineme.segments.segmentation import Segmentation
@@ -33,6 +33,10 @@ REACH = 2.0
 """Thresholds up to which a match with the next label is looked for."""
 ALIKE = 0.6
 """Cost up to which the repetitions of one person are the same movement."""
+
+
+LARGEST = 1e6
+"""Threshold above which nothing more is found; no cost comes near it."""
 
 
 def transfer_labels(
@@ -91,6 +95,8 @@ def transfer_labels(
     check_type(knowledge, KnowledgeBase, "transfer_labels", "KnowledgeBase.load(path) gives one")
     if not (is_number(threshold) and threshold > 0):
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
+    check_flag(spread, "spread")
+    threshold = min(float(threshold), LARGEST)
     features = _checked(features, segmentation)
     table = segmentation.table
     if not ((table.kind == "activity") | (table.label != "")).any():
