@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import is_number
+from kineme._checks import check_flag, check_type, is_number
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.library.constants import VOCABULARY
@@ -139,6 +139,10 @@ def build(
     arrow()
     if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
+    if recursive is not None:
+        check_flag(recursive, "recursive")
+    if settings is not None:
+        check_type(settings, Settings, "build", "kineme.library.Settings(preset=...) makes one")
     with nullcontext(int(jobs)) if client is None else connected(client) as executor:
         folder = opened(into)
         with held(folder, "build"):
