@@ -49,7 +49,7 @@ def archive_of_zeros(path: Path) -> None:
     np.lib.format.write_array_header_1_0(
         head, {"descr": "<f4", "fortran_order": False, "shape": (3_000_000, 75)}
     )
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         text = io.BytesIO()
         np.save(text, np.array('{"schema": "kineme.knowledge/1"}'))
         archive.writestr("head.npy", text.getvalue())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field
@@ -17,6 +16,7 @@ from kineme.library.edits import read_edits
 from kineme.library.executors import Executor
 from kineme.library.executors.cluster import connected
 from kineme.library.gathering import Progress, gather
+from kineme.library.index.kept import write_index
 from kineme.library.layout import (
     HEAD,
     LOCK_EDITS,
@@ -32,6 +32,7 @@ from kineme.library.pieces import has_piece
 from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import Settings
 from kineme.library.sources import listed, names_of
+from kineme.library.storage.places import place, reaching, remove_folder
 from kineme.library.tables import read_table, write_tables
 
 Head = Mapping[str, Any]
@@ -145,7 +146,7 @@ def build(
         check_type(settings, Settings, "build", "kineme.library.Settings(preset=...) makes one")
     with nullcontext(int(jobs)) if client is None else connected(client) as executor:
         folder = opened(into)
-        with held(folder, "build"):
+        with held(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
             plan = plan_of(folder, head, as_paths(sources), as_paths(remove), recursive, settings)
             return _built(plan, head, executor, progress or _silent)
@@ -187,7 +188,7 @@ def _before(folder: Path, head: Head) -> Known:
         return {}
     table = read_table(folder, head["tables"], "recordings")
     columns = (table.column(name).to_pylist() for name in ("path", "recording", "piece"))
-    return {Path(path): (name, key) for path, name, key in zip(*columns, strict=True)}
+    return {place(path): (name, key) for path, name, key in zip(*columns, strict=True)}
 
 
 def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
@@ -228,6 +229,7 @@ def _written(
         following = max(head.get("following", 0), read_edits(plan.folder).following)
         made, following = compiled(plan.folder, entries, head.get("tables"), following)
         tables = write_tables(plan.folder, made)
+        write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**wanted, "following": following, "tables": tables}
     if now != head:
         write_json(plan.folder / HEAD, now)
@@ -237,11 +239,11 @@ def _written(
 def _clean(folder: Path, keys: set[str], tables: str) -> None:
     """Remove what nothing names any more, and drafts of builds that were ended."""
     for path in (folder / PIECES).iterdir():
-        if path.suffix not in (".npy", ".parquet") or path.stem not in keys:
+        if path.suffix not in (".npy", ".parquet") or path.name.partition(".")[0] not in keys:
             path.unlink(missing_ok=True)
     for path in (folder / TABLES).iterdir():
         if path.name != tables:
-            shutil.rmtree(path, ignore_errors=True)
+            remove_folder(path)
     for path in folder.glob(".kineme-*"):
         path.unlink(missing_ok=True)
 

@@ -11,6 +11,7 @@ import shutil
 from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.library.layout import EMBEDDED, TABLES, arrow, as_array, as_column
+from kineme.library.storage.places import is_remote, written
 from kineme.segments.table import DESCRIBED as SEGMENTS
 from kineme.segments.table import Column
 
@@ -33,6 +35,7 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
         "duration_s": Column(float, "seconds"),
         "piece": Column(str, "name of the files in `pieces/` that hold what is kept of it"),
         "features_fps": Column(float, "samples of its features per second"),
+        "samples": Column(int, "of its features; 0 where it is not searched"),
         "notes": Column(str, "what had to be inferred and what is unsure, one a line"),
     },
     "segments": {
@@ -100,6 +103,8 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
     """
     _, parquet = arrow()
     home = folder / TABLES
+    if is_remote(home):
+        return _put(home, tables)
     draft = home / f".{secrets.token_hex(6)}"
     try:
         draft.mkdir(parents=True)
@@ -115,6 +120,16 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error
     finally:
         shutil.rmtree(draft, ignore_errors=True)
+    return named
+
+
+def _put(home: Path, tables: Mapping[str, Any]) -> str:
+    """The same where folders cannot be moved: nothing names these tables before all are there."""
+    with TemporaryDirectory(prefix="kineme-") as near:
+        named = write_tables(Path(near), tables)
+        for file in sorted((Path(near) / TABLES / named).iterdir()):
+            with written(home / named / file.name) as draft:
+                shutil.copy(file, draft)
     return named
 
 

@@ -34,6 +34,13 @@ export interface Marks {
 
 export const UNMARKED: Marks = { start_s: null, stop_s: null };
 
+/** The details a result can be looked at, coarsest first, and the one that is. */
+export interface Levels {
+  all: readonly number[];
+  detail: number;
+  choose(detail: number): void;
+}
+
 export class State {
   /** The recordings shown side by side. */
   readonly opened = signal<OpenRecording[]>([]);
@@ -60,6 +67,10 @@ export class State {
   /** The span of time that the timeline and the matrix show; null: all of it. */
   readonly zoom = signal<Span | null>(null);
   readonly other = signal<OtherResult | null>(null);
+  /** Whether curves are shown under the timeline. */
+  readonly curves = signal(false);
+  /** null where there is one detail only. */
+  readonly levels = signal<Levels | null>(null);
   readonly edits = signal<EditHooks | null>(null);
 
   readonly active: ReadonlySignal<OpenRecording | undefined> = computed(

@@ -74,6 +74,13 @@ export class Store extends State {
     });
   }
 
+  /** Looks at the result coarser (-1) or finer (1). */
+  stepDetail(by: 1 | -1): void {
+    const levels = this.levels.value;
+    const next = levels?.all[positionOf(levels.detail, levels.all) + by];
+    if (next !== undefined) levels?.choose(next);
+  }
+
   /** Shows a cluster and goes to its next member, else its first; stays put inside a member. */
   selectCluster(id: number): void {
     const members = this.clusters.value.find((cluster) => cluster.id === id)?.members ?? [];
@@ -160,6 +167,11 @@ export class Store extends State {
     const before = this.current.value > index ? 1 : 0;
     this.show(Math.min(this.current.value - before, last));
   }
+}
+
+/** Where a detail stands among those there are: at the finest that is no finer. */
+export function positionOf(detail: number, all: readonly number[]): number {
+  return Math.max(all.filter((each) => each <= detail * (1 + 1e-9)).length - 1, 0);
 }
 
 function contains(segment: Segment, frame: number): boolean {

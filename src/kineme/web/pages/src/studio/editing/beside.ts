@@ -7,10 +7,11 @@ import type { Bulletin } from "../news";
 import { type Api, explain } from "../server/api";
 import type { EditedRecording } from "./editedRecording";
 
-/** A preset and its constants. */
+/** A preset, its constants, and how fine the segments are: 1 as usual, less is coarser. */
 export interface Choice {
   preset: string;
   values: Record<string, number>;
+  detail: number;
 }
 
 export interface Proposal {
@@ -52,7 +53,8 @@ export class Beside {
     const turn = ++this.asked;
     const { revision } = edited.confirmed.peek();
     try {
-      const request = { preset: choice.preset, parameters: choice.values, keep };
+      const { preset, values: parameters, detail } = choice;
+      const request = { preset, parameters, detail, keep };
       const preview = await this.around.api.preview(edited.id, request);
       if (turn !== this.asked || this.around.edited.peek() !== edited) return;
       const shown = { name: "Preview", segmentation: preview.segmentation, marked: true };
@@ -74,6 +76,7 @@ export class Beside {
       kind: "segment",
       preset: choice.preset,
       parameters: choice.values,
+      detail: choice.detail,
       keep,
     });
   }
