@@ -120,7 +120,7 @@ def _others(root: Path, motion: Motion, truth: Segmentation) -> None:
 
 def _library(root: Path, motion: Motion, _: Segmentation) -> None:
     takes = _made(root.parent / "takes")
-    for name, part in (("walk.bvh", motion[:600]), ("jacks.bvh", motion[2200:2800])):
+    for name, part in (("walk.bvh", motion[:300]), ("jacks.bvh", motion[2400:2640])):
         formats.write(part, takes / name)
     folder = root / "library"
     build(takes, folder)
@@ -147,7 +147,8 @@ def _ask_library(root: Path) -> object:
 
 def _search_library(root: Path) -> object:
     library = Library(root / "library")
-    return library.search(cluster=library.clusters()[0].cluster, top=5), library.unsure()
+    number = next((cluster.cluster for cluster in library.clusters()), 0)
+    return library.unsure(), library.search(cluster=number, top=5)
 
 
 def _export_library(root: Path) -> object:

@@ -90,7 +90,6 @@ def main() -> int:
         print(
             f"{name:30} {size:5.1f} {frames:7d} {took:8.3f} {size / took:6.1f} {took / bare:8.1f}"
         )
-
     return 0
 
 

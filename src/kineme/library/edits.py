@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
-from kineme.library.layout import EDITS, as_array, as_column, read_json, write_json
+from kineme.library.layout import EDITS, MOST_CLUSTERS, as_array, as_column, read_json, write_json
 
 SCHEMA = "kineme.library.edits/1"
 Ints = NDArray[np.int64]
@@ -152,7 +152,7 @@ def read_edits(folder: Path) -> Edits:
 def _cluster(written: Any) -> int:
     """The number of a cluster; ValueError for one that no table can hold."""
     number = int(written)
-    if not -1 <= number < 1 << 62:
+    if not -1 <= number < MOST_CLUSTERS:
         raise ValueError(f"no cluster has the number {number}")
     return number
 

@@ -127,7 +127,9 @@ def _hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -
     fps, lasts = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
     start_s, stop_s = start / fps, min(stop / fps, lasts)
     segments = tables.columns("segments")
-    rows = slice(*tables.rows[recording])
+    rows = slice(*tables.rows.get(recording, (0, 0)))
+    if rows.stop == rows.start:
+        return Hit(recording, start_s, stop_s, round(distance, 4), -1, "")
     shared = np.minimum(segments["stop_s"][rows], stop_s)
     shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)
     covers = int(np.lexsort((segments["level"][rows] == "primitive", shared))[-1])

@@ -18,8 +18,10 @@ from kineme.library.exporting import answer, table_called, write_hits, write_tab
 from kineme.library.finding import hits_like, typical_examples
 from kineme.library.layout import arrow
 from kineme.library.opened import OpenTables
+from kineme.library.pictures import write_pictures
 from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
+from kineme.library.storage.places import place, reaching
 from kineme.matching import THRESHOLD
 from kineme.recordings import Motion, Signals
 
@@ -27,14 +29,12 @@ AnyPath = str | PathLike[str]
 
 
 class Library:
-    """A library, opened for reading; edits are written at once.
-
-    Wherever a cluster is asked for, its number or its name will do.
+    """A library, opened for reading; edits are written at once. Clusters go by number or name.
 
     Parameters
     ----------
     folder : path-like
-        What `kineme.library.build` made.
+        What `kineme.library.build` made; or a URL, such as ``s3://bucket/library``.
 
     Raises
     ------
@@ -55,10 +55,10 @@ class Library:
     """
 
     def __init__(self, folder: AnyPath):
-        check_path(folder, "Library")
         arrow()
-        self.folder = Path(folder)
-        self._tables = OpenTables(self.folder)
+        self.folder = place(folder, "Library")
+        with reaching(self.folder):
+            self._tables = OpenTables(self.folder)
 
     @property
     def head(self) -> dict[str, Any]:
@@ -171,11 +171,13 @@ class Library:
                 max_per_recording=max_per_recording, executor=executor,
             )  # fmt: skip
 
-    def clips(self, hits: Sequence[Hit], folder: AnyPath) -> list[Path]:
-        """The clips of hits in a new or empty folder, with a manifest; see `kineme.clips.split`.
+    def pictures(self, folder: AnyPath) -> list[Path]:
+        """A PNG of each cluster in a folder, its most typical segment as a strip; of all first."""
+        check_path(folder, "pictures")
+        return write_pictures(self._tables, Path(folder))
 
-        Those of one recording are together, in the order of the first of each.
-        """
+    def clips(self, hits: Sequence[Hit], folder: AnyPath) -> list[Path]:
+        """The clips of hits, recording by recording, in a new or empty folder with a manifest."""
         return write_hits(self._tables, hits, folder)
 
     def query(self, sql: str) -> Any:
@@ -225,10 +227,7 @@ class Library:
         return self
 
     def split(self, cluster: int | str, recordings: Iterable[str]) -> int:
-        """The number of a new cluster: what one has in some recordings, by their names.
-
-        ParameterError where it is in none of these recordings, or in no other.
-        """
+        """The number of a new cluster: what one has in some of its recordings."""
         return split_cluster(self._tables, cluster, list(recordings))
 
     def path_of(self, recording: str) -> Path:

@@ -117,12 +117,13 @@ def _line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str,
         words = line.split()
         if not words or words[0].startswith(b"#"):
             continue
-        if len(words) == 1 and words[0].isdigit() and len(words[0]) < 19:
+        if len(words) == 1 and words[0].isdigit():
             if frames:
                 _check_complete(content, frames, began)
-                if int(words[0]) != label + 1:
-                    content.warn(f"frame {int(words[0])} follows {label}", number)
-            began, label = number, int(words[0])
+            before, label = label, _frame_number(content, words[0], number)
+            if frames and label != before + 1:
+                content.warn(f"frame {label} follows {before}", number)
+            began = number
             frames.append({})
             continue
         try:
@@ -147,6 +148,12 @@ def _line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str,
         name: np.array([frame.get(name, [0.0] * len(bone.dof)) for frame in frames])
         for name, bone in figure.bones.items()
     }
+
+
+def _frame_number(content: FileContent, word: bytes, line: int) -> int:
+    if len(word) > 18:
+        raise content.error(f"{word[:18].decode()}... is the number of no frame", line)
+    return int(word)
 
 
 def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure) -> None:

@@ -24,6 +24,7 @@ from kineme.methods.constants import (
 )
 
 Lengths = tuple[int, int]
+VARIANCE_KEPT = "share of the variance that the leading directions keep"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,9 +120,7 @@ class HacaConstants(AlignedConstants):
 class GmmConstants(ToldConstants):
     """Of the Gaussian mixture."""
 
-    variance_kept: float = constant(
-        "share of the variance that the principal components keep", limits=SHARE, default=0.9
-    )
+    variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.9)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,9 +134,7 @@ class PcaConstants(BaselineConstants):
     rise_span: float = constant(
         "time over which the rise of the error is taken", unit="s", limits=SOME_TIME, default=0.5
     )
-    variance_kept: float = constant(
-        "share of the variance that the components keep", limits=SHARE, default=0.9
-    )
+    variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.9)
     deviations: float = constant(
         "standard deviations by which the rise exceeds its mean at a cut", limits=FACTOR,
         default=3.0,
@@ -152,13 +149,11 @@ class PpcaConstants(BaselineConstants):
         "time ahead that is held against the Gaussian, and the first that it is fitted to",
         unit="s", limits=SOME_TIME, default=1.25,
     )  # fmt: skip
-    growth: float = constant(
+    growth_step: float = constant(
         "steps in which the time grows that the Gaussian is fitted to", unit="s",
         limits=SOME_TIME, default=1 / 12,
     )  # fmt: skip
-    variance_kept: float = constant(
-        "share of the variance that the Gaussian's own directions keep", limits=SHARE, default=0.95
-    )
+    variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.95)
     rise: float = constant(
         "share of the distance's range by which a peak rises above the valley before it",
         limits=SHARE, default=0.1,

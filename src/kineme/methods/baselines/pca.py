@@ -117,7 +117,7 @@ def _error_jump(features: Floats, preset: PcaConstants, *, floor: float) -> int 
 
 def _distance_peak(features: Floats, preset: PpcaConstants, *, floor: float) -> int | None:
     """The first frame at which the distance H of the frames ahead peaks, None if it does not."""
-    ahead, growth = max(2, preset.frames(preset.ahead)), max(1, preset.frames(preset.growth))
+    ahead, growth = max(2, preset.frames(preset.ahead)), max(1, preset.frames(preset.growth_step))
     counts = np.arange(ahead, len(features) - ahead + 1, growth)
     if len(counts) < 3:
         return None
