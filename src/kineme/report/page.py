@@ -14,14 +14,18 @@ from importlib.resources import files
 from os import PathLike
 from pathlib import Path
 
+import numpy as np
+
 from kineme._checks import check_path, check_type
 from kineme._files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
+from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
+from kineme.web.curves import curves_of
 from kineme.web.encoding import to_json
 from kineme.web.messages import Recording
-from kineme.web.page_data import Shown, page_data, recording_message
+from kineme.web.page_data import PageData, Shown, page_data, recording_message
 
 SUFFIXES = (".html", ".htm")
 
@@ -71,12 +75,21 @@ def write_report(
         raise WriteError(path, f"reports are written as {', '.join(SUFFIXES)}")
     data = page_data(recording, fps=segmentation.fps, effectors=effectors)
     tiles, band = data.matrix.report_tiles()
-    message = recording_message(data, segmentation, name=name or _name(segmentation), band=band)
+    message = recording_message(
+        data, segmentation, name=name or _name(segmentation), band=band, levels=True
+    )
     with atomic_write(path) as draft:
-        draft.write_text(filled(_template(), message, data.binary, tiles), encoding="utf-8")
+        page = filled(_template(), message, data.binary, tiles, _curves(recording, data))
+        draft.write_text(page, encoding="utf-8")
 
 
-def filled(template: str, message: Recording, binary: bytes, tiles: dict[str, bytes]) -> str:
+def filled(
+    template: str,
+    message: Recording,
+    binary: bytes,
+    tiles: dict[str, bytes],
+    curves: dict[str, object] | None = None,
+) -> str:
     """The template with the data in place of its comments.
 
     Parameters
@@ -88,6 +101,8 @@ def filled(template: str, message: Recording, binary: bytes, tiles: dict[str, by
         The poses, see `kineme.web.display`.
     tiles : dict
         PNGs by "level/row/column".
+    curves : dict, optional
+        ``list`` and ``pieces`` of the curves over time, where there are any.
 
     Returns
     -------
@@ -99,11 +114,23 @@ def filled(template: str, message: Recording, binary: bytes, tiles: dict[str, by
         "recording": ("application/json", _json(message)),
         "motion": ("application/octet-stream;base64", _base64(binary)),
         "tiles": ("application/json", _json(pictures)),
+        "curves": ("application/json", _json(curves)),
     }
     for part, (kind, text) in parts.items():
         element = f'<script type="{kind}" id="kineme-{part}">{text}</script>'
         template = template.replace(f"<!--kineme:{part}-->", element)
     return template
+
+
+def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
+    """The channels of what has no figure."""
+    if isinstance(recording, Motion):
+        return None
+    if not isinstance(recording, Signals):
+        values = np.asarray(recording, np.float64)
+        recording = Signals(np.nan_to_num(values), data.fps)
+    head, pieces = curves_of(recording)
+    return {"list": head, "pieces": {place: _base64(piece) for place, piece in pieces.items()}}
 
 
 def _name(segmentation: Segmentation) -> str:

@@ -15,11 +15,12 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from kineme.errors import KinemeError, WriteError
+from kineme.studio.answers import MessageResponse
 from kineme.studio.bodies import TooSlowError
 from kineme.studio.events import Hub
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.routes import Api, MessageResponse
+from kineme.studio.routes import Api
 from kineme.studio.security import Guard, is_trusted
 from kineme.studio.uploads import LIMIT, TooLargeError
 from kineme.web.messages import Conflict, Failure

@@ -15,6 +15,8 @@ from kineme.errors import ParameterError
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, Constant, resolve_preset
 from kineme.methods.constants import Slider
+from kineme.methods.levels import DETAILS
+from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.web.messages import ExportFormat, Parameter, PresetChoice
 
 CLIPS, REPORT = "motions", "report"
@@ -37,6 +39,11 @@ def presets() -> list[PresetChoice]:
         )
         for name, preset in PRESETS.items()
     ]
+
+
+def details() -> list[float]:
+    """The levels of detail that a segmentation can have, the coarsest first."""
+    return sorted({*DETAILS, DEFAULT_DETAIL})
 
 
 def check_offered(preset: str, parameters: Mapping[str, float], *, signals: bool) -> None:

@@ -13,6 +13,7 @@ from kineme.errors import ParameterError
 from kineme.labels import read_segments
 from kineme.segments import editing
 from kineme.segments.editing.marks import noted
+from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.loading import LoadedRecording
 from kineme.web import requests
@@ -99,7 +100,8 @@ def edited(
         return Outcome(after, _told(table, after, edit))
     if isinstance(edit, requests.SegmentAgain):
         keep = True if edit.keep is UNSET else edit.keep
-        found = loaded.segment(edit.preset, edit.parameters)
+        detail = DEFAULT_DETAIL if edit.detail is UNSET else edit.detail
+        found = loaded.segment(edit.preset, edit.parameters, detail)
         result = editing.carried(table, found) if keep else None
         lost = [f"not taken over: {what}" for what in result.lost] if result else []
         after = result.segmentation if result else found

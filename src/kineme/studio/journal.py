@@ -18,63 +18,29 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
 
-import msgspec
-
-from kineme._files import atomic_write
 from kineme.errors import ParameterError, WriteError
 from kineme.labels import json_table, read_segments
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
+from kineme.studio.records import (
+    FOLDER,
+    Record,
+    Step,
+    pruned,
+    read_record,
+    write_file,
+    write_record,
+)
 from kineme.web.requests import Edit
 
-SCHEMA = "kineme.history/1"
-FOLDER = ".kineme"
-HISTORY = "history.json"
 MOST_KEPT = 200
 MOST_NAMES = 200
 """Edits whose names are known, so that one that is sent again is not made again."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """A table of the history, and how it came about.
-
-    Parameters
-    ----------
-    at : str
-        When, ISO 8601.
-    sha256 : str
-        Of the file.
-    n_frames : int
-        Of the recording.
-    edit : Edit or None
-        As a page sent it; None for what was found, or written by another program.
-    """
-
-    at: str
-    sha256: str
-    n_frames: int
-    edit: Edit | None
-
-
-@dataclass(frozen=True)
-class Record:
-    """What ``history.json`` holds; tables by their numbers.
-
-    ``names`` are those of the last changes, empty for one without.
-    """
-
-    schema: str = SCHEMA
-    revision: int = 0
-    history: History[int] = field(default_factory=lambda: History(0))
-    kept: tuple[int, ...] = ()
-    names: tuple[str, ...] = ()
-    steps: dict[int, Step] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -99,7 +65,7 @@ class Journal:
 
     def __init__(self, table_path: Path, table: Segmentation):
         self.folder = table_path.parent / FOLDER / table_path.name.removesuffix(".json")
-        self._record = _read(self.folder)
+        self._record = read_record(self.folder)
         self._unsaved: dict[int, Segmentation] = {}
         history, steps = self._record.history, self._record.steps
         digest = _digest(table)
@@ -221,7 +187,7 @@ class Journal:
             It cannot be written.
         """
         names = (*self._record.names, name)[-MOST_NAMES:]
-        record = _pruned(replace(change.record, revision=revision, names=names))
+        record = pruned(replace(change.record, revision=revision, names=names))
         try:
             self._write(record)
             save(change.table)
@@ -245,8 +211,8 @@ class Journal:
                 raise WriteError(place, f"cannot be made: {error.strerror or error}") from error
         for number in self._unsaved.keys() & record.steps.keys():
             table = self._unsaved[number]
-            _write(self._place(number), json_table.dumps(table).encode())
-        _write(self.folder / HISTORY, msgspec.json.format(msgspec.json.encode(record), indent=1))
+            write_file(self._place(number), json_table.dumps(table).encode())
+        write_record(self.folder, record)
 
     def _gone(self, history: History[int]) -> Change:
         return Change(replace(self._record, history=history), self.table(history.present))
@@ -259,37 +225,11 @@ class Journal:
         return self.folder / f"{number}.json"
 
 
-def _read(folder: Path) -> Record:
-    """The history in a folder; an empty one where there is none that can be read."""
-    try:
-        record = msgspec.json.decode((folder / HISTORY).read_bytes(), type=Record)
-    except (OSError, ValueError):
-        return Record()
-    needed = _needed(record)
-    whole = record.schema == SCHEMA and needed <= record.steps.keys()
-    return record if whole else Record(revision=record.revision)
-
-
-def _needed(record: Record) -> set[int]:
-    history = record.history
-    return {*history.past, history.present, *history.future, *record.kept}
-
-
-def _pruned(record: Record) -> Record:
-    needed = _needed(record)
-    return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})
-
-
 def _or_none(step: Callable[[], History[int]]) -> History[int] | None:
     try:
         return step()
     except ParameterError:
         return None
-
-
-def _write(path: Path, content: bytes) -> None:
-    with atomic_write(path) as draft:
-        draft.write_bytes(content)
 
 
 def _digest(table: Segmentation) -> str:

@@ -14,14 +14,21 @@ from typing import TYPE_CHECKING, Any
 from kineme.errors import MotionError, ParameterError, ReadError
 from kineme.methods.presets import DEFAULT
 from kineme.recordings import Motion
+from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Kind
 from kineme.studio.choices import check_offered
 from kineme.studio.reading import RecordingCache, stamp_of
 
 if TYPE_CHECKING:
     from kineme.recordings import Signals
     from kineme.transfer import KnowledgeBase
+    from kineme.web.curves import Curves
     from kineme.web.page_data import PageData
+
+
+LONG = 300.0
+"""Seconds of a recording that is shown before it is segmented, which takes some seconds."""
 
 
 class LoadedRecording:
@@ -49,6 +56,7 @@ class LoadedRecording:
         self.provenance = found.provenance
         self._lock = threading.Lock()
         self._page_data: PageData | None = None
+        self._curves: Curves | None = None
 
     @property
     def recording(self) -> Motion | Signals:
@@ -72,6 +80,11 @@ class LoadedRecording:
         except ReadError:
             return True
 
+    @property
+    def is_long(self) -> bool:
+        """Whether segmenting it takes longer than people like to wait for a picture."""
+        return self.n_frames > LONG * self.fps
+
     def page_data(self) -> PageData:
         """All that a page draws but the segments."""
         from kineme.web.page_data import page_data
@@ -81,8 +94,20 @@ class LoadedRecording:
                 self._page_data = page_data(self.recording, effectors=self.effectors)
             return self._page_data
 
+    def curves(self) -> Curves:
+        """What is drawn over time."""
+        from kineme.web.curves import Curves
+
+        with self._lock:
+            if self._curves is None:
+                self._curves = Curves(self.recording)
+            return self._curves
+
     def segment(
-        self, preset: str = DEFAULT, parameters: Mapping[str, float] | None = None
+        self,
+        preset: str = DEFAULT,
+        parameters: Mapping[str, float] | None = None,
+        detail: float = DEFAULT_DETAIL,
     ) -> Segmentation:
         """The segments by a preset.
 
@@ -92,6 +117,8 @@ class LoadedRecording:
             Its name.
         parameters : mapping of float, optional
             Those of the constants it offers that are to be changed.
+        detail : float
+            Less than 1 is coarser, more is finer.
 
         Returns
         -------
@@ -101,7 +128,8 @@ class LoadedRecording:
 
         found, changed = self.recording, dict[str, Any](parameters or {})
         check_offered(preset, changed, signals=not isinstance(found, Motion))
-        return segment(found, preset=preset, effectors=self.effectors, **changed)
+        segments = segment(found, preset=preset, effectors=self.effectors, **changed)
+        return segments if detail == DEFAULT_DETAIL else segments.level(detail)
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
         """The table before anybody made another.
@@ -116,7 +144,11 @@ class LoadedRecording:
         try:
             return self.segment(), []
         except MotionError as error:  # a single point
-            return self._one_segment(), [f"not segmented: {error}"]
+            return self._one_segment("activity"), [f"not segmented: {error}"]
+
+    def not_segmented(self) -> Segmentation:
+        """The table while segments are being found: one transition."""
+        return self._one_segment("transition")
 
     def labelled(
         self,
@@ -154,10 +186,10 @@ class LoadedRecording:
         name = Path(str(said.get("path") or "")).name
         return said["sha256"] == self.provenance.sha256 or name == self.path.name
 
-    def _one_segment(self) -> Segmentation:
+    def _one_segment(self, kind: Kind) -> Segmentation:
         columns: dict[str, list[str] | list[int]] = {
             "level": ["activity"],
-            "kind": ["activity"],
+            "kind": [kind],
             "start_frame": [0],
             "stop_frame": [self.n_frames],
         }

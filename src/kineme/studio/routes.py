@@ -14,7 +14,7 @@ from urllib.parse import quote
 from msgspec import UNSET
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response, StreamingResponse
+from starlette.responses import Response, StreamingResponse
 from starlette.routing import Route
 
 from kineme._version import __version__
@@ -22,28 +22,21 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
+from kineme.studio.answers import MessageResponse, number_in
 from kineme.studio.bodies import body, chunks
 from kineme.studio.events import Hub
 from kineme.studio.folder import file_id
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
+from kineme.studio.pictures import Pictures
 from kineme.studio.progress import progress
 from kineme.studio.uploads import (
     LIMIT,
     Upload,
     recording_suffixes,
 )
-from kineme.web.encoding import from_json, to_json
+from kineme.web.encoding import from_json
 from kineme.web.messages import Comparison, FileChoice, Listing, Preview, State, Versions
 from kineme.web.requests import CompareRequest, EditRequest, PreviewRequest
-
-"""Bytes of a request; the largest that a page makes has a few hundred."""
-
-
-class MessageResponse(JSONResponse):
-    """A message as JSON."""
-
-    def render(self, content: object) -> bytes:
-        return to_json(content)
 
 
 class Api:
@@ -84,24 +77,6 @@ class Api:
         name = request.path_params["id"]
         return MessageResponse(await run_in_threadpool(self._recordings.message, name))
 
-    async def motion(self, request: Request) -> Response:
-        def work() -> bytes:
-            return self._recordings.get(request.path_params["id"]).loaded.page_data().binary
-
-        return Response(await run_in_threadpool(work), media_type="application/octet-stream")
-
-    async def tile(self, request: Request) -> Response:
-        place = [_number(request.path_params[name]) for name in ("level", "row", "column")]
-
-        def work() -> bytes | None:
-            shown = self._recordings.get(request.path_params["id"]).loaded.page_data()
-            return shown.matrix.tile(*place)
-
-        found = await run_in_threadpool(work)
-        if found is None:
-            raise UnknownError("the matrix has no such tile")
-        return Response(found, media_type="image/png")
-
     async def edit(self, request: Request) -> Response:
         sent = from_json(await body(request), EditRequest)
         name, work = request.path_params["id"], self._recordings.edit
@@ -123,7 +98,7 @@ class Api:
         return MessageResponse(await run_in_threadpool(work))
 
     async def version(self, request: Request) -> Response:
-        number = _number(request.path_params["number"])
+        number = number_in(request.path_params["number"])
 
         def work() -> Comparison:
             return self._recordings.get(request.path_params["id"]).version(number)
@@ -158,8 +133,7 @@ class Api:
             Route("/api/state", self.state),
             Route("/api/recordings", self.upload, methods=["POST"]),
             Route(one, self.recording),
-            Route(f"{one}/motion", self.motion),
-            Route(f"{one}/matrix/{{level}}/{{row}}/{{column}}", self.tile),
+            *Pictures(self._recordings).routes(one),
             Route(f"{one}/edits", self.edit, methods=["POST"]),
             Route(f"{one}/preview", self.preview, methods=["POST"]),
             Route(f"{one}/versions", self.versions),
@@ -183,6 +157,7 @@ class Api:
             recordings=[_listing(name, path) for name, path in folder.recordings().items()],
             presets=choices.presets(),
             default_preset=DEFAULT,
+            details=choices.details(),
             knowledge_bases=bases,
             annotations=annotations,
             export_formats=choices.export_formats(),
@@ -231,8 +206,3 @@ def _listing(name: str, path: Path) -> Listing:
         checked=said.checked if said else 0,
         named=said.named if said else 0,
     )
-
-
-def _number(text: str) -> int:
-    """The number of a tile; -1, which no tile has, for anything else."""
-    return int(text) if text.isascii() and text.isdigit() and len(text) < 9 else -1

@@ -72,8 +72,37 @@ class MatrixHead(Struct, frozen=True, kw_only=True):
     band: int | None
 
 
+class Curve(Struct, frozen=True, kw_only=True):
+    """A curve over time: a joint's height, a channel; ``group`` says what it is of that name."""
+
+    name: str
+    group: str
+    unit: str
+
+
+class CurveList(Struct, frozen=True, kw_only=True):
+    """The curves of a recording and their levels; see `kineme.web.curves`."""
+
+    curves: list[Curve]
+    factor: int
+    piece: int
+    levels: int
+
+
+class TableAtDetail(Struct, frozen=True, kw_only=True):
+    """The same recording, coarser (``detail`` below 1) or finer."""
+
+    detail: float
+    segments: list[Segment]
+
+
 class Recording(Struct, frozen=True, kw_only=True):
-    """Everything a page needs of one recording but the binary parts."""
+    """Everything a page needs of one recording but the binary parts.
+
+    ``levels`` has the tables at all details, coarsest first, in a report; the studio's server is
+    asked for them.
+    While ``finding`` its segments are still to be found, and the table is a single transition.
+    """
 
     id: str
     name: str
@@ -82,10 +111,12 @@ class Recording(Struct, frozen=True, kw_only=True):
     motion: MotionHead | None
     matrix: MatrixHead
     segmentation: Segments
+    levels: list[TableAtDetail]
     revision: int
     can_undo: bool
     can_redo: bool
     saved: str
+    finding: bool = False
     warnings: list[str]
 
 
@@ -148,7 +179,8 @@ class ExportFormat(Struct, frozen=True, kw_only=True):
 class State(Struct, frozen=True, kw_only=True):
     """What the studio offers: the first message a page asks for.
 
-    ``suffixes`` are those of files that can be recordings.
+    ``suffixes`` are those of files that can be recordings, ``details`` the levels of detail that
+    a segmentation may have.
     """
 
     version: str
@@ -157,6 +189,7 @@ class State(Struct, frozen=True, kw_only=True):
     recordings: list[Listing]
     presets: list[PresetChoice]
     default_preset: str
+    details: list[float]
     knowledge_bases: list[FileChoice]
     annotations: list[FileChoice]
     export_formats: list[ExportFormat]
@@ -192,12 +225,15 @@ class Preview(Struct, frozen=True, kw_only=True):
 
     ``corrections`` (segments made by hand or checked) and ``names`` are those of the present
     table; ``lost`` says, in a sentence each, what the new one would not have of them.
+    ``details`` are those that make a difference, ``detail`` the one of them that is shown.
     """
 
     segmentation: Segments
     corrections: int
     names: int
     lost: list[str]
+    details: list[float]
+    detail: float
 
 
 class Version(Struct, frozen=True, kw_only=True):

@@ -17,9 +17,11 @@ from kineme.segments.editing.marks import Mark, marked, span_of
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import Matrix
-from kineme.web.messages import MotionHead, Recording, Segments
+from kineme.web.messages import MotionHead, Recording, Segments, TableAtDetail
 from kineme.web.similarity import matrix_of_motion, matrix_of_signal
 
+MOST_ROWS = 12_000
+"""Of all details in a report, about a fifth of a kilobyte each."""
 Shown = Motion | Signals | ArrayLike
 
 
@@ -97,7 +99,12 @@ def page_data(
 
 
 def recording_message(
-    data: PageData, segmentation: Segmentation, *, name: str, band: int | None = None
+    data: PageData,
+    segmentation: Segmentation,
+    *,
+    name: str,
+    band: int | None = None,
+    levels: bool = False,
 ) -> Recording:
     """The message that goes with the binary parts of a report.
 
@@ -111,6 +118,8 @@ def recording_message(
         What people call it.
     band : int, optional
         Of the tiles that go along, see `kineme.web.matrix.Matrix.report_tiles`.
+    levels : bool
+        Whether the tables at all details go along, unless they are too long.
 
     Returns
     -------
@@ -135,6 +144,7 @@ def recording_message(
         motion=data.motion,
         matrix=data.matrix.head(band),
         segmentation=segments_message(segmentation),
+        levels=_levels(segmentation) if levels else [],
         revision=0,
         can_undo=False,
         can_redo=False,
@@ -167,6 +177,15 @@ def segments_message(segmentation: Segmentation) -> Segments:
         checked=[i for i, row in enumerate(rows) if span_of(row) in spans["checked"]],
         by_hand=[i for i, row in enumerate(rows) if span_of(row) in spans["by_hand"]],
     )
+
+
+def _levels(segmentation: Segmentation) -> list[TableAtDetail]:
+    """The tables at all details; none where there is one, or where they would fill the page."""
+    known = segmentation.hierarchy
+    if known is None or sum(map(len, known.tables)) > MOST_ROWS:
+        return []
+    tables = zip(known.details, known.tables, strict=True)
+    return [TableAtDetail(detail=detail, segments=list(table)) for detail, table in tables]
 
 
 def _warnings(data: PageData) -> list[str]:

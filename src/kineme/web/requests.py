@@ -92,11 +92,15 @@ class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
 
 
 class SegmentAgain(EditBase, frozen=True, kw_only=True, tag="segment"):
-    """The whole table anew, by a preset; with ``keep``, corrections and names are taken over."""
+    """The whole table anew, by a preset; with ``keep``, corrections and names are taken over.
+
+    ``detail`` is 1 by default, less is coarser.
+    """
 
     preset: Text
     parameters: dict[Text, Number]
     keep: bool | UnsetType = UNSET
+    detail: Number | UnsetType = UNSET
 
 
 class MergeClusters(EditBase, frozen=True, kw_only=True, tag="merge_clusters"):
@@ -182,6 +186,7 @@ class PreviewRequest(Request, frozen=True, kw_only=True):
     preset: Text
     parameters: dict[Text, Number]
     keep: bool
+    detail: Number | UnsetType = UNSET
 
 
 class CompareRequest(Request, frozen=True, kw_only=True):

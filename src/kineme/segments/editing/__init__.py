@@ -13,15 +13,9 @@ lose theirs.
 
 from kineme.segments.editing.borders import delete_border, merge, move_border, split
 from kineme.segments.editing.carrying import carried
+from kineme.segments.editing.clusters import merge_clusters, set_cluster, set_kind
 from kineme.segments.editing.marks import check
-from kineme.segments.editing.naming import (
-    cluster_names,
-    merge_clusters,
-    name_cluster,
-    name_segment,
-    set_cluster,
-    set_kind,
-)
+from kineme.segments.editing.naming import cluster_names, name_cluster, name_segment
 
 __all__ = [
     "carried",

@@ -78,7 +78,34 @@ export interface MatrixHead {
   band: number | null;
 }
 
-/** Everything a page needs of one recording but the binary parts. */
+/** A curve over time: a joint's height, a channel; `group` says what it is of that name. */
+export interface Curve {
+  name: string;
+  group: string;
+  unit: string;
+}
+
+/** The curves of a recording and their levels; see `kineme.web.curves`. */
+export interface CurveList {
+  curves: Curve[];
+  factor: number;
+  piece: number;
+  levels: number;
+}
+
+/** The same recording, coarser (`detail` below 1) or finer. */
+export interface TableAtDetail {
+  detail: number;
+  segments: Segment[];
+}
+
+/**
+ * Everything a page needs of one recording but the binary parts.
+ *
+ * `levels` has the tables at all details, coarsest first, in a report; the studio's server is
+ * asked for them.
+ * While `finding` its segments are still to be found, and the table is a single transition.
+ */
 export interface Recording {
   id: string;
   name: string;
@@ -87,10 +114,12 @@ export interface Recording {
   motion: MotionHead | null;
   matrix: MatrixHead;
   segmentation: Segments;
+  levels: TableAtDetail[];
   revision: number;
   can_undo: boolean;
   can_redo: boolean;
   saved: string;
+  finding?: boolean;
   warnings: string[];
 }
 
@@ -150,7 +179,8 @@ export interface ExportFormat {
 /**
  * What the studio offers: the first message a page asks for.
  *
- * `suffixes` are those of files that can be recordings.
+ * `suffixes` are those of files that can be recordings, `details` the levels of detail that
+ * a segmentation may have.
  */
 export interface State {
   version: string;
@@ -159,6 +189,7 @@ export interface State {
   recordings: Listing[];
   presets: PresetChoice[];
   default_preset: string;
+  details: number[];
   knowledge_bases: FileChoice[];
   annotations: FileChoice[];
   export_formats: ExportFormat[];
@@ -197,12 +228,15 @@ export interface Comparison {
  *
  * `corrections` (segments made by hand or checked) and `names` are those of the present
  * table; `lost` says, in a sentence each, what the new one would not have of them.
+ * `details` are those that make a difference, `detail` the one of them that is shown.
  */
 export interface Preview {
   segmentation: Segments;
   corrections: number;
   names: number;
   lost: string[];
+  details: number[];
+  detail: number;
 }
 
 /** A table that was replaced; `edit` made it, null: it was found, or came from elsewhere. */
@@ -292,12 +326,17 @@ export interface SetKind {
   to: Kind;
 }
 
-/** The whole table anew, by a preset; with `keep`, corrections and names are taken over. */
+/**
+ * The whole table anew, by a preset; with `keep`, corrections and names are taken over.
+ *
+ * `detail` is 1 by default, less is coarser.
+ */
 export interface SegmentAgain {
   kind: "segment";
   preset: string;
   parameters: Record<string, number>;
   keep?: boolean;
+  detail?: number;
 }
 
 /** The segments of a cluster are in another one, `into`, from then on. */
@@ -369,6 +408,7 @@ export interface PreviewRequest {
   preset: string;
   parameters: Record<string, number>;
   keep: boolean;
+  detail?: number;
 }
 
 /** Another result to lay beside the shown one: a preset's, or a file's of the folder. */

@@ -1,5 +1,5 @@
 /** Where a page gets its data: out of its own file (report) or from the server (studio). */
-import type { Recording } from "./messages";
+import type { CurveList, Recording } from "./messages";
 
 export interface RecordingData {
   recording(): Promise<Recording>;
@@ -7,14 +7,20 @@ export interface RecordingData {
   motion(): Promise<ArrayBuffer>;
   /** A tile of the similarity matrix as PNG, or null where there is none. */
   tile(level: number, row: number, column: number): Promise<Blob | null>;
+  /** The curves there are to draw; null where none can be had. */
+  curves(): Promise<CurveList | null>;
+  /** Pairs of least and greatest values, see kineme.web.curves; null where there is none. */
+  piece(curve: number, level: number, number: number): Promise<ArrayBuffer | null>;
 }
 
 /** The data inside a report: three script elements that no browser runs. */
 export class EmbeddedData implements RecordingData {
   private readonly tiles: Record<string, string>;
+  private readonly drawn: { list: CurveList; pieces: Record<string, string> } | null;
 
   constructor(private readonly page: Document = document) {
     this.tiles = JSON.parse(this.text("kineme-tiles") || "{}") as Record<string, string>;
+    this.drawn = JSON.parse(this.text("kineme-curves") || "null") as typeof this.drawn;
   }
 
   recording(): Promise<Recording> {
@@ -31,6 +37,15 @@ export class EmbeddedData implements RecordingData {
     const text = this.tiles[`${level}/${row}/${column}`];
     const blob = text ? new Blob([bytesOf(text)], { type: "image/png" }) : null;
     return Promise.resolve(blob);
+  }
+
+  curves(): Promise<CurveList | null> {
+    return Promise.resolve(this.drawn?.list ?? null);
+  }
+
+  piece(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
+    const text = this.drawn?.pieces[`${curve}/${level}/${number}`];
+    return Promise.resolve(text ? bytesOf(text).buffer : null);
   }
 
   private text(id: string): string {

@@ -1,5 +1,6 @@
 /** `window.kineme`: a read-only picture of the state, for tests and for the curious. */
-import type { Selection, Store } from "./store";
+import type { Selection } from "./state";
+import type { Store } from "./store";
 import type { Span } from "./view";
 import { ticker } from "./ticker";
 

@@ -1,5 +1,7 @@
-/** The places of a page: header, viewer, matrix, side panel, transport bar, timeline. */
+/** The places of a page: header, viewer, matrix, side panel, transport bar, timeline, curves. */
 import type { ComponentChildren, JSX } from "preact";
+import { sizeStyle, SIZES } from "./sizes";
+import { Splitter } from "./Splitter";
 
 interface Places {
   header: ComponentChildren;
@@ -11,25 +13,44 @@ interface Places {
   side: ComponentChildren;
   transport: ComponentChildren;
   timeline: ComponentChildren;
+  /** Below the timeline, while they are wanted. */
+  curves?: ComponentChildren;
 }
 
 export function Layout(places: Places): JSX.Element {
   const names = ["layout"];
   if (places.left) names.push("with-left");
   if (!places.viewer) names.push("without-viewer");
+  if (places.curves) names.push("with-curves");
   return (
-    <div class={names.join(" ")}>
+    <div class={names.join(" ")} style={sizeStyle()}>
       <header class="place-header">{places.header}</header>
-      {places.left && <aside class="place-left">{places.left}</aside>}
+      {places.left && (
+        <aside class="place-left" aria-label="Recordings and segmentation">
+          {places.left}
+          <Splitter size={SIZES.left} at="right" />
+        </aside>
+      )}
       {places.viewer && <main class="place-viewer">{places.viewer}</main>}
       <section class="place-matrix" aria-label="Self-similarity">
         {places.matrix}
+        {places.viewer && <Splitter size={SIZES.matrix} at="left" />}
       </section>
-      <aside class="place-side">{places.side}</aside>
+      <aside class="place-side" aria-label="Side panel">
+        {places.side}
+        <Splitter size={SIZES.side} at="left" />
+      </aside>
       <div class="place-transport">{places.transport}</div>
       <section class="place-timeline" aria-label="Timeline">
         {places.timeline}
+        <Splitter size={SIZES.timeline} at="top" />
       </section>
+      {places.curves && (
+        <section class="place-curves" aria-label="Curves">
+          {places.curves}
+          <Splitter size={SIZES.curves} at="top" />
+        </section>
+      )}
     </div>
   );
 }

@@ -1,23 +1,51 @@
 /** The report: one recording out of the page itself. */
+import { batch } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
+import { startPrinting } from "./printing";
 import { exposeSnapshot } from "../snapshot";
 import { EmbeddedData } from "../recordingData";
-import { loadMotion, openRecording, Store } from "../store";
+import { loadMotion, openRecording, type OpenRecording } from "../opened";
+import { positionOf, Store } from "../store";
 import { Report } from "./Report";
 
 async function start(): Promise<void> {
   const store = new Store();
   const opened = await openRecording(new EmbeddedData());
   store.add(opened);
+  offerLevels(store, opened);
   document.title = `${opened.recording.value.name} · kineme report`;
   exposeSnapshot(store);
   startPlayer(store);
   startKeys(store);
+  startPrinting();
   render(<Report store={store} />, document.getElementById("page")!);
   await loadMotion(opened);
+}
+
+/** The tables at other details are looked at in place of the first one. */
+function offerLevels(store: Store, { recording }: OpenRecording): void {
+  const { levels, segmentation } = recording.value;
+  if (levels.length < 2) return;
+  const said = segmentation.provenance.detail;
+  const choose = (detail: number): void => {
+    const chosen = levels[positionOf(detail, all)]!;
+    const { segments } = chosen;
+    batch(() => {
+      store.levels.value = { all, detail: chosen.detail, choose };
+      const marks = { checked: [], by_hand: [], cluster_names: {} };
+      const own = chosen.detail === shown;
+      recording.value = {
+        ...recording.value,
+        segmentation: own ? segmentation : { ...segmentation, ...marks, segments },
+      };
+    });
+  };
+  const all = levels.map(({ detail }) => detail);
+  const shown = typeof said === "number" ? said : 1;
+  store.levels.value = { all, detail: shown, choose };
 }
 
 void start();

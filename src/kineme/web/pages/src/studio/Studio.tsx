@@ -2,6 +2,7 @@
 import { signal, type Signal } from "@preact/signals";
 import type { JSX } from "preact";
 import { About, aboutTitle } from "../about/About";
+import { Channels } from "../channels/Channels";
 import { Clusters } from "../clusters/Clusters";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
@@ -50,6 +51,7 @@ export function Studio({ session, editor, review, uploads, front }: Props): JSX.
   const close = (): void => {
     if (front.dialog.value === dialog) front.dialog.value = null; // not one opened since
   };
+  const hasFigure = Boolean(store.recording.value?.motion);
   const tabs = [
     {
       id: "segment",
@@ -91,11 +93,12 @@ export function Studio({ session, editor, review, uploads, front }: Props): JSX.
         side={<Tabs label="About the recording" tabs={tabs} open={front.tab} />}
         transport={
           <>
-            <Transport store={store} />
+            <Transport store={store} curves={hasFigure} />
             <EditTools editor={editor} />
           </>
         }
         timeline={store.active.value && <Timeline store={store} />}
+        curves={hasFigure && store.curves.value && <Channels store={store} />}
       />
       <Notices session={session} />
       <DropZone session={session} uploads={uploads} />
@@ -107,6 +110,7 @@ export function Studio({ session, editor, review, uploads, front }: Props): JSX.
 /** The figures; their stage is set up at once, while the first recording is on its way. */
 function Stage({ session }: { session: Session }): JSX.Element {
   const { store, opening } = session;
+  if (store.recording.value?.motion === null) return <Channels store={store} ruler />;
   return (
     <>
       <Viewer store={store} />

@@ -33,7 +33,7 @@ function start(): void {
     if (editor.naming.value) front.tab.value = "segment";
   });
   effect(() => {
-    if (session.comparison.value) front.tab.value = "compare";
+    if (session.beside.comparison.value) front.tab.value = "compare";
   });
   effect(() => {
     document.title = `${store.recording.value?.name ?? "kineme"} · kineme studio`;

@@ -6,32 +6,18 @@
  */
 
 import { computed, effect, signal } from "@preact/signals";
-import type { Changed, Comparison, CompareRequest, Listing, Preview, State } from "../messages";
+import type { Changed, State } from "../messages";
 import type { Motion } from "../motion";
-import { loadMotion, type OpenRecording, type OtherResult, type Store } from "../store";
+import { loadMotion, type OpenRecording } from "../opened";
+import type { Store } from "../store";
 import { type Api, explain, Refused, RETRY, Unreachable } from "./server/api";
+import { Beside } from "./editing/beside";
 import { EditedRecording } from "./editing/editedRecording";
+import { fromAddress, toAddress } from "./server/address";
 import { ServerData } from "./server/serverData";
 import { shareToken } from "./server/token";
 import { Bulletin } from "./news";
-
-/** How far a recording is. */
-export type Status = "new" | "corrected" | "checked";
-
-/** A preset and its constants. */
-export interface Choice {
-  preset: string;
-  values: Record<string, number>;
-}
-
-export interface Proposal {
-  choice: Choice;
-  keep: boolean;
-  preview: Preview;
-  shown: OtherResult;
-  /** Of the table that it would take the place of. */
-  revision: number;
-}
+import { RecordingList } from "./recordingList";
 
 const NO_ANSWER =
   "The studio’s server does not answer. What is shown is saved; edits wait here until it is back.";
@@ -44,47 +30,28 @@ export class Session {
   readonly trouble = signal<string | null>(null);
   /** The recording that is being opened. */
   readonly opening = signal<string | null>(null);
-  /** A segmentation that is shown, but not made; only as long as it lies beside the table. */
-  readonly proposal = computed(() =>
-    this.proposed.value?.shown === this.store.other.value ? this.proposed.value : null,
-  );
-  /** Another result beside the shown one. */
-  readonly comparison = computed(() =>
-    this.proposal.value ? null : (this.compared.value.get(this.store.other.value!) ?? null),
-  );
   readonly bulletin = new Bulletin();
+  private readonly recordings = signal<EditedRecording[]>([]);
+  readonly list = new RecordingList(this.state, this.recordings);
   readonly edited = computed(() => {
     const id = this.store.recording.value?.id;
     return this.recordings.value.find((edited) => edited.id === id);
-  });
-  /** What the list of recordings shows. */
-  readonly search = signal("");
-  readonly wanted = signal<Status | "">("");
-  readonly listed = computed(() => {
-    const text = this.search.value.trim().toLowerCase();
-    const all = this.state.value?.recordings ?? [];
-    return all.filter(
-      (each) =>
-        each.name.toLowerCase().includes(text) &&
-        (!this.wanted.value || this.statusOf(each) === this.wanted.value),
-    );
   });
   /** Recordings whose edits wait for a decision. */
   readonly held = computed(() => this.recordings.value.filter((edited) => edited.held.value));
   /** Edits of all recordings that the server has not confirmed. */
   readonly unsent = computed(() => this.recordings.value.flatMap((edited) => edited.unsent()));
 
-  private readonly recordings = signal<EditedRecording[]>([]);
-  private readonly proposed = signal<Proposal | null>(null);
-  private readonly compared = signal(new WeakMap<OtherResult, Comparison>());
-  private asked = 0;
+  readonly beside: Beside;
   private retrying = 0;
   private begun = false;
 
   constructor(
     readonly api: Api,
     readonly store: Store,
-  ) {}
+  ) {
+    this.beside = new Beside(this);
+  }
 
   /** @param announced once other tabs know of this one, which edits are taken over by */
   async start(announced: Promise<void>): Promise<void> {
@@ -135,7 +102,7 @@ export class Session {
 
   /** Opens the next recording of the list, or the one before. */
   async openNext(by: 1 | -1): Promise<void> {
-    const { value: listed } = this.listed;
+    const { value: listed } = this.list.listed;
     const id = this.opening.value ?? this.store.recording.value?.id;
     const at = listed.findIndex((each) => each.id === id);
     const next = at < 0 ? listed[0] : listed[at + by];
@@ -148,79 +115,6 @@ export class Session {
     const index = this.store.opened.value.findIndex((each) => each.recording.value.id === id);
     if (index >= 0) this.store.close(index);
     this.forgetClosed();
-  }
-
-  /** How far a recording is: as it is shown, else as the folder was told to be. */
-  statusOf(listing: Listing): Status {
-    const open = this.recordings.value.find((edited) => edited.id === listing.id);
-    const { saved, segmentation } = open?.confirmed.value ?? {};
-    if (segmentation && saved)
-      return status(segmentation.segments.length, segmentation.checked.length);
-    return listing.corrected ? status(listing.segments, listing.checked) : "new";
-  }
-
-  /** Shows what a segmentation would make of the table, which stays as it is. */
-  async propose(choice: Choice, keep: boolean): Promise<void> {
-    const edited = this.edited.value;
-    if (!edited) return;
-    const turn = ++this.asked;
-    const { revision } = edited.confirmed.peek();
-    try {
-      const request = { preset: choice.preset, parameters: choice.values, keep };
-      const preview = await this.api.preview(edited.id, request);
-      if (turn !== this.asked || this.edited.peek() !== edited) return;
-      const shown = { name: "Preview", segmentation: preview.segmentation, marked: true };
-      this.proposed.value = { choice, keep, preview, shown, revision };
-      this.store.other.value = shown;
-      this.bulletin.solved("preview");
-    } catch (error) {
-      if (turn === this.asked) this.bulletin.problem(explain(error), "preview");
-    }
-  }
-
-  /** Makes the shown segmentation the table. */
-  apply(): void {
-    const { value: proposal } = this.proposal;
-    if (!proposal) return;
-    const { choice, keep } = proposal;
-    this.discard();
-    void this.edited.value?.edit({
-      kind: "segment",
-      preset: choice.preset,
-      parameters: choice.values,
-      keep,
-    });
-  }
-
-  discard(): void {
-    this.asked += 1;
-    if (this.proposal.value) this.store.other.value = null;
-    this.proposed.value = null;
-  }
-
-  /** Lays another result below the shown one; whether there is one. */
-  async compare(request: CompareRequest): Promise<boolean> {
-    const edited = this.edited.value;
-    if (!edited) return false;
-    try {
-      this.lay(await this.api.compare(edited.id, request));
-      this.bulletin.solved("compare");
-      return true;
-    } catch (error) {
-      this.bulletin.problem(explain(error), "compare");
-      return false;
-    }
-  }
-
-  /** Lays a result below the shown one. */
-  lay(comparison: Comparison, marked = false): void {
-    const shown = { name: comparison.name, segmentation: comparison.segmentation, marked };
-    this.compared.value.set(shown, comparison);
-    this.store.other.value = shown;
-  }
-
-  stopComparing(): void {
-    this.store.other.value = null;
   }
 
   /** Nobody answers, or not to us: ask again every second until that has changed. */
@@ -289,20 +183,4 @@ export class Session {
     if (edited) await edited.changed(change.revision);
     else await this.refresh();
   }
-}
-
-function status(segments: number, checked: number): Status {
-  return checked > 0 && checked >= segments ? "checked" : "corrected";
-}
-
-/** The recordings named in the address, so that a reload finds them, and the server ahead of it. */
-function fromAddress(): string[] {
-  return new URLSearchParams(location.search).getAll("open");
-}
-
-function toAddress(opened: OpenRecording[]): void {
-  const address = new URLSearchParams(location.search);
-  address.delete("open");
-  for (const each of opened) address.append("open", each.recording.peek().id);
-  history.replaceState(null, "", `?${address}`);
 }

@@ -4,12 +4,12 @@ import type { Segment } from "../messages";
 import { nameOf } from "../segments";
 import type { Store } from "../store";
 import { cssColor } from "../theme";
-import { ticksOf, toPixel, type Span } from "../view";
-import { GUTTER, RULER, visible, type Lane } from "./lanes";
+import { toPixel, type Span } from "../view";
+import { drawInAndOut, drawLoop, drawRuler, drawTitle, FONT, hatching, shortened } from "./frame";
+import { GUTTER, visible, type Lane } from "./lanes";
 
 type Pen = CanvasRenderingContext2D;
 
-const FONT = "11px system-ui, sans-serif";
 const ROUND = 3;
 
 /** A border on its way to another frame. */
@@ -139,16 +139,6 @@ function writeName(
   pen.fillText(shown, from, lane.top + lane.height / 2 + 0.5);
 }
 
-/** As much of a text as fits, with an ellipsis; nothing if that says nothing. */
-function shortened(pen: Pen, text: string, space: number): string {
-  if (pen.measureText(text).width <= space) return text;
-  for (let n = text.length - 1; n >= 3; n--) {
-    const part = text.slice(0, n) + "…";
-    if (pen.measureText(part).width <= space) return part;
-  }
-  return "";
-}
-
 /** What edits are for: the segment, broken where it was not chosen, and the border nearest by. */
 function drawTarget(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
   const target = store.edits.value ? store.target.value : store.selected.value;
@@ -177,72 +167,10 @@ function drawTarget(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
   }
 }
 
-function drawRuler(pen: Pen, range: Span, room: number): void {
-  pen.fillStyle = cssColor("quiet");
-  pen.strokeStyle = cssColor("line");
-  pen.lineWidth = 1;
-  for (const { seconds, label } of ticksOf(range, room)) {
-    const x = Math.round(GUTTER + toPixel(range, room, seconds)) + 0.5;
-    if (x > GUTTER + room - 1) continue;
-    pen.beginPath();
-    pen.moveTo(x, RULER - 6);
-    pen.lineTo(x, RULER - 1);
-    pen.stroke();
-    if (x < GUTTER + room - 34) pen.fillText(label, x + 4, RULER / 2 - 1);
-  }
-}
-
-function drawLoop(pen: Pen, loop: Span | null, range: Span, room: number): void {
-  if (!loop) return;
-  const left = Math.max(toPixel(range, room, loop.start_s), 0);
-  const right = Math.min(toPixel(range, room, loop.stop_s), room);
-  if (right <= left) return;
-  pen.fillStyle = cssColor("accent");
-  pen.fillRect(GUTTER + left, RULER - 4, right - left, 3);
-}
-
-/** The marks, as brackets on the ruler. */
-function drawInAndOut(pen: Pen, store: Store, range: Span, room: number): void {
-  pen.fillStyle = cssColor("accent");
-  const { start_s, stop_s } = store.marks.value;
-  for (const [seconds, toward] of [
-    [start_s, 1],
-    [stop_s, -1],
-  ] as const) {
-    if (seconds === null) continue;
-    const x = toPixel(range, room, seconds);
-    if (x < 0 || x > room) continue;
-    pen.fillRect(GUTTER + x - 1, 2, 2, RULER - 4);
-    pen.fillRect(GUTTER + (toward > 0 ? x : x - 6), 2, 6, 2);
-    pen.fillRect(GUTTER + (toward > 0 ? x : x - 6), RULER - 4, 6, 2);
-  }
-}
-
-function drawTitle(pen: Pen, lane: Lane): void {
-  pen.fillStyle = cssColor("quiet");
-  const title = shortened(pen, lane.title, GUTTER - 14);
-  pen.fillText(title, 10, lane.top + lane.height / 2 + 0.5);
-}
-
 function box(pen: Pen, x: number, y: number, width: number, height: number): void {
   pen.beginPath();
   if (width < 2 * ROUND) pen.rect(x, y, width, height);
   else pen.roundRect(x, y, width, height, ROUND);
-}
-
-/** Grey stripes: what belongs to no cluster. */
-function hatching(pen: Pen): CanvasPattern | string {
-  const tile = document.createElement("canvas");
-  tile.width = tile.height = 6;
-  const brush = tile.getContext("2d")!;
-  brush.strokeStyle = cssColor("hatch");
-  brush.lineWidth = 1.2;
-  for (const shift of [-6, 0, 6]) {
-    brush.moveTo(shift, 6);
-    brush.lineTo(shift + 6, 0);
-  }
-  brush.stroke();
-  return pen.createPattern(tile, "repeat") ?? cssColor("hatch");
 }
 
 /** The lane's segments with the dragged border where the pointer is. */

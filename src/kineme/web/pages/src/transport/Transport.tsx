@@ -8,7 +8,13 @@ import { IconButton } from "./icons";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
-export function Transport({ store }: { store: Store }): JSX.Element {
+interface Props {
+  store: Store;
+  /** Whether there are curves to show below the timeline. */
+  curves?: boolean;
+}
+
+export function Transport({ store, curves = false }: Props): JSX.Element {
   const { playing, loop, speed } = store;
   return (
     <div class="transport" role="toolbar" aria-label="Playing">
@@ -53,6 +59,16 @@ export function Transport({ store }: { store: Store }): JSX.Element {
         ))}
       </select>
       <Clock store={store} />
+      {curves && (
+        <button
+          type="button"
+          aria-pressed={store.curves.value}
+          title="Curves and signals over time (G)"
+          onClick={() => (store.curves.value = !store.curves.value)}
+        >
+          Curves
+        </button>
+      )}
       <div class="group">
         <IconButton icon="minus" label="Zoom out" keys="−" onClick={() => store.zoomBy(1 / 0.7)} />
         <IconButton

@@ -50,6 +50,7 @@ export function recording(segmentation = table(), revision = 0): Recording {
     motion: null,
     matrix: { fps: 10, tile: 256, sizes: [100], band: null },
     segmentation,
+    levels: [],
     revision,
     can_undo: false,
     can_redo: false,

@@ -15,7 +15,7 @@ export function CompareDialog({ session, close }: Props): JSX.Element {
   const { presets = [], annotations = [] } = session.state.value ?? {};
   const compare = async (name: string, request: CompareRequest): Promise<void> => {
     busy.value = name;
-    if (await session.compare(request)) close();
+    if (await session.beside.compare(request)) close();
     busy.value = "";
   };
   return (

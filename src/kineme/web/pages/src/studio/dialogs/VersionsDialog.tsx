@@ -27,7 +27,7 @@ export function VersionsDialog({ session, close }: Props): JSX.Element {
   const look = async (version: Version): Promise<void> => {
     try {
       const found = await session.api.version(edited!.id, version.number);
-      session.lay({ ...found, name: `Version ${version.number}` }, true);
+      session.beside.lay({ ...found, name: `Version ${version.number}` }, true);
       close();
     } catch (error) {
       session.bulletin.problem(explain(error), "versions");

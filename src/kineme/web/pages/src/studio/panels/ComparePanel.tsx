@@ -8,7 +8,7 @@ interface Props {
 }
 
 export function ComparePanel({ session, choose }: Props): JSX.Element {
-  const comparison = session.comparison.value;
+  const comparison = session.beside.comparison.value;
   if (!comparison)
     return (
       <div class="compare-panel">
@@ -25,7 +25,7 @@ export function ComparePanel({ session, choose }: Props): JSX.Element {
       <div class="panel-head">
         <b class="name">{comparison.name}</b>
         <span class="spacer" />
-        <button type="button" onClick={() => session.stopComparing()}>
+        <button type="button" onClick={() => session.beside.stop()}>
           Stop comparing
         </button>
       </div>

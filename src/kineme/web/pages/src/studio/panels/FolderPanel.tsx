@@ -1,7 +1,8 @@
 /** The recordings of the folder: search, open, show beside, add. */
 import type { JSX } from "preact";
 import type { Listing } from "../../messages";
-import type { Session, Status } from "../session";
+import type { Status } from "../recordingList";
+import type { Session } from "../session";
 import type { Uploads } from "../server/uploads";
 
 const SIGNS: Record<Status, string> = { new: "", corrected: "✎", checked: "✓" };
@@ -13,10 +14,10 @@ interface Props {
 }
 
 export function FolderPanel({ session, uploads }: Props): JSX.Element {
-  const { search, wanted } = session;
+  const { search, wanted } = session.list;
   const all = session.state.value?.recordings ?? [];
-  const found = session.listed.value;
-  const done = all.filter((each) => session.statusOf(each) === "checked").length;
+  const found = session.list.listed.value;
+  const done = all.filter((each) => session.list.statusOf(each) === "checked").length;
   return (
     <section class="folder-panel" aria-label="Recordings">
       <div class="panel-head">
@@ -86,7 +87,7 @@ function Row({ session, listing }: { session: Session; listing: Listing }): JSX.
   const { store } = session;
   const open = store.opened.value.find((each) => each.recording.value.id === id)?.recording.value;
   const shown = open !== undefined;
-  const status = session.statusOf(listing);
+  const status = session.list.statusOf(listing);
   const checked = open?.segmentation.checked.length ?? listing.checked;
   const segments = open?.segmentation.segments.length ?? listing.segments;
   const said = [

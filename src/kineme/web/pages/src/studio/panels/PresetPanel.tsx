@@ -7,8 +7,11 @@ import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import type { Parameter, PresetChoice, Segments } from "../../messages";
 import type { EditedRecording } from "../editing/editedRecording";
-import { counted } from "../editing/words";
-import type { Choice, Proposal, Session } from "../session";
+import { DetailSlider } from "../../layout/DetailSlider";
+import type { Choice } from "../editing/beside";
+import { ParameterSlider } from "./ParameterSlider";
+import { Proposed } from "./Proposed";
+import type { Session } from "../session";
 
 const PAUSE = 120; // milliseconds without a change before the server is asked
 
@@ -26,6 +29,7 @@ export function PresetPanel({ session }: { session: Session }): JSX.Element | nu
       edited={edited}
       presets={signals ? state.presets.map(ofSignals) : state.presets}
       fallback={state.default_preset}
+      details={state.details}
     />
   );
 }
@@ -35,24 +39,25 @@ interface Props {
   edited: EditedRecording;
   presets: PresetChoice[];
   fallback: string;
+  details: number[];
 }
 
-function Presets({ session, edited, presets, fallback }: Props): JSX.Element {
+function Presets({ session, edited, presets, fallback, details }: Props): JSX.Element {
   const draft = useSignal<Choice | null>(null);
   const keep = useSignal(true);
   const timer = useRef(0);
   const { revision, segmentation: table } = edited.confirmed.value;
-  const proposal = session.proposal.value;
+  const proposal = session.beside.proposal.value;
   const busy = edited.busy.value || draft.value !== null;
   const used = usedBy(table, presets, fallback);
-  const { preset, values } = draft.value ?? proposal?.choice ?? used;
+  const { preset, values, detail } = draft.value ?? proposal?.choice ?? used;
   const choice = presets.find((each) => each.name === preset)!;
 
   const again = (next: Choice, pause: number): void => {
     draft.value = next;
     window.clearTimeout(timer.current);
     timer.current = window.setTimeout(() => {
-      void session.propose(next, keep.value).then(() => {
+      void session.beside.propose(next, keep.value).then(() => {
         if (draft.value === next) draft.value = null;
       });
     }, pause);
@@ -65,8 +70,15 @@ function Presets({ session, edited, presets, fallback }: Props): JSX.Element {
     const { minimum, maximum } = parameter;
     if (!Number.isFinite(value)) return;
     const bounded = Math.min(Math.max(value, minimum), maximum);
-    again({ preset, values: { ...values, [parameter.name]: bounded } }, PAUSE);
+    again({ preset, values: { ...values, [parameter.name]: bounded }, detail }, PAUSE);
   };
+  const levels = {
+    all: proposal && !draft.value ? proposal.preview.details : details,
+    detail,
+    choose: (next: number) => again({ preset, values, detail: next }, PAUSE),
+  };
+  useEffect(() => void (session.store.levels.value = levels));
+  useEffect(() => () => void (session.store.levels.value = null), []);
   return (
     <section class="preset-panel" aria-label="Segmentation" aria-busy={busy}>
       <div class="panel-head">
@@ -76,8 +88,8 @@ function Presets({ session, edited, presets, fallback }: Props): JSX.Element {
         <button
           type="button"
           title="The preset’s own values"
-          disabled={choice.parameters.every((each) => isDefault(each, values))}
-          onClick={() => again({ preset, values: defaults(choice) }, 0)}
+          disabled={detail === 1 && choice.parameters.every((each) => isDefault(each, values))}
+          onClick={() => again({ preset, values: defaults(choice), detail: 1 }, 0)}
         >
           Reset
         </button>
@@ -88,7 +100,7 @@ function Presets({ session, edited, presets, fallback }: Props): JSX.Element {
         title={choice.help}
         onChange={(event) => {
           const next = presets.find((each) => each.name === event.currentTarget.value)!;
-          again({ preset: next.name, values: defaults(next) }, 0);
+          again({ preset: next.name, values: defaults(next), detail: 1 }, 0);
         }}
       >
         {presets.map(({ name }) => (
@@ -97,8 +109,9 @@ function Presets({ session, edited, presets, fallback }: Props): JSX.Element {
           </option>
         ))}
       </select>
+      <DetailSlider store={session.store} />
       {choice.parameters.map((parameter) => (
-        <Slider
+        <ParameterSlider
           key={`${preset}.${parameter.name}`}
           parameter={parameter}
           value={values[parameter.name] ?? parameter.value}
@@ -120,94 +133,6 @@ function Presets({ session, edited, presets, fallback }: Props): JSX.Element {
   );
 }
 
-/** What the shown segmentation would do to the table, and the choice to make it. */
-function Proposed(props: {
-  session: Session;
-  proposal: Proposal;
-  keep: boolean;
-  setKeep: (keep: boolean) => void;
-}): JSX.Element {
-  const { session, proposal, keep, setKeep } = props;
-  const { preview } = proposal;
-  const own = `${counted(preview.corrections, "correction")}, ${counted(preview.names, "name")}`;
-  const some = preview.corrections + preview.names > 0;
-  return (
-    <div class="proposed" role="group" aria-label="Preview">
-      <p class="quiet">
-        Shown below what is there; borders that differ are marked. Nothing has been changed.
-      </p>
-      {some && (
-        <label class="check">
-          <input
-            type="checkbox"
-            checked={keep}
-            onChange={(event) => setKeep(event.currentTarget.checked)}
-          />
-          Take over {own}
-        </label>
-      )}
-      {some && keep && preview.lost.length > 0 && (
-        <details open>
-          <summary>{counted(preview.lost.length, "name")} would be lost</summary>
-          <ul>
-            {preview.lost.map((what) => (
-              <li key={what}>{what}</li>
-            ))}
-          </ul>
-        </details>
-      )}
-      <p class="actions">
-        <button type="button" onClick={() => session.discard()}>
-          Discard
-        </button>
-        <button
-          type="button"
-          class="primary"
-          disabled={keep !== proposal.keep}
-          onClick={() => session.apply()}
-        >
-          {some ? (keep ? "Apply" : `Apply: replaces ${own}`) : "Apply"}
-        </button>
-      </p>
-    </div>
-  );
-}
-
-function Slider(props: {
-  parameter: Parameter;
-  value: number;
-  change: (value: number) => void;
-}): JSX.Element {
-  const { parameter, value, change } = props;
-  const { name, help, minimum, maximum, step, unit } = parameter;
-  const title = name.replaceAll("_", " ");
-  return (
-    <div class="parameter" title={help}>
-      <label for={`parameter-${name}`}>
-        {title} <span class="quiet">{unit}</span>
-      </label>
-      <input
-        type="number"
-        aria-label={unit ? `${title} in ${unit}` : title}
-        min={minimum}
-        max={maximum}
-        step={rounded(step)}
-        value={rounded(value)}
-        onChange={(event) => change(event.currentTarget.valueAsNumber)}
-      />
-      <input
-        id={`parameter-${name}`}
-        type="range"
-        min={minimum}
-        max={maximum}
-        step={step}
-        value={value}
-        onInput={(event) => change(event.currentTarget.valueAsNumber)}
-      />
-    </div>
-  );
-}
-
 /** What signals are offered: lengths in their own unit, which their tables are in, too. */
 function ofSignals(choice: PresetChoice): PresetChoice {
   return { ...choice, parameters: choice.signal_parameters };
@@ -215,7 +140,7 @@ function ofSignals(choice: PresetChoice): PresetChoice {
 
 /** The preset and values a table was made with; the preset's own where it does not say. */
 function usedBy(table: Segments, presets: PresetChoice[], fallback: string): Choice {
-  const { preset: name, parameters } = table.provenance;
+  const { preset: name, parameters, detail } = table.provenance;
   const choice =
     presets.find((each) => each.name === name) ?? presets.find((each) => each.name === fallback)!;
   const values = defaults(choice);
@@ -224,7 +149,7 @@ function usedBy(table: Segments, presets: PresetChoice[], fallback: string): Cho
       const value = (parameters as Record<string, unknown>)[key];
       if (typeof value === "number") values[key] = value;
     }
-  return { preset: choice.name, values };
+  return { preset: choice.name, values, detail: typeof detail === "number" ? detail : 1 };
 }
 
 function defaults(choice: PresetChoice): Values {
@@ -233,8 +158,4 @@ function defaults(choice: PresetChoice): Values {
 
 function isDefault({ name, value, step }: Parameter, values: Values): boolean {
   return Math.abs((values[name] ?? value) - value) < step / 2;
-}
-
-function rounded(value: number): number {
-  return Number(value.toFixed(3));
 }

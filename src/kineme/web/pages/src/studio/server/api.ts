@@ -10,6 +10,7 @@ import type {
   Changed,
   CompareRequest,
   Comparison,
+  CurveList,
   Edited,
   EditRequest,
   Failure,
@@ -60,14 +61,19 @@ export class Api {
   }
 
   /** A tile of the matrix; null where the server has none. */
-  async tile(id: string, level: number, row: number, column: number): Promise<Blob | null> {
+  tile(id: string, level: number, row: number, column: number): Promise<Blob | null> {
     const path = `/api/recordings/${encodeURIComponent(id)}/matrix/${level}/${row}/${column}`;
-    try {
-      return await unbroken((await this.ask(path)).blob());
-    } catch (error) {
-      if (error instanceof Refused && error.status === 404) return null;
-      throw error;
-    }
+    return orNull(this.ask(path).then((answer) => unbroken(answer.blob())));
+  }
+
+  curves(id: string): Promise<CurveList> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}/curves`);
+  }
+
+  /** Part of a curve; null where the server has none. */
+  piece(id: string, curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
+    const path = `/api/recordings/${encodeURIComponent(id)}/curves/${curve}/${level}/${number}`;
+    return orNull(this.ask(path).then((answer) => unbroken(answer.arrayBuffer())));
   }
 
   edit(id: string, request: EditRequest): Promise<Edited> {
@@ -171,6 +177,16 @@ export function filename(disposition: string): string {
   const encoded = /filename\*=utf-8''([^;]+)/i.exec(disposition)?.[1];
   if (encoded) return decodeURIComponent(encoded);
   return /filename="?([^";]+)"?/i.exec(disposition)?.[1] ?? "";
+}
+
+/** What was asked for; null where there is no such thing. */
+async function orNull<T>(answer: Promise<T>): Promise<T | null> {
+  try {
+    return await answer;
+  } catch (error) {
+    if (error instanceof Refused && error.status === 404) return null;
+    throw error;
+  }
 }
 
 async function unbroken<T>(work: Promise<T>): Promise<T> {

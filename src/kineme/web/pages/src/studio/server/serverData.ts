@@ -1,5 +1,5 @@
 /** The data of one recording, from the studio's server. */
-import type { Recording } from "../../messages";
+import type { CurveList, Recording } from "../../messages";
 import type { RecordingData } from "../../recordingData";
 import type { Api } from "./api";
 
@@ -30,5 +30,13 @@ export class ServerData implements RecordingData {
 
   tile(level: number, row: number, column: number): Promise<Blob | null> {
     return this.api.tile(this.id, level, row, column);
+  }
+
+  curves(): Promise<CurveList | null> {
+    return this.api.curves(this.id);
+  }
+
+  piece(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
+    return this.api.piece(this.id, curve, level, number);
   }
 }

@@ -1,0 +1,144 @@
+"""What segments are: their clusters and kinds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import get_args
+
+from kineme.errors import ParameterError
+from kineme.segments.editing.naming import (
+    changed,
+    known_names,
+    members_of,
+    with_cluster_names,
+)
+from kineme.segments.editing.rows import as_activity, as_transition, joined, starting, with_rows
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Kind, Level, Segment
+
+
+def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: int) -> Segmentation:
+    """The segment that starts at ``frame`` is in a cluster, and so no transition; -1: in none.
+
+    The primitives of an activity that were in its cluster go with it. Who was called by
+    the old cluster's name is called by the new one's.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    frame : int
+        Where the segment starts.
+    cluster : int
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        No segment starts there, or the cluster is neither there nor the next new one.
+    """
+    following = int(segmentation.table.cluster.max(initial=-1)) + 1
+    if not -1 <= cluster <= following:
+        raise ParameterError(f"there is no cluster {cluster}; the next new one is {following}")
+    chosen = starting(segmentation, level, frame)
+    kind: Kind = "activity" if cluster >= 0 else chosen.kind
+    members = [(level, chosen)]
+    if level == "activity":
+        inside = segmentation.primitives.select(segmentation.primitives.activity == chosen.activity)
+        members += [("primitive", row) for row in inside if row.cluster == chosen.cluster]
+    return _moved_to(segmentation, members, cluster, kind=kind, score=math.nan)
+
+
+def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segmentation:
+    """The segments of one cluster are in another, and called by its name where it has one.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    cluster : int
+        Which is gone then.
+    into : int
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        One of them has no segments, or they are the same.
+    """
+    for each in (cluster, into):
+        if not members_of(segmentation, each):
+            raise ParameterError(f"no segment is in cluster {each}")
+    if cluster == into:
+        raise ParameterError(f"cluster {cluster} cannot be merged with itself: name another")
+    members = [(row.level, row) for row in members_of(segmentation, cluster)]
+    return _moved_to(segmentation, members, into, score=math.nan)
+
+
+def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -> Segmentation:
+    """The segment that starts at ``frame`` is an activity, or a transition and in no cluster.
+
+    An activity's primitives become what it becomes; a transition is one primitive.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    frame : int
+        Where the segment starts.
+    kind : {"activity", "transition"}
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        No segment starts there, or no such kind.
+    """
+    if kind not in get_args(Kind):
+        raise ParameterError(f"kind must be {' or '.join(get_args(Kind))}, not {kind!r}")
+    chosen = starting(segmentation, level, frame)
+    if kind == chosen.kind:
+        return segmentation
+    become = as_transition if kind == "transition" else as_activity
+    activities, primitives = list(segmentation.activities), list(segmentation.primitives)
+    if level == "primitive":
+        primitives = [become(row) if row.start_frame == frame else row for row in primitives]
+        return with_rows(segmentation, activities, primitives)
+    inside = [i for i, row in enumerate(primitives) if row.activity == chosen.activity]
+    if inside and kind == "transition":
+        primitives = joined(primitives, inside[0], inside[-1], inside[0])
+        inside = inside[:1]
+    for i in inside:
+        primitives[i] = become(primitives[i])
+    activities = [become(row) if row.start_frame == frame else row for row in activities]
+    return with_rows(segmentation, activities, primitives)
+
+
+def _moved_to(
+    segmentation: Segmentation,
+    members: Sequence[tuple[Level, Segment]],
+    cluster: int,
+    **columns: object,
+) -> Segmentation:
+    """The members in another cluster, called by its name unless they have their own."""
+    names = known_names(segmentation)
+    moved = segmentation
+    for inherits in (True, False):
+        some = [
+            (level, row)
+            for level, row in members
+            if (row.label in ("", names.get(row.cluster, ""))) == inherits
+        ]
+        label = {"label": names.get(cluster, "")} if inherits else {}
+        if some:
+            moved = changed(moved, some, cluster=cluster, **columns, **label)
+    return with_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)

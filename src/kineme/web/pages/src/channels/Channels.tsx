@@ -1,0 +1,120 @@
+/** Curves and signals over time: under the timeline, or on the stage of a recording without a body. */
+import { useSignal } from "@preact/signals";
+import { useEffect, useMemo } from "preact/hooks";
+import type { JSX } from "preact";
+import { useCalm } from "../canvas/calm";
+import { Canvas } from "../canvas/Canvas";
+import { Line } from "../canvas/Line";
+import type { Store } from "../store";
+import { Gestures } from "../timeline/gestures";
+import { GUTTER } from "../timeline/lanes";
+import { toPixel } from "../view";
+import { ChannelChoice } from "./ChannelChoice";
+import { rowsOf } from "./chosen";
+import { boxOf, drawChannels, type Row } from "./drawing";
+import { Pieces } from "./pieces";
+
+interface Props {
+  store: Store;
+  /** Whether times are written above. */
+  ruler?: boolean;
+}
+
+export function Channels({ store, ruler = false }: Props): JSX.Element | null {
+  const data = store.active.value?.data;
+  const pieces = useSignal<Pieces | null>(null);
+  const gestures = useMemo(
+    () =>
+      new Gestures(
+        store,
+        () => [],
+        () => undefined,
+      ),
+    [store],
+  );
+  useEffect(() => {
+    let asked = true;
+    pieces.value = null;
+    void data?.curves().then(
+      (list) => {
+        if (asked && list) pieces.value = new Pieces(data, list);
+      },
+      () => undefined,
+    );
+    return () => void (asked = false);
+  }, [data]);
+  const known = pieces.value;
+  if (!known) return <div class="channels" aria-busy="true" />;
+  const rows = rowsOf(known.list);
+  const names = rows.map(({ head }) => `${head.name} ${head.group}`).join(", ");
+  return (
+    <div class="channels">
+      {rows.length > 0 ? (
+        <Canvas
+          key={ruler ? "ruled" : "plain"}
+          label={`Curves over time: ${names}. Click to go there; use the wheel to zoom, drag to pan.`}
+          watch={() =>
+            void [
+              rowsOf(known.list),
+              known.arrived.value,
+              store.range.value,
+              store.primitives.value,
+              store.activities.value,
+              store.labelColors.value,
+              pieces.value,
+            ]
+          }
+          draw={(pen, width, height) => {
+            const now = pieces.value;
+            if (now) drawChannels(pen, rowsOf(now.list), now, store, { width, height, ruler });
+          }}
+          gestures={gestures}
+        />
+      ) : (
+        <p class="empty quiet">Choose what to draw: “Curves…”.</p>
+      )}
+      {rows.length > 0 && (
+        <div class="playhead-room" style={{ left: `${GUTTER}px` }}>
+          <Line share={toPixel(store.range.value, 1, store.playhead.value)} />
+        </div>
+      )}
+      <Values store={store} rows={rows} pieces={known} ruler={ruler} />
+      <ChannelChoice list={known.list} />
+    </div>
+  );
+}
+
+/** What each curve is at the playhead. */
+function Values(props: {
+  store: Store;
+  rows: readonly Row[];
+  pieces: Pieces;
+  ruler: boolean;
+}): JSX.Element {
+  const { store, rows, pieces, ruler } = props;
+  const frame = useCalm(store.frame, store.playing);
+  void pieces.arrived.value;
+  return (
+    <div class="channel-values number" aria-hidden="true">
+      {rows.map(({ curve, head }, i) => {
+        const value = pieces.at(curve, frame.value);
+        const [top] = boxOf(i, rows.length, 100, false);
+        const text = value === null || Number.isNaN(value) ? "–" : shortNumber(value);
+        return (
+          <span
+            key={curve}
+            style={{ top: ruler ? `calc(22px + (100% - 22px) * ${i / rows.length})` : `${top}%` }}
+          >
+            {text} <span class="quiet">{head.unit}</span>
+          </span>
+        );
+      })}
+    </div>
+  );
+}
+
+function shortNumber(value: number): string {
+  const size = Math.abs(value);
+  if (size >= 1e5 || (size > 0 && size < 1e-3)) return value.toExponential(1);
+  return value.toFixed(size >= 100 ? 0 : size >= 10 ? 1 : 2);
+}

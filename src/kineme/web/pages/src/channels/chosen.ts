@@ -1,0 +1,45 @@
+/** Which curves are shown: chosen once, remembered by their names for every recording. */
+import { signal, type Signal } from "@preact/signals";
+import type { Curve, CurveList } from "../messages";
+import type { Row } from "./drawing";
+
+const KEY = "kineme.curves";
+const FIRST = 8; // channels of signals that are shown before anybody chose
+const ENDS = /(foot|ankle|hand|wrist)$/i; // of a body, whose heights are shown
+
+const chosen: Signal<string[]> = signal(remembered());
+
+/** The rows to draw, in the order they were chosen; where none is known, the first. */
+export function rowsOf(list: CurveList): Row[] {
+  const all = list.curves.map((head, curve) => ({ curve, head }));
+  const places = new Map(all.map((row) => [nameOf(row.head), row]));
+  const found = chosen.value.flatMap((name) => places.get(name) ?? []);
+  if (found.length) return found;
+  const channels = all.filter(({ head }) => head.group === "channels");
+  const ends = all.filter(({ head }) => head.group === "height" && ENDS.test(head.name));
+  return channels.length ? channels.slice(0, FIRST) : ends.slice(0, 4);
+}
+
+/** Shows a curve, or hides it. */
+export function toggle(list: CurveList, curve: Curve): void {
+  const shown = rowsOf(list).map(({ head }) => nameOf(head));
+  const name = nameOf(curve);
+  const own = new Set(list.curves.map(nameOf));
+  const others = chosen.value.filter((each) => !own.has(each)); // of other kinds of recordings
+  const next = shown.includes(name) ? shown.filter((each) => each !== name) : [...shown, name];
+  chosen.value = [...others, ...next];
+  localStorage.setItem(KEY, JSON.stringify(chosen.value));
+}
+
+export function nameOf({ name, group }: Curve): string {
+  return `${group}: ${name}`;
+}
+
+function remembered(): string[] {
+  try {
+    const found: unknown = JSON.parse(localStorage.getItem(KEY) ?? "[]");
+    return Array.isArray(found) ? found.filter((each) => typeof each === "string") : [];
+  } catch {
+    return [];
+  }
+}

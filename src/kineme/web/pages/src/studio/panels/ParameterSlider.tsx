@@ -1,0 +1,42 @@
+/** A constant of a preset: a number, and a slider for it. */
+import type { JSX } from "preact";
+import type { Parameter } from "../../messages";
+
+export function ParameterSlider(props: {
+  parameter: Parameter;
+  value: number;
+  change: (value: number) => void;
+}): JSX.Element {
+  const { parameter, value, change } = props;
+  const { name, help, minimum, maximum, step, unit } = parameter;
+  const title = name.replaceAll("_", " ");
+  return (
+    <div class="parameter" title={help}>
+      <label for={`parameter-${name}`}>
+        {title} <span class="quiet">{unit}</span>
+      </label>
+      <input
+        type="number"
+        aria-label={unit ? `${title} in ${unit}` : title}
+        min={minimum}
+        max={maximum}
+        step={rounded(step)}
+        value={rounded(value)}
+        onChange={(event) => change(event.currentTarget.valueAsNumber)}
+      />
+      <input
+        id={`parameter-${name}`}
+        type="range"
+        min={minimum}
+        max={maximum}
+        step={step}
+        value={value}
+        onInput={(event) => change(event.currentTarget.valueAsNumber)}
+      />
+    </div>
+  );
+}
+
+function rounded(value: number): number {
+  return Number(value.toFixed(3));
+}

@@ -1,0 +1,57 @@
+/** What a segmentation that is shown would do to the table, and the choice to make it. */
+import type { JSX } from "preact";
+import type { Proposal } from "../editing/beside";
+import { counted } from "../editing/words";
+import type { Session } from "../session";
+
+export function Proposed(props: {
+  session: Session;
+  proposal: Proposal;
+  keep: boolean;
+  setKeep: (keep: boolean) => void;
+}): JSX.Element {
+  const { session, proposal, keep, setKeep } = props;
+  const { preview } = proposal;
+  const own = `${counted(preview.corrections, "correction")}, ${counted(preview.names, "name")}`;
+  const some = preview.corrections + preview.names > 0;
+  return (
+    <div class="proposed" role="group" aria-label="Preview">
+      <p class="quiet">
+        Shown below what is there; borders that differ are marked. Nothing has been changed.
+      </p>
+      {some && (
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={keep}
+            onChange={(event) => setKeep(event.currentTarget.checked)}
+          />
+          Take over {own}
+        </label>
+      )}
+      {some && keep && preview.lost.length > 0 && (
+        <details open>
+          <summary>{counted(preview.lost.length, "name")} would be lost</summary>
+          <ul>
+            {preview.lost.map((what) => (
+              <li key={what}>{what}</li>
+            ))}
+          </ul>
+        </details>
+      )}
+      <p class="actions">
+        <button type="button" onClick={() => session.beside.discard()}>
+          Discard
+        </button>
+        <button
+          type="button"
+          class="primary"
+          disabled={keep !== proposal.keep}
+          onClick={() => session.beside.apply()}
+        >
+          {some ? (keep ? "Apply" : `Apply: replaces ${own}`) : "Apply"}
+        </button>
+      </p>
+    </div>
+  );
+}

@@ -1,0 +1,14 @@
+/** The open recordings in the address of the page. */
+import type { OpenRecording } from "../../opened";
+
+/** The recordings named in the address, so that a reload finds them, and the server ahead of it. */
+export function fromAddress(): string[] {
+  return new URLSearchParams(location.search).getAll("open");
+}
+
+export function toAddress(opened: OpenRecording[]): void {
+  const address = new URLSearchParams(location.search);
+  address.delete("open");
+  for (const each of opened) address.append("open", each.recording.peek().id);
+  history.replaceState(null, "", `?${address}`);
+}
