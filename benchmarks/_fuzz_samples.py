@@ -147,7 +147,8 @@ def _ask_library(root: Path) -> object:
 
 def _search_library(root: Path) -> object:
     library = Library(root / "library")
-    return library.search(cluster=library.clusters()[0].cluster, top=5), library.unsure()
+    number = next((cluster.cluster for cluster in library.clusters()), 0)
+    return library.unsure(), library.search(cluster=number, top=5)
 
 
 def _export_library(root: Path) -> object:

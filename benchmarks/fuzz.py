@@ -8,6 +8,7 @@ of KINEME_DATA taken along), damaged in one to four ways, and read by a worker w
 4 GB and 20 s a file. What ends in anything but a `KinemeError`, in a warning of numpy, in a
 killed worker, after the time or with more than 2 GB is a finding; findings are counted by
 kind, and the number of the first of each gives the same bytes again (``--only NUMBER``).
+``--structure`` leaves the syntax sound and changes what the files mean.
 
 Workers are forks of a process that has read every sample once, so that a file costs little
 more than its reader. Needs a system that can fork.
@@ -37,6 +38,7 @@ os.environ["KINEME_THREADS"] = os.environ["OMP_NUM_THREADS"] = "1"  # threads ou
 
 from _damage import mutated
 from _fuzz_samples import Case, write_samples
+from _restructure import restructured
 from kineme.errors import KinemeError, KinemeWarning
 
 MEMORY, MOST_HELD = 4 << 30, 2 << 30
@@ -50,6 +52,17 @@ CLOCK = "qd"
 
 AT_THE_DOOR = "cannot be understood, it is damaged"
 """What is said of a file whose fault no reader has a word for."""
+
+
+STRUCTURED = 500_000
+"""Of each million of numbers the second half changes what a file means, not its bytes."""
+
+
+def damaged(case: Case, number: int) -> bytes:
+    """The bytes of a case, damaged as the number says."""
+    if number % 1_000_000 < STRUCTURED:
+        return mutated(case.sound, number)
+    return restructured(case.path, case.sound, number)
 
 
 def chosen(number: int, cases: Sequence[Case]) -> tuple[Case, int]:
@@ -89,7 +102,7 @@ def work(root: Path, cases: Sequence[Case], numbers: range, at: mmap.mmap, told:
         for number in numbers:
             at[:] = struct.pack(CLOCK, number, time.monotonic())
             case, door = chosen(number, cases)
-            (root / case.path).write_bytes(mutated(case.sound, number))
+            (root / case.path).write_bytes(damaged(case, number))
             started = time.process_time()
             kind, caught = finding(root, case, door)
             took = time.process_time() - started
@@ -145,6 +158,7 @@ def watched(
         if ended and ended != "time is over":
             yield last, ended, "", 0.0
         first = last + (ended != "time is over")
+        print(f"# {first - numbers.start} files", file=sys.stderr, flush=True)
     yield first, "", "", 0.0
 
 
@@ -185,9 +199,11 @@ def main() -> int:
     parser.add_argument("--minutes", type=float, default=1.0)
     parser.add_argument("--files", type=int, default=10**6, help="at most")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--structure", action="store_true", help="other meanings, sound syntax")
     parser.add_argument("--only", type=int, metavar="NUMBER")
     given = parser.parse_args()
-    first = given.seed * 1_000_000 if given.only is None else given.only
+    first = given.seed * 1_000_000 + STRUCTURED * given.structure
+    first = first if given.only is None else given.only
     kinds = fuzz(60 * given.minutes, given.files if given.only is None else 1, first)
     for kind, times in kinds.most_common():
         print(f"{times:6d}  {kind}")

@@ -1,52 +1,54 @@
 """What a library of many hours costs, and whether its index finds what an exact search finds.
 
-    python benchmarks/scale.py [costs] [words] [search] [--hours 1000] [--record]
+    python benchmarks/scale.py [costs] [search] [larger] [--hours 1000] [--library DIR] [--record]
 
 ``costs``: processor seconds for an hour of recording (subject 86, AMC, 120 frames a second): read,
-segmented, described and kept; and the bytes of it. ``words``: joining the clusters of more and more
-recordings. ``search``: a library of so many hours, whose recordings are takes of six laboratories
-one after the other, each made slower or faster by up to 1.4, half of them mirrored, all with noise
-of their own (the size of a body makes no difference to matching features); six movements of 0.8 to
-4 s searched in it, with the index, exactly, and as a command. It needs 10 MB of disk an hour.
+segmented, described and kept; the bytes of it, and how many clusters it has, which
+``vocabulary.py --growth`` joins. ``search``: a library of so many hours, whose recordings are takes
+of six laboratories one after the other, each made slower or faster by up to 1.4, half of them
+mirrored, all with noise of their own (the size of a body makes no difference to matching features);
+six movements of 0.8 to 4 s searched in it, with the index, exactly, and as a command. It needs
+10 MB of disk an hour. ``larger``: what follows from the recorded figures for more hours.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 from collections.abc import Iterator
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 from time import perf_counter, process_time
+from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 
 from _corpora import corpora
+from _figures import FILE as FIGURES
 from _figures import add_option, record
+from _libraries import joined
 from _measure import kineme, verdict
 from _recordings import DATA
 from kineme import Library, bundled_recording, read, segment
 from kineme._interpolation import at_frames
-from kineme._version import __version__
 from kineme.features.canonical import MATCHING_FPS, matching_features
 from kineme.library import Settings
-from kineme.library.compiling import compiled
-from kineme.library.constants import VOCABULARY
-from kineme.library.index.kept import write_index
-from kineme.library.layout import HEAD, PIECES, SCHEMA, TABLES, write_json
-from kineme.library.pieces import Piece, write_piece
+from kineme.library.layout import HEAD, PIECES, TABLES
+from kineme.library.making import make_piece
+from kineme.library.pieces import Piece, has_piece, write_piece
 from kineme.library.searching import Example, Hit
-from kineme.library.tables import write_tables
-from kineme.library.vocabulary import joined
-from kineme.library.words import places_in, word_at
-from kineme.library.work import make_piece
+from kineme.library.vocabulary.words import places_in
 from kineme.segments.table import SegmentTable
 
 LASTS_S = 1200.0
 """Of a simulated recording, seconds."""
 FASTEST, NOISE = 1.4, (0.01, 0.05)
 TOP = 50
+LARGER = (10_000, 100_000)
+GROWTH = (400, 800)
+"""Words whose joining ``vocabulary.py --growth 400 800 --record`` measured."""
 EXAMPLES_S = (0.8, 1.2, 1.6, 2.2, 3.0, 4.0)
 Features = NDArray[np.float32]
 
@@ -55,7 +57,7 @@ def costs() -> None:
     """Processor seconds and bytes for an hour of recording."""
     spent = dict.fromkeys(("read", "segment", "describe"), 0.0)
     segment(read(bundled_recording()))  # compiled code
-    hours = 0.0
+    hours, words = 0.0, 0
     with TemporaryDirectory() as home:
         for path in sorted((DATA / "cmu86").glob("*.amc")):
             ticks = [process_time()]
@@ -70,6 +72,7 @@ def costs() -> None:
             for name, seconds in zip(spent, (own[0], own[1], own[2] - own[1]), strict=True):
                 spent[name] += float(seconds)
             hours += recording.duration / 3600
+            words += len(places_in(piece, 0))
         kept = sum(path.stat().st_size for path in Path(home).iterdir())
         parts = {
             "features": sum(p.stat().st_size for p in Path(home).glob("*.npy")) / 1e6 / hours,
@@ -80,50 +83,19 @@ def costs() -> None:
         print(f"{name}: {seconds / hours:.1f} s of processor time an hour")
         record(f"scale.{name}", round(seconds / hours, 1), unit="s")
     print(f"kept: {kept / 1e6 / hours:.1f} MB an hour, {parts['features']:.1f} of it arrays")
+    print(f"{words / hours:.0f} clusters an hour")
+    record("scale.words", round(words / hours))
     record("scale.total", round(sum(spent.values()) / hours), unit="s")
     record("scale.kept", round(kept / 1e6 / hours, 1), unit="MB")
     record("scale.windows", round(parts["windows"] / hours, 2), unit="MB")
 
 
-def words() -> None:
-    """Processor seconds for joining so many words."""
-    rng = np.random.default_rng(0)
-    with TemporaryDirectory() as home:
-        own = []
-        hours = 0.0
-        for number, path in enumerate(sorted((DATA / "cmu86").glob("*.amc"))):
-            recording = read(path)
-            hours += recording.duration / 3600
-            piece, features = make_piece(recording, Settings())
-            write_piece(Path(home), path.stem, piece, features)
-            own += [
-                word_at(place, piece, Path(home), path.stem, VOCABULARY)
-                for place in places_in(piece, number)
-            ]
-    print(f"{len(own) / hours:.0f} words an hour of subject 86")
-    record("scale.words", round(len(own) / hours))
-    for times in (1, 2, 4):
-        copies = [
-            type(word)(
-                shaken(word.example, rng), shaken(word.context, rng), word.recording + 100 * k,
-                word.seconds,
-            )
-            for k in range(times)
-            for word in own
-        ]  # fmt: skip
-        start = process_time()
-        joined(copies, VOCABULARY)
-        seconds = process_time() - start
-        pairs = len(copies) ** 2 / 2
-        print(f"{len(copies)} words: {seconds:.1f} s, {1e6 * seconds / pairs:.0f} us a pair")
-    record("scale.pair", round(1e6 * seconds / pairs), unit="us")
-
-
-def search(hours: float) -> None:
+def search(hours: float, kept: Path | None) -> None:
     """A library of so many hours, searched with its index and exactly."""
     with TemporaryDirectory() as home:
-        folder = Path(home) / "lib"
-        simulated(folder, hours)
+        folder = kept or Path(home) / "lib"
+        if not (folder / HEAD).exists():
+            simulated(folder, hours)
         library = Library(folder)
         named = folder / TABLES / library.head["tables"]
         index = sum(path.stat().st_size for path in named.glob("windows.*.npy"))
@@ -149,7 +121,8 @@ def searched(library: Library, hours: float) -> None:
         clock.append(perf_counter() - start)
         used.append(process_time() - begun)
         begun = process_time()
-        exact = library.search(example, top=None)[:TOP]
+        with patch("kineme.library.finding.open_index", return_value=None):
+            exact = library.search(example, top=TOP)
         exact_used.append(process_time() - begun)
         recalls.append(recall(found, exact))
     most = 2.0 if hours > 10 else 0.2
@@ -194,8 +167,7 @@ def examples() -> Iterator[Example]:
 
 def simulated(folder: Path, hours: float) -> None:
     """A library of recordings put together from takes of several laboratories."""
-    (folder / PIECES).mkdir(parents=True)
-    rng = np.random.default_rng(0)
+    (folder / PIECES).mkdir(parents=True, exist_ok=True)
     own = [
         matching_features(take.motion, mirrored=mirrored)
         for name in corpora()
@@ -205,8 +177,12 @@ def simulated(folder: Path, hours: float) -> None:
     n = round(LASTS_S * MATCHING_FPS)
     table, _ = make_piece(read(bundled_recording()), Settings())
     segments = nameless(table.table)
-    entries = []
+    keys = {}
     for number in range(round(hours * 3600 / LASTS_S)):
+        key = keys[f"{number:05d}"] = f"{number:032x}"
+        if has_piece(folder / PIECES, key):  # of a run that was ended
+            continue
+        rng = np.random.default_rng(number)
         laid, lasts = [], 0
         while lasts < n:
             laid.append(shaken(faster(own[rng.integers(len(own))], rng), rng))
@@ -216,19 +192,31 @@ def simulated(folder: Path, hours: float) -> None:
             "features_fps": MATCHING_FPS, "samples": n, "notes": [],
         }  # fmt: skip
         piece = Piece(facts, segments, table.embeddings)
-        write_piece(folder / PIECES, f"{number:032x}", piece, np.concatenate(laid)[:n])
-        entries.append((f"{number:05d}", folder / f"{number:05d}", f"{number:032x}"))
-    tables, following = compiled(folder, entries, None, 0)
-    named = write_tables(folder, tables)
-    start = process_time()
-    write_index(folder, named, tables["recordings"].to_pydict())
-    print(f"index: {process_time() - start:.1f} s of processor time")
-    head = {
-        "schema": SCHEMA, "kineme": __version__, "settings": Settings().to_json(), "sources": [],
-        "recursive": False, "vocabulary": dict(VOCABULARY.parameters()), "failed": {},
-        "following": following, "tables": named,
-    }  # fmt: skip
-    write_json(folder / HEAD, head)
+        write_piece(folder / PIECES, key, piece, np.concatenate(laid)[:n])
+    joined(folder, keys)
+
+
+def larger() -> None:
+    """What many hours take, from the figures that were recorded."""
+    figures = json.loads(FIGURES.read_text(encoding="utf-8"))
+    told = {name: entry["value"] for name, entry in figures.items()}
+    few, many = (told[f"vocabulary.growth.{size}.seconds"] for size in GROWTH)
+    a_word = (many - few) / (GROWTH[1] - GROWTH[0])
+    record("scale.join.word", round(1000 * a_word), unit="ms")
+    for hours in LARGER:
+        build = told["scale.total"] * hours / 3600
+        values = {
+            "build": build,
+            "16_cores": build / 16,
+            "128_cores": build / 128,
+            "kept": told["scale.kept"] * hours / 1e6,
+            "index": told["scale.search.index"] * hours / 1000,
+            "join": a_word * told["scale.words"] * hours / 3600,
+            "search": told["scale.search.processor"] * hours / told["scale.search.hours"],
+        }
+        print(f"{hours} h:", {name: float(f"{value:.2g}") for name, value in values.items()})
+        for name, value in values.items():
+            record(f"scale.{hours}.{name}", float(f"{value:.2g}"))
 
 
 def nameless(table: SegmentTable) -> SegmentTable:
@@ -257,16 +245,17 @@ def shaken(features: Features, rng: np.random.Generator) -> Features:
 
 def main() -> None:
     options = argparse.ArgumentParser()
-    options.add_argument("parts", nargs="*", default=["costs", "words", "search"])
+    options.add_argument("parts", nargs="*", default=["costs", "search", "larger"])
     options.add_argument("--hours", type=float, default=1000.0)
+    options.add_argument("--library", type=Path, help="keep it here, or take it from here")
     add_option(options)
     given = options.parse_args()
     if "costs" in given.parts:
         costs()
-    if "words" in given.parts:
-        words()
     if "search" in given.parts:
-        search(given.hours)
+        search(given.hours, given.library)
+    if "larger" in given.parts:
+        larger()
 
 
 if __name__ == "__main__":

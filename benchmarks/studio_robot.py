@@ -24,6 +24,7 @@ from playwright.sync_api import sync_playwright
 from kineme.datasets import bundled_recording
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "browser"))
+import screen
 from robot import Robot
 from studio_server import StudioServer
 
@@ -33,17 +34,22 @@ RECORDINGS = 3
 SIZE = {"width": 1024, "height": 560}  # what is drawn in software takes most of the time
 
 
+PATIENCE = 300.0  # seconds; a busy machine loses nothing, either
+
+
 def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--edits", type=int, default=500)
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2, 3, 4])
     options = parser.parse_args()
+    screen.PATIENCE = PATIENCE
     program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=program, args=ARGUMENTS)
         for seed in options.seeds:
             began, steps = perf_counter(), collections.Counter[str]()
             context = browser.new_context(viewport=SIZE)
+            context.set_default_timeout(1000 * PATIENCE)
             with tempfile.TemporaryDirectory() as name, StudioServer(Path(name)) as server:
                 takes = [
                     Path(shutil.copy(bundled_recording(), Path(name) / f"take_{i}.bvh"))

@@ -64,7 +64,7 @@ ROOMS = {
         "features graph methods recordings segments",
     ),
     "labels": Room("segment tables from files and back: one registry", "formats segments"),
-    "plot": Room("pictures, each on given axes", "graph methods segmentation segments"),
+    "plot": Room("pictures, each on given axes", "graph methods recordings segmentation segments"),
     "clips": Room("a file per segment, loops that close", "formats labels recordings segments"),
     "interop": Room(
         "segments and recordings as other libraries have them",
@@ -80,7 +80,7 @@ ROOMS = {
     ),
     "library": Room(
         "collections of recordings, segmented once, with clusters in common, searched by example",
-        "clips features formats labels matching methods recordings segmentation segments",
+        "clips features formats labels matching methods plot recordings segmentation segments",
     ),
     "datasets": Room(
         "recordings with known truth, the bundled one among them; CMU's, fetched",

@@ -162,7 +162,7 @@ class Robot:
         root, token = self.server.address.split("?token=")
         name = file_id(self.take)
         answer = httpx.get(
-            f"{root}api/recordings/{name}{address}", headers={"x-kineme-token": token}, timeout=60
+            f"{root}api/recordings/{name}{address}", headers={"x-kineme-token": token}, timeout=300
         )
         return answer.json()
 

@@ -56,7 +56,7 @@ def test_recordings_come_and_go(takes: Path, tmp_path: Path) -> None:
     gone = build((), folder)
     assert (gone.new, gone.removed) == (0, 1)
     assert Library(folder).recordings["recording"] == ["b.bvh"]
-    assert len(list((folder / "pieces").iterdir())) == 2
+    assert len(list((folder / "pieces").glob("*.parquet"))) == 1
 
 
 def test_another_skeleton_makes_another_recording(tmp_path: Path) -> None:
@@ -121,10 +121,13 @@ def test_the_number_of_processes_changes_no_byte(built: Path, takes: Path, tmp_p
 
 
 def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:
-    tasks = [work_module.Task(tmp_path / name, tmp_path, Settings()) for name in "abcdefgh"]
+    paths = [tmp_path / name for name in "abcdefgh"]
     for size, jobs in ((10, 1), (work_module.PER_WORKER, 4)):
-        for task in tasks:
-            task.path.write_bytes(b" " * size)
+        for path in paths:
+            path.write_bytes(b" " * size)
+        paths[5].write_bytes(b" " * (size + 1))
+        tasks = work_module.tasks_for(paths, tmp_path, Settings())
+        assert tasks[0].path == paths[5]  # the largest is worked on first
         assert work_module.executor_for(tasks, 4) == Processes(jobs)
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from kineme.errors import ParameterError
-from kineme.library import build
+from kineme.library import Library, build
 from library_folders import contents
 
 dask = pytest.importorskip("dask", reason="dask is not installed")
@@ -40,6 +40,9 @@ def test_a_library_is_the_same_though_a_worker_was_killed(
     made = build(takes, tmp_path / "library", client=client, progress=kill)
     assert [path.name for path in made.failed] == ["broken.bvh"]
     assert contents(tmp_path / "library") == contents(built)
+    library = Library(built)
+    hits = library.search("walk.bvh", 2.0, 3.0, top=5, client=client)
+    assert hits == library.search("walk.bvh", 2.0, 3.0, top=5)
 
 
 def test_a_task_that_ends_its_workers_costs_itself_only(client: Any) -> None:

@@ -83,6 +83,8 @@ DAMAGES: dict[str, Damage] = {
     "settings of another type": head(settings=[1]),
     "a constant of no preset": head(settings={"constants": {"1": 1}, "reading": {}}),
     "constants that are texts": head(vocabulary={"unsure": "0.1"}),
+    "a constant that is missing": head(vocabulary={}),
+    "words of nobody": words(with_column("recording", lambda n: pa.array(["nobody"] * n))),
     "reasons that are numbers": head(failed={"a": 1}),
     "tables elsewhere": head(tables="../.."),
     "a number no column holds": head(following=1 << 63),
@@ -94,6 +96,9 @@ DAMAGES: dict[str, Damage] = {
     "features of another type": features(lambda array: array.astype("f8")),
     "features in a row": features(np.ravel),
     "a table without a column": words(lambda table: table.drop_columns(["spread"])),
+    "a table with a column twice": words(
+        lambda table: table.append_column("spread", table.column("spread"))
+    ),
     "a table of texts": words(with_column("spread", lambda n: pa.array(["x"] * n))),
     "a table with holes": words(with_column("spread", lambda n: pa.nulls(n, pa.float64()))),
     "a table of numbers too large": words(

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import is_number
+from kineme._checks import check_type, is_number
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.library.constants import VOCABULARY
@@ -33,6 +32,7 @@ from kineme.library.pieces import has_piece
 from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import Settings
 from kineme.library.sources import listed, names_of
+from kineme.library.storage.places import place, reaching, remove_folder
 from kineme.library.tables import read_table, write_tables
 
 Head = Mapping[str, Any]
@@ -140,9 +140,11 @@ def build(
     arrow()
     if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
+    check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
+    check_type(settings, (Settings, type(None)), "build", "kineme.library.Settings() makes one")
     with nullcontext(int(jobs)) if client is None else connected(client) as executor:
         folder = opened(into)
-        with held(folder, "build"):
+        with held(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
             plan = plan_of(folder, head, as_paths(sources), as_paths(remove), recursive, settings)
             return _built(plan, head, executor, progress or _silent)
@@ -184,7 +186,7 @@ def _before(folder: Path, head: Head) -> Known:
         return {}
     table = read_table(folder, head["tables"], "recordings")
     columns = (table.column(name).to_pylist() for name in ("path", "recording", "piece"))
-    return {Path(path): (name, key) for path, name, key in zip(*columns, strict=True)}
+    return {place(path): (name, key) for path, name, key in zip(*columns, strict=True)}
 
 
 def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
@@ -239,7 +241,7 @@ def _clean(folder: Path, keys: set[str], tables: str) -> None:
             path.unlink(missing_ok=True)
     for path in (folder / TABLES).iterdir():
         if path.name != tables:
-            shutil.rmtree(path, ignore_errors=True)
+            remove_folder(path)
     for path in folder.glob(".kineme-*"):
         path.unlink(missing_ok=True)
 

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import is_number
-from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ReadError, WriteError
+from kineme.library.storage.places import is_remote, place, written
 
 if sys.platform != "win32":
     import fcntl
@@ -62,7 +62,7 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
     ReadError
         There is no library, or one of another schema.
     """
-    path = Path(folder) / HEAD
+    path = place(folder) / HEAD
     if not path.is_file():
         raise ReadError(folder, "is no library: kineme library build FOLDER --into LIB makes one")
     head = read_json(path)
@@ -86,6 +86,7 @@ def _is_whole(head: Mapping[str, Any]) -> bool:
         re.fullmatch("[0-9a-f]{1,64}", head["tables"]) is not None
         and 0 <= head["following"] < MOST_CLUSTERS
         and all(isinstance(text, str) for text in (*head["sources"], *head["failed"].values()))
+        and "unsure" in constants
         and all(is_number(value) for value in constants.values())
     )
 
@@ -108,7 +109,7 @@ def read_json(path: Path) -> dict[str, Any]:
 def write_json(path: Path, content: dict[str, Any]) -> None:
     """Leave an object at ``path``, whole or not at all."""
     text = json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False)
-    with atomic_write(path) as draft:
+    with written(path) as draft:
         draft.write_text(text + "\n", encoding="utf-8")
 
 
@@ -129,6 +130,9 @@ def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
     WriteError
         Another process holds it, or the folder cannot be written.
     """
+    if is_remote(folder):  # nobody locks there
+        yield
+        return
     try:
         lock = os.open(folder / name, os.O_CREAT | os.O_RDWR | getattr(os, "O_CLOEXEC", 0), 0o666)
     except OSError as error:

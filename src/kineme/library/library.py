@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Self
 
-from kineme._checks import check_path
+from kineme._checks import check_flag, check_path
 from kineme.errors import ParameterError
 from kineme.library.clusters import Cluster, Word, clusters_of, numbers_of, unsure_words
 from kineme.library.editing import merge_clusters, name_cluster, split_cluster
@@ -18,8 +18,10 @@ from kineme.library.exporting import answer, table_called, write_hits, write_tab
 from kineme.library.finding import hits_like, typical_examples
 from kineme.library.layout import arrow
 from kineme.library.opened import OpenTables
+from kineme.library.pictures import write_pictures
 from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
+from kineme.library.storage.places import place, reaching
 from kineme.matching import THRESHOLD
 from kineme.recordings import Motion, Signals
 
@@ -27,14 +29,12 @@ AnyPath = str | PathLike[str]
 
 
 class Library:
-    """A library, opened for reading; edits are written at once.
-
-    Wherever a cluster is asked for, its number or its name will do.
+    """A library, opened for reading; edits are written at once. Clusters go by number or name.
 
     Parameters
     ----------
     folder : path-like
-        What `kineme.library.build` made.
+        What `kineme.library.build` made; or a URL, such as ``s3://bucket/library``.
 
     Raises
     ------
@@ -55,10 +55,10 @@ class Library:
     """
 
     def __init__(self, folder: AnyPath):
-        check_path(folder, "Library")
         arrow()
-        self.folder = Path(folder)
-        self._tables = OpenTables(self.folder)
+        self.folder = place(folder, "Library")
+        with reaching(self.folder):
+            self._tables = OpenTables(self.folder)
 
     @property
     def head(self) -> dict[str, Any]:
@@ -160,6 +160,7 @@ class Library:
         ReadError
             The example cannot be read, or has no body.
         """
+        check_flag(mirror, "mirror")
         examples = as_examples(like, start_s, stop_s)
         if cluster is not None:
             examples += typical_examples(self._tables, cluster)
@@ -167,15 +168,17 @@ class Library:
             raise ParameterError("nothing to search for: give an example or a cluster")
         with nullcontext() if client is None else connected(client) as executor:
             return hits_like(
-                self._tables, examples, unlike, threshold=threshold, top=top, mirror=mirror,
-                max_per_recording=max_per_recording, executor=executor,
+                self._tables, examples, as_examples(unlike, 0.0, None), threshold=threshold,
+                top=top, mirror=mirror, max_per_recording=max_per_recording, executor=executor,
             )  # fmt: skip
 
-    def clips(self, hits: Sequence[Hit], folder: AnyPath) -> list[Path]:
-        """The clips of hits in a new or empty folder, with a manifest; see `kineme.clips.split`.
+    def pictures(self, folder: AnyPath) -> list[Path]:
+        """A PNG of each cluster in a folder, its most typical segment as a strip; of all first."""
+        check_path(folder, "pictures")
+        return write_pictures(self._tables, Path(folder))
 
-        Those of one recording are together, in the order of the first of each.
-        """
+    def clips(self, hits: Sequence[Hit], folder: AnyPath) -> list[Path]:
+        """The clips of hits, recording by recording, in a new or empty folder with a manifest."""
         return write_hits(self._tables, hits, folder)
 
     def query(self, sql: str) -> Any:
@@ -225,10 +228,7 @@ class Library:
         return self
 
     def split(self, cluster: int | str, recordings: Iterable[str]) -> int:
-        """The number of a new cluster: what one has in some recordings, by their names.
-
-        ParameterError where it is in none of these recordings, or in no other.
-        """
+        """The number of a new cluster: what one has in some of its recordings."""
         return split_cluster(self._tables, cluster, list(recordings))
 
     def path_of(self, recording: str) -> Path:

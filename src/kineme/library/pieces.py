@@ -11,6 +11,7 @@ import json
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -18,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._doors import reading
-from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.library.index.windows import all_windows
 from kineme.library.layout import BODIES, EMBEDDED, arrow, as_array, as_column
+from kineme.library.storage.places import near, written
 from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
 
 METADATA = b"kineme.library"
@@ -56,9 +57,11 @@ def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float
     arrays: dict[str, NDArray[Any]] = {FEATURES: values}
     if piece.facts["vocabulary"] == BODIES:
         arrays[WINDOWS] = all_windows(values)
-    for suffix, array in arrays.items():
-        with atomic_write(folder / f"{key}{suffix}") as draft, draft.open("wb") as file:
-            np.save(file, array, allow_pickle=False)
+    for suffix, held in arrays.items():
+        array = BytesIO()  # into a file itself, numpy does not tell that the disk is full
+        np.save(array, held, allow_pickle=False)
+        with written(folder / f"{key}{suffix}") as draft:
+            draft.write_bytes(array.getbuffer())
     flat = as_column(piece.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)
     columns = {
@@ -67,7 +70,7 @@ def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float
     }
     table = pa.table({**columns, "embedding": embeddings})
     told = json.dumps(piece.facts, sort_keys=True).encode()
-    with atomic_write(folder / f"{key}.parquet") as draft:
+    with written(folder / f"{key}.parquet") as draft:
         parquet.write_table(
             table.replace_schema_metadata({METADATA: told}), draft, compression="zstd"
         )
@@ -126,7 +129,7 @@ def read_parts(
     """
     path = folder / f"{key}{FEATURES}"
     found = []
-    with _opening(path), path.open("rb", buffering=0) as file:
+    with _opening(path), near(path).open("rb", buffering=0) as file:
         head = file.read(10)
         data = 10 + int.from_bytes(head[8:10], "little")  # after the header of an npy file
         for start, stop in parts:
@@ -138,7 +141,7 @@ def read_parts(
 
 def _read_array(path: Path, kind: type[np.floating[Any]]) -> NDArray[Any]:
     with _opening(path):
-        return _sound(np.load(path, allow_pickle=False), kind)
+        return _sound(np.load(near(path), allow_pickle=False), kind)
 
 
 def _sound(rows: NDArray[Any], kind: type[np.floating[Any]]) -> NDArray[Any]:

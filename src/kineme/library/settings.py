@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from hashlib import sha256
 from os import PathLike, fspath
 from typing import Any
@@ -53,6 +54,9 @@ class Settings:
     def __post_init__(self) -> None:
         if not isinstance(self.preset, str):
             raise ParameterError(f"a library takes the name of a preset, not {self.preset!r:.60}")
+        for name, given in (("constants", self.constants), ("reading", self.reading)):
+            if not (isinstance(given, Mapping) and all(isinstance(key, str) for key in given)):
+                raise ParameterError(f"{name} must be values by their names, not {given!r:.60}")
         resolve_preset(self.preset, **self.constants)
         self.options()
 
@@ -91,8 +95,9 @@ class Settings:
 
     def key(self, digest: str) -> str:
         """The name of the piece of a recording whose files have this digest."""
-        return sha256(f"{self._digest()} {digest}".encode()).hexdigest()[:32]
+        return sha256(f"{self._digest} {digest}".encode()).hexdigest()[:32]
 
+    @cached_property
     def _digest(self) -> str:
         """A digest of the version and of everything that decides what is found."""
         presets = []

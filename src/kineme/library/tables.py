@@ -11,6 +11,7 @@ import shutil
 from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.library.layout import EMBEDDED, TABLES, arrow, as_array, as_column
+from kineme.library.storage.places import is_remote, written
 from kineme.segments.table import DESCRIBED as SEGMENTS
 from kineme.segments.table import Column
 
@@ -101,6 +103,8 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
     """
     _, parquet = arrow()
     home = folder / TABLES
+    if is_remote(home):
+        return _put(home, tables)
     draft = home / f".{secrets.token_hex(6)}"
     try:
         draft.mkdir(parents=True)
@@ -116,6 +120,16 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error
     finally:
         shutil.rmtree(draft, ignore_errors=True)
+    return named
+
+
+def _put(home: Path, tables: Mapping[str, Any]) -> str:
+    """The same where folders cannot be moved: nothing names these tables before all are there."""
+    with TemporaryDirectory(prefix="kineme-") as near:
+        named = write_tables(Path(near), tables)
+        for file in sorted((Path(near) / TABLES / named).iterdir()):
+            with written(home / named / file.name) as draft:
+                shutil.copy(file, draft)
     return named
 
 
@@ -141,9 +155,11 @@ def read_table(folder: Path, named: str, name: str) -> Any:
         table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
         table.validate(full=True)
     for column, known in DESCRIBED[name].items():
-        if column not in table.column_names and column not in ADDED:
-            raise ReadError(path, f"is damaged: it lacks {column!r}; build the library again")
-        if column in table.column_names and not _is_sound(table.column(column), known.type):
+        times = table.column_names.count(column)
+        if times > 1 or (times == 0 and column not in ADDED):
+            said = "holds twice" if times else "lacks"
+            raise ReadError(path, f"is damaged: it {said} {column!r}; build the library again")
+        if times and not _is_sound(table.column(column), known.type):
             raise ReadError(path, f"is damaged in {column!r}; build the library again")
     return table
 

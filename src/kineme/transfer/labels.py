@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import as_floats, check_type, is_number
+from kineme._checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.matching import THRESHOLD
 from kineme.segments.segmentation import Segmentation
@@ -37,6 +37,10 @@ from kineme.transfer.features import FPS, working_frames
 from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.matching import Floats, Primitives, same_movements
 from kineme.transfer.unsegmented import found_by_search, segmented_as_found
+
+
+LARGEST = 1e6
+"""Threshold above which nothing more is found; no cost comes near it."""
 
 
 def transfer_labels(
@@ -95,6 +99,8 @@ def transfer_labels(
     check_type(knowledge, KnowledgeBase, "transfer_labels", "KnowledgeBase.load(path) gives one")
     if not (is_number(threshold) and threshold > 0):
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
+    check_flag(spread, "spread")
+    threshold = min(float(threshold), LARGEST)
     features = _checked(features, segmentation)
     table = segmentation.table
     if not ((table.kind == "activity") | (table.label != "")).any():

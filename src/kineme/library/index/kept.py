@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.library.index.windows import LENGTHS, NUMBERS, Halves, Ints, by_length, count
 from kineme.library.layout import BODIES, PIECES, TABLES
 from kineme.library.pieces import read_windows
+from kineme.library.storage.places import near, written
 
 FROM_HOURS = 100.0
 """Of recordings of bodies, from which a library has an index."""
@@ -64,7 +64,7 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
     with ExitStack() as stack:
         drafts = {
             length: np.lib.format.open_memmap(
-                stack.enter_context(atomic_write(_place(home, length))),
+                stack.enter_context(written(_place(home, length))),
                 mode="w+",
                 dtype=np.float16,
                 shape=(int(count(samples, length).sum()), NUMBERS),
@@ -93,7 +93,7 @@ def open_index(
     """
     path = _place(folder / TABLES / named, length)
     try:
-        embedded: Halves = np.load(path, mmap_mode="r", allow_pickle=False)
+        embedded: Halves = np.load(near(path), mmap_mode="r", allow_pickle=False)
     except FileNotFoundError:
         return None
     except (OSError, ValueError) as error:
