@@ -47,8 +47,8 @@ LASTS_S = 1200.0
 FASTEST, NOISE = 1.4, (0.01, 0.05)
 TOP = 50
 LARGER = (10_000, 100_000)
-GROWTH = (400, 800)
-"""Words whose joining ``vocabulary.py --growth 400 800 --record`` measured."""
+GROWTH = (100, 1000)
+"""Words whose joining ``vocabulary.py --growth 100 1000 --record`` measured."""
 EXAMPLES_S = (0.8, 1.2, 1.6, 2.2, 3.0, 4.0)
 Features = NDArray[np.float32]
 
