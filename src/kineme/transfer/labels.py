@@ -38,7 +38,6 @@ from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.matching import Floats, Primitives, same_movements
 from kineme.transfer.unsegmented import found_by_search, segmented_as_found
 
-
 LARGEST = 1e6
 """Threshold above which nothing more is found; no cost comes near it."""
 
