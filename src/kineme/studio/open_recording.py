@@ -26,6 +26,7 @@ from kineme.studio.journal import Change, Journal
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.reading import RecordingCache
 from kineme.studio.storage import ChangedOnDiskError, saved_table
+from kineme.studio.videos import video_message
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
 from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 
@@ -108,6 +109,7 @@ class OpenRecording:
                 can_undo=self._journal.can_undo,
                 can_redo=self._journal.can_redo,
                 saved=self._saved,
+                video=video_message(self.path),
                 warnings=[*shown.warnings, *self._notes],
             )
             return message, anew

@@ -21,6 +21,7 @@ import { type DialogName, Header } from "./Header";
 import { VersionsDialog } from "./dialogs/VersionsDialog";
 import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
+import { Video } from "./panels/Video";
 import { PresetPanel } from "./panels/PresetPanel";
 import { SegmentPanel } from "./panels/SegmentPanel";
 import type { Review } from "./review/review";
@@ -114,6 +115,7 @@ function Stage({ session }: { session: Session }): JSX.Element {
   return (
     <>
       <Viewer store={store} />
+      <Video session={session} />
       {!store.active.value && (
         <p class="empty quiet">
           {opening.value || !session.state.value ? (
