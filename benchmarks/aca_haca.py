@@ -24,9 +24,10 @@ from threadpoolctl import threadpool_limits
 import kineme
 from kineme.evaluation import Labelling
 from kineme.features.rotations import joint_quaternions, log_maps
+from kineme.methods import PRESETS
 from kineme.methods.baselines import aca, haca
+from kineme.methods.baselines.constants import AcaConstants, HacaConstants
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
-from kineme.methods.baselines.segments import Segments
 from kineme.reproduction import read_trials
 from kineme.reproduction.aca_protocol import aca_accuracy
 
@@ -37,19 +38,23 @@ SEEDS = (1, 2, 3, 4, 5)
 STAGES = ("reduce", "kernel", "aca_ini", "aca", "haca_ini", "haca")
 
 
-def values(reference: dict[str, Any]) -> dict[str, Any]:
-    """The parameters of a recorded run, under the names of this package."""
+def presets(reference: dict[str, Any]) -> tuple[AcaConstants, HacaConstants]:
+    """ACA and HACA with the parameters of a recorded run."""
     one, two = reference["parameters"]["aca"], reference["parameters"]["haca"]
-    return {
-        "classes": int(one["k"]),
-        "centres": int(one["kF"]),
-        "lengths": (int(one["nMi"]), int(one["nMa"])),
-        "fine": (int(two[0]["nMi"]), int(two[0]["nMa"])),
-        "coarse": (int(two[1]["nMi"]), int(two[1]["nMa"])),
-    }
+    shared = {"n_classes": int(one["k"]), "centres": int(one["kF"])}
+    return (
+        PRESETS["aca"].replace(shortest=int(one["nMi"]), longest=int(one["nMa"]), **shared),
+        PRESETS["haca"].replace(
+            fine_lengths=(int(two[0]["nMi"]), int(two[0]["nMa"])),
+            coarse_lengths=(int(two[1]["nMi"]), int(two[1]["nMa"])),
+            **shared,
+        ),
+    )
 
 
-def stage_seconds(features: np.ndarray, v: dict[str, Any], seed: int) -> dict[str, float]:
+def stage_seconds(
+    features: np.ndarray, one: AcaConstants, two: HacaConstants, seed: int
+) -> dict[str, float]:
     """Processor seconds of the stages that the recorded runs tell apart."""
     random, seconds = np.random.RandomState(seed), {}
 
@@ -60,46 +65,36 @@ def stage_seconds(features: np.ndarray, v: dict[str, Any], seed: int) -> dict[st
         return result
 
     def first(classes: int, lengths: tuple[int, int], starts: int) -> list[aca.State]:
-        return list(aca.initial_states(kernel, classes, *lengths, starts, random))
+        return list(aca.initial_states(kernel, classes, lengths, starts, one, random))
 
-    blocks = timed("reduce", lambda: block_starts(features, centres=v["centres"], random=random))
-    kernel = timed("kernel", lambda: frame_kernel(features[blocks]))
+    classes, fine_classes, fine_lengths = one.told(), two.fine_classes, two.fine_lengths
+    blocks = timed("reduce", lambda: block_starts(features, one, random))
+    kernel = timed("kernel", lambda: frame_kernel(features[blocks], one.nearest_share))
     weights = np.ones(len(blocks))
-    states = timed("aca_ini", lambda: first(v["classes"], v["lengths"], 1))
-    longest = v["lengths"][1]
-    timed("aca", lambda: aca.improve(kernel, weights, states[0], v["classes"], longest))
-    states = timed("haca_ini", lambda: first(haca.FINE_CLASSES, v["fine"], haca.FINE_STARTS))
+    states = timed("aca_ini", lambda: first(classes, (one.shortest, one.longest), 1))
+    timed("aca", lambda: aca.improve(kernel, weights, states[0], classes, one.longest, one))
+    states = timed("haca_ini", lambda: first(fine_classes, fine_lengths, two.fine_starts))
 
     def both_levels() -> None:
         for state in states:
-            fine = aca.improve(kernel, weights, state, haca.FINE_CLASSES, v["fine"][1])
-            haca.second_level(kernel, weights, fine, v["classes"], v["coarse"], random)
+            fine = aca.improve(kernel, weights, state, fine_classes, fine_lengths[1], two)
+            haca.second_level(kernel, weights, fine, classes, two, random)
 
     timed("haca", both_levels)
     return seconds
-
-
-def found(features: np.ndarray, v: dict[str, Any], seed: int) -> dict[str, Segments]:
-    shared = {"n_classes": v["classes"], "centres": v["centres"], "seed": seed}
-    shortest, longest = v["lengths"]
-    return {
-        "aca": aca.aca(features, shortest=shortest, longest=longest, **shared),
-        "haca": haca.haca(features, fine_lengths=v["fine"], coarse_lengths=v["coarse"], **shared),
-    }
 
 
 def compare(trial: str) -> None:
     reference = json.loads((DATA / "reference" / f"aca_haca_{trial}.json").read_text())
     truth = read_trials(DATA / "annotations.json", fps=120.0)[trial]
     features = log_maps(joint_quaternions(kineme.read(DATA / f"{trial}.amc")))
-    v = values(reference)
-    results = [found(features, v, seed) for seed in SEEDS]
-    for method in ("aca", "haca"):
+    known = presets(reference)
+    for preset in known:
+        method = preset.name
         ours = []
-        for seed, result in zip(SEEDS, results, strict=True):
-            random = np.random.RandomState(seed)
-            blocks = block_starts(features, centres=v["centres"], random=random)
-            segments = result[method]
+        for seed in SEEDS:
+            blocks = block_starts(features, preset, np.random.RandomState(seed))
+            segments = preset.replace(seed=seed).segments(features)
             labelling = Labelling.from_cuts(
                 segments.cuts, segments.clusters.tolist(), frames=segments.n_frames, fps=120.0
             )
@@ -112,7 +107,7 @@ def compare(trial: str) -> None:
                 f"each {' '.join(f'{a:.4f}' for a in accuracy)} "
                 f"objectives {' '.join(f'{o:.2f}' for o in objective)}"
             )
-    seconds = [stage_seconds(features, v, seed) for seed in SEEDS]
+    seconds = [stage_seconds(features, *known, seed) for seed in SEEDS]
     recorded = [run["seconds_in_octave"] for run in reference["runs"]]
     totals = np.zeros(2)
     for stage in STAGES:

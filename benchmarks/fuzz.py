@@ -2,11 +2,16 @@
 
     python benchmarks/fuzz.py --minutes 5 --seed 1
 
-Samples of recordings, labels, knowledge bases and motion graphs are made in a folder (and
-those of KINEME_DATA up to 300 kB taken along), damaged in one to four ways, and read by
-workers with limits of 4 GB and 20 s a file. What ends in anything but a `KinemeError`, in a
-numpy warning, in a killed worker or after the time is a finding; findings are counted by
+Samples of recordings, labels, tables with what lies beside them, knowledge bases, motion
+graphs, a library and the studio's journal are made in a folder (and the beginnings of those
+of KINEME_DATA taken along), damaged in one to four ways, and read by a worker with limits of
+4 GB and 20 s a file. What ends in anything but a `KinemeError`, in a warning of numpy, in a
+killed worker, after the time or with more than 2 GB is a finding; findings are counted by
 kind, and the number of the first of each gives the same bytes again (``--only NUMBER``).
+``--structure`` leaves the syntax sound and changes what the files mean.
+
+Workers are forks of a process that has read every sample once, so that a file costs little
+more than its reader. Needs a system that can fork.
 
 Promises: no finding.
 """
@@ -15,249 +20,175 @@ from __future__ import annotations
 
 import argparse
 import json
+import mmap
 import os
-import random
-import re
 import resource
-import selectors
-import subprocess
+import signal
+import struct
 import sys
 import tempfile
 import time
 import traceback
 import warnings
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-import numpy as np
+os.environ["KINEME_THREADS"] = os.environ["OMP_NUM_THREADS"] = "1"  # threads outlive no fork
 
-MEMORY = 4 << 30
+from _damage import mutated
+from _fuzz_samples import Case, write_samples
+from _restructure import restructured
+from kineme.errors import KinemeError, KinemeWarning
+
+MEMORY, MOST_HELD = 4 << 30, 2 << 30
 SECONDS = 20
-LARGEST = 300_000
-"""Bytes of a sample from KINEME_DATA."""
+BATCH = 3000
+"""Files that a worker reads before it is started anew."""
 
-WORDS = [b"nan", b"inf", b"-inf", b"1e300", b"-1.7e308", b"1e-320", b"0", b"-1", b"9" * 5000,
-         b"18446744073709551616", b"9223372036854775808", b"2147483648", b"", b"{}", b"[]", b"null",
-         b"true", b'""', b"\xff\xfe", b"\xef\xbb\xbf", b"\0", b"\n", b",", b"\t", b"x" * 140_000,
-         b"=1+1", b"\xed\xa0\x80", b"(", b"1/0", b"{" * 3000, b"[" * 3000]  # fmt: skip
-NUMBER = re.compile(rb"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
+MEMORY_DISK = "/dev/shm" if Path("/dev/shm").is_dir() else None
+CLOCK = "qd"
+"""The number that is being read, and since when."""
 
-
-def mutated(data: bytes, seed: int) -> bytes:
-    """The bytes, damaged as the seed says."""
-    chance = random.Random(seed)
-    for _ in range(chance.randint(1, 4)):
-        data = chance.choice((_bytes, _bytes, _lines, _numbers, _numbers, _head, _structure))(
-            data, chance
-        )
-    return data
+AT_THE_DOOR = "cannot be understood, it is damaged"
+"""What is said of a file whose fault no reader has a word for."""
 
 
-def _bytes(data: bytes, chance: random.Random) -> bytes:
-    """A few bytes or a stretch of them turned, doubled, cut or replaced."""
-    if not data:
-        return data
-    start = chance.randrange(len(data))
-    stop = min(len(data), start + chance.choice((1, 1, 2, 4, 8, 64, 512)))
-    new = chance.choice((
-        bytes(255 - byte for byte in data[start:stop]),
-        chance.randbytes(stop - start),
-        data[start:stop] * 2,
-        b"",
-        b"\xff" * (stop - start),
-        bytes(stop - start),
-        chance.choice(WORDS),
-    ))  # fmt: skip
-    return data[:start] + new + data[stop:]
+STRUCTURED = 500_000
+"""Of each million of numbers the second half changes what a file means, not its bytes."""
 
 
-def _lines(data: bytes, chance: random.Random) -> bytes:
-    """A line left out, doubled, moved, cut off or many times there."""
-    lines = data.split(b"\n")
-    at, to = chance.randrange(len(lines)), chance.randrange(len(lines))
-    line = lines[at]
-    new = chance.choice(([], [line] * 2, [line] * 500, [line[: len(line) // 2]], [lines[to]]))
-    lines[at : at + 1] = new
-    return b"\n".join(lines)
+def damaged(case: Case, number: int) -> bytes:
+    """The bytes of a case, damaged as the number says."""
+    if number % 1_000_000 < STRUCTURED:
+        return mutated(case.sound, number)
+    return restructured(case.path, case.sound, number)
 
 
-def _numbers(data: bytes, chance: random.Random) -> bytes:
-    """A number of a text replaced by an odd one."""
-    found = list(NUMBER.finditer(data[:100_000]))
-    if not found:
-        return _bytes(data, chance)
-    where = chance.choice(found)
-    return data[: where.start()] + chance.choice(WORDS) + data[where.end() :]
+def chosen(number: int, cases: Sequence[Case]) -> tuple[Case, int]:
+    """The case of a number and which of its doors: each gets its turn."""
+    case = cases[number % len(cases)]
+    return case, number // len(cases) % len(case.doors)
 
 
-def _head(data: bytes, chance: random.Random) -> bytes:
-    """A byte of the first thousand, where formats keep their counts, or of the last."""
-    if not data:
-        return data
-    at = chance.randrange(min(len(data), 1000))
-    at = chance.choice((at, len(data) - 1 - at))
-    return data[:at] + bytes([chance.choice((0, 1, 127, 128, 255))]) + data[at + 1 :]
+def finding(root: Path, case: Case, door: int) -> tuple[str, str]:
+    """What a reader did wrong, and what only the door caught; empty where there is nothing."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            warnings.simplefilter("ignore", KinemeWarning)
+            case.doors[door](root)
+    except KinemeError as error:
+        if "\n" in str(error):
+            return f"a message of several lines: {type(error).__name__}", ""
+        if AT_THE_DOOR in str(error) and error.__cause__ is not None:
+            return "", _where(error.__cause__)
+    except Exception as error:  # noqa: BLE001 (which is what is looked for)
+        return _where(error), ""
+    return "", ""
 
 
-def _structure(data: bytes, chance: random.Random) -> bytes:
-    """A file cut off, repeated, turned round, or two stretches of it exchanged."""
-    a, b = sorted(chance.randrange(len(data) + 1) for _ in range(2))
-    middle = (a + b) // 2
-    return chance.choice((
-        data[:a],
-        data[a:],
-        data + data[a:b],
-        data[:a] + data[middle:b] + data[a:middle] + data[b:],
-        data[:a] + chance.choice(WORDS) + data[a:],
-    ))  # fmt: skip
+def _where(error: BaseException) -> str:
+    """An exception and the line of the package that it came through last."""
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if "/kineme/" in frame.filename] or frames
+    return f"{type(error).__name__} at {Path(own[-1].filename).name}:{own[-1].lineno}"
 
 
-def write_samples(folder: Path) -> None:
-    """One small sound file of each kind that the package writes, and small ones of KINEME_DATA."""
-    import kineme
-    from kineme import formats, labels
-    from kineme.datasets import bundled_recording, bundled_truth
-    from kineme.synthesis.graph_file import write_graph
-
-    motion = formats.read_motion(bundled_recording())[:600]
-    for known in formats.supported_formats():
-        for suffix in known.suffixes if known.write else ():
-            formats.write(motion[:60], folder / f"motion{suffix}")
-    rng = np.random.default_rng(0)
-    signals = kineme.Signals(rng.normal(size=(80, 3)), 50, ["a", "b", "c"])
-    for suffix in (".csv", ".parquet"):
-        formats.write(signals, folder / f"signals{suffix}")
-    np.save(folder / "array.npy", np.asarray(motion.positions[:20]))
-    truth = kineme.read_segments(bundled_truth())
-    for label_format in labels.label_formats().values():
-        if label_format.write and not label_format.folder:
-            path = folder / f"labels-{label_format.name}{label_format.written_suffix}"
-            labels.write_segments(truth, path, format=label_format.name)
-    whole = formats.read_motion(bundled_recording())
-    kineme.KnowledgeBase.from_recording(whole, truth).save(folder / "base.npz")
-    write_graph(kineme.MotionGraph((), (), (), 60.0, 0.1, 0.3), folder / "graph.json")
-    data = Path(os.environ.get("KINEME_DATA", "/nowhere"))
-    for path in sorted(data.glob("*formats/*")) + sorted(data.glob("timeseries/*")):
-        if path.is_file() and 0 < path.stat().st_size < LARGEST:
-            (folder / path.name).write_bytes(path.read_bytes())
-
-
-def doors(path: Path) -> Iterator[tuple[str, object]]:
-    """What reads a file of this name."""
-    import kineme
-    from kineme.synthesis.graph_file import read_graph
-
-    name = path.name
-    if name.startswith("labels-"):
-        form = name.removeprefix("labels-").partition(".")[0]
-        yield "labels", lambda: kineme.read_segments(path, format=form, fps=60)
-        yield "labels", lambda: kineme.read_segments(path)
-    elif name.startswith("graph"):
-        yield "graph", lambda: read_graph(path)
-    elif name.startswith("base"):
-        yield "knowledge", lambda: kineme.KnowledgeBase.load(path)
-    else:
-        yield "recording", lambda: kineme.read(path)
-        yield "recording", lambda: kineme.read(path, fps=60)
-        yield "recording", lambda: kineme.read(path, columns=[])
-
-
-def finding(path: Path) -> str:
-    """The kind of what a reader did wrong; empty if it did nothing wrong."""
-    from kineme.errors import KinemeError, KinemeWarning
-
-    for door, read in doors(path):
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("error")
-                warnings.simplefilter("ignore", KinemeWarning)
-                read()  # type: ignore[operator]
-        except KinemeError as error:
-            if "\n" in str(error):
-                return f"{door}: a message of several lines: {type(error).__name__}"
-            cause = error.__cause__
-            if "cannot be understood, it is damaged" in str(error) and cause is not None:
-                last = traceback.extract_tb(cause.__traceback__)[-1]
-                print(f"# caught at the door: {type(cause).__name__} at "
-                      f"{Path(last.filename).name}:{last.lineno}", file=sys.stderr)  # fmt: skip
-        except Exception as error:  # noqa: BLE001 (which is what is looked for)
-            last = traceback.extract_tb(error.__traceback__)[-1]
-            return f"{door}: {type(error).__name__} at {Path(last.filename).name}:{last.lineno}"
-    return ""
-
-
-def work(folder: Path) -> None:
-    """Read the files that stdin names, and answer with what was found."""
+def work(root: Path, cases: Sequence[Case], numbers: range, at: mmap.mmap, told: Path) -> None:
+    """Damage and read one file after another; say which, and then what was found."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    for line in sys.stdin:
-        print(json.dumps(finding(folder / line.strip())), flush=True)
+    with told.open("a", buffering=1) as file:
+        for number in numbers:
+            at[:] = struct.pack(CLOCK, number, time.monotonic())
+            case, door = chosen(number, cases)
+            (root / case.path).write_bytes(damaged(case, number))
+            started = time.process_time()
+            kind, caught = finding(root, case, door)
+            took = time.process_time() - started
+            (root / case.path).write_bytes(case.sound)
+            held = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+            if held > MOST_HELD:
+                kind = kind or f"held {held / 1e9:.1f} GB"
+            if kind or caught or took > 1:
+                file.write(json.dumps([number, kind, caught, took]) + "\n")
+            if held > MOST_HELD:  # which would be said of all that follow
+                return
 
 
-class Worker:
-    """A process that reads damaged files, started anew where one ends it."""
+def watched(
+    root: Path, cases: Sequence[Case], numbers: range, until: float
+) -> Iterator[tuple[int, str, str, float]]:
+    """Number, finding, what the door caught, processor seconds of what is worth telling.
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.process = self._started()
+    Workers are started one after another; each begins where the one before ended, however it
+    did. Last comes the first number that was not read, with nothing found.
+    """
+    at = mmap.mmap(-1, struct.calcsize(CLOCK))
+    told = root.parent / "told.jsonl"
+    first = numbers.start
+    while first < numbers.stop and time.monotonic() < until:
+        at[:] = struct.pack(CLOCK, first, time.monotonic())
+        told.write_text("")
+        child = os.fork()
+        if child == 0:
+            status = 1
+            try:
+                work(root, cases, range(first, min(first + BATCH, numbers.stop)), at, told)
+                status = 0
+            except BaseException:  # noqa: BLE001 (a fork must not go on as its parent)
+                traceback.print_exc()
+            finally:
+                os._exit(status)
+        ended = ""
+        while not (waited := os.waitpid(child, os.WNOHANG))[0]:
+            time.sleep(0.05)
+            late = time.monotonic() - struct.unpack(CLOCK, at)[1] > SECONDS
+            if late or time.monotonic() > until:
+                os.kill(child, signal.SIGKILL)
+                os.waitpid(child, 0)
+                ended = f"took more than {SECONDS} s" if late else "time is over"
+                break
+        last = struct.unpack(CLOCK, at)[0]
+        for line in told.read_text().splitlines():
+            yield tuple(json.loads(line))
+        if waited[1]:
+            ended = f"ended the process with {os.waitstatus_to_exitcode(waited[1])}"
+        (root / chosen(last, cases)[0].path).write_bytes(chosen(last, cases)[0].sound)
+        if ended and ended != "time is over":
+            yield last, ended, "", 0.0
+        first = last + (ended != "time is over")
+    yield first, "", "", 0.0
 
-    def _started(self) -> subprocess.Popen[str]:
-        command = [sys.executable, __file__, "--work", str(self.folder)]
-        return subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1
-        )
 
-    def read(self, name: str) -> str:
-        """What is found in a file, with the end of the process and of the time among it."""
-        stdin, stdout = self.process.stdin, self.process.stdout
-        if stdin is None or stdout is None:
-            return "the worker has no pipes"
-        stdin.write(name + "\n")
-        stdin.flush()
-        with selectors.DefaultSelector() as selector:
-            selector.register(stdout, selectors.EVENT_READ)
-            ready = selector.select(SECONDS)
-        line = stdout.readline() if ready else ""
-        if line:
-            return str(json.loads(line))
-        self.process.kill()
-        code = self.process.wait()
-        self.process = self._started()
-        return f"ended with {code}" if ready else f"took more than {SECONDS} s"
-
-    def close(self) -> None:
-        """End the process."""
-        self.process.kill()
-        self.process.wait()
-
-
-def fuzz(seconds: float, most: int, seed: int, only: int | None = None) -> Counter[str]:
-    """How often each kind was found in so many seconds or files, from this seed on."""
+def fuzz(seconds: float, most: int, first: int) -> Counter[str]:
+    """How often each kind was found in so many seconds or files, from this number on."""
     kinds: Counter[str] = Counter()
-    with tempfile.TemporaryDirectory() as place:
-        sound, damaged = Path(place) / "sound", Path(place) / "damaged"
-        sound.mkdir()
-        damaged.mkdir()
-        write_samples(sound)
-        samples = sorted(path for path in sound.iterdir() if path.is_file())
-        for path in samples:  # what lies beside them, ASF and side files, is sound
-            (damaged / path.name).write_bytes(path.read_bytes())
-        worker = Worker(damaged)
-        number = seed * 1_000_000 if only is None else only
-        started = time.monotonic()
-        count = 0
-        most = most if only is None else 1
-        while time.monotonic() - started < seconds and count < most:
-            sample = samples[number % len(samples)]
-            (damaged / sample.name).write_bytes(mutated(sample.read_bytes(), number))
-            kind = worker.read(sample.name)
-            if kind and not kinds[f"{sample.name}: {kind}"]:
-                print(f"{number}: {sample.name}: {kind}", flush=True)
-            kinds[f"{sample.name}: {kind}"] += bool(kind)
-            (damaged / sample.name).write_bytes(sample.read_bytes())
-            number, count = number + 1, count + 1
-        worker.close()
-    print(f"{count} damaged files of {len(samples)} kinds, {sum(kinds.values())} findings")
+    doors: Counter[str] = Counter()
+    slowest = (0.0, 0)
+    number = first
+    with tempfile.TemporaryDirectory(dir=MEMORY_DISK) as name:
+        root = Path(name) / "samples"
+        cases = write_samples(root)
+        for case in cases:
+            for door in range(len(case.doors)):
+                said, caught = finding(root, case, door)
+                if said or caught:
+                    kinds[f"{case.path}, sound: {said or caught}"] += 1
+        until = time.monotonic() + seconds
+        for number, kind, caught, took in watched(root, cases, range(first, first + most), until):
+            case, _ = chosen(number, cases)
+            slowest = max(slowest, (took, number))
+            if caught:
+                doors[f"{case.path}: {caught}"] += 1
+            if kind and not kinds[f"{case.path}: {kind}"]:
+                print(f"{number}: {case.path}: {kind}", flush=True)
+            kinds[f"{case.path}: {kind}"] += bool(kind)
+    print(f"{number - first} damaged files of {len(cases)} kinds from number {first} on, "
+          f"{sum(kinds.values())} findings; {sum(doors.values())} caught at the door only; "
+          f"slowest {slowest[0]:.1f} s of processor time ({slowest[1]})")  # fmt: skip
+    for kind, times in doors.most_common():
+        print(f"{times:6d}  at the door: {kind}", file=sys.stderr)
     return +kinds
 
 
@@ -265,15 +196,14 @@ def main() -> int:
     """Fuzz as the command line asks; exit code 1 if anything was found."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=1.0)
-    parser.add_argument("--files", type=int, default=10**9, help="at most")
+    parser.add_argument("--files", type=int, default=10**6, help="at most")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--only", type=int)
-    parser.add_argument("--work", type=Path, help=argparse.SUPPRESS)
+    parser.add_argument("--structure", action="store_true", help="other meanings, sound syntax")
+    parser.add_argument("--only", type=int, metavar="NUMBER")
     given = parser.parse_args()
-    if given.work:
-        work(given.work)
-        return 0
-    kinds = fuzz(60 * given.minutes, given.files, given.seed, given.only)
+    first = given.seed * 1_000_000 + STRUCTURED * given.structure
+    first = first if given.only is None else given.only
+    kinds = fuzz(60 * given.minutes, given.files if given.only is None else 1, first)
     for kind, times in kinds.most_common():
         print(f"{times:6d}  {kind}")
     return 1 if kinds else 0

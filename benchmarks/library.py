@@ -14,46 +14,17 @@ Each line says what was promised.
 from __future__ import annotations
 
 import argparse
-import os
-import subprocess
-import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
-import numpy as np
-
-from _measure import verdict
+from _libraries import simulated
+from _measure import kineme, verdict
 from _recordings import DATA
 from kineme import Library, read
-from kineme._version import __version__
-from kineme.library import Settings
-from kineme.library.compiling import compiled
-from kineme.library.constants import VOCABULARY
-from kineme.library.layout import HEAD, PIECES, SCHEMA, write_json
-from kineme.library.pieces import Piece, write_piece
-from kineme.library.tables import write_tables
-from kineme.library.work import make_piece
 
 COPIES = 40
-SHAKEN = 0.05
-"""Deviation of what is added to each feature of a copy."""
-LASTS_S = 360.0
-"""Of a simulated recording, seconds."""
 WALK = ("86_01.amc", 2.0, 3.2)
-
-
-def kineme(*arguments: object) -> tuple[float, float, float]:
-    """Seconds that a command takes, of clock and processors; gigabytes of its largest process."""
-    start = perf_counter()
-    process = subprocess.Popen(
-        [sys.executable, "-m", "kineme", *map(str, arguments)], stdout=subprocess.DEVNULL
-    )
-    _, status, usage = os.wait4(process.pid, 0)
-    if status:
-        raise SystemExit(f"{arguments} ended with {status}")
-    used = usage.ru_utime + usage.ru_stime
-    return perf_counter() - start, used, usage.ru_maxrss / 1e6
 
 
 def copies(folder: Path, n: int, *, frames: int | None = None) -> None:
@@ -94,52 +65,18 @@ def show_second_build(home: Path, files: int) -> None:
     )
 
 
-def simulated(folder: Path, hours: float) -> None:
-    """A library of recordings that are shaken pieces of subject 86."""
-    (folder / PIECES).mkdir(parents=True)
-    rng = np.random.default_rng(0)
-    made = [make_piece(read(path), Settings()) for path in sorted((DATA / "cmu86").glob("*.amc"))]
-    entries = []
-    for number in range(round(hours * 3600 / LASTS_S)):
-        piece, own = made[number % len(made)]
-        n = round(LASTS_S * piece.facts["features_fps"])
-        parts = [features for _, features in made]
-        whole = np.concatenate([own, *parts, *parts])[:n]
-        shaken = whole + SHAKEN * rng.normal(size=whole.shape).astype(np.float32)
-        shaken /= np.linalg.norm(shaken, axis=1, keepdims=True)
-        facts = {**piece.facts, "n_frames": round(LASTS_S * piece.facts["fps"])}
-        write_piece(
-            folder / PIECES, f"{number:032x}", Piece(facts, piece.table, piece.embeddings), shaken
-        )
-        entries.append((f"{number:05d}", folder / f"{number:05d}", f"{number:032x}"))
-    start = perf_counter()
-    tables, following = compiled(folder, entries, None, 0)
-    print(f"clusters in common of {len(entries)} recordings: {perf_counter() - start:.1f} s")
-    head = {
-        "schema": SCHEMA,
-        "kineme": __version__,
-        "settings": Settings().to_json(),
-        "sources": [],
-        "recursive": False,
-        "vocabulary": dict(VOCABULARY.parameters()),
-        "failed": {},
-        "following": following,
-        "tables": write_tables(folder, tables),
-    }
-    write_json(folder / HEAD, head)
-
-
 def show_search(home: Path, hours: float) -> None:
-    simulated(home / "hours", hours)
+    seconds = simulated(home / "hours", hours)
     library = Library(home / "hours")
+    print(f"clusters in common of {len(library)} recordings: {seconds:.1f} s")
     name, start_s, stop_s = WALK
     example = read(DATA / "cmu86" / name)
-    seconds = []
+    taken = []
     for _ in range(5):
         start = perf_counter()
         library.search(example, start_s, stop_s)
-        seconds.append(perf_counter() - start)
-    warm = sorted(seconds)[len(seconds) // 2]
+        taken.append(perf_counter() - start)
+    warm = sorted(taken)[len(taken) // 2]
     print(f"search in {library.hours:.0f} h: {warm:.2f} s, {verdict(warm, 0.02 * hours)}")
     like = ("--like", DATA / "cmu86" / name, "--start", start_s, "--stop", stop_s)
     command, used, _ = kineme("library", "search", home / "hours", *like, "--quiet")

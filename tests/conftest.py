@@ -8,11 +8,31 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-# How long an example takes is the machine's affair. All else is as hypothesis has it here.
-settings.register_profile(
-    "kineme", settings(), deadline=None, suppress_health_check=[HealthCheck.too_slow]
-)
+# How long an example takes is the machine's affair. All else is as hypothesis has it here;
+# ``pytest --hypothesis-profile=thorough`` tries each law on ten times as many examples.
+for profile, examples in (("kineme", 50), ("thorough", 500)):
+    settings.register_profile(
+        profile,
+        settings(),
+        deadline=None,
+        suppress_health_check=[HealthCheck.too_slow],
+        max_examples=examples,
+    )
 settings.load_profile("kineme")
+
+HERE = Path(__file__).parent
+
+
+SLOWEST_FIRST = ("fuzz", "browser", "test_one_place.py", "test_docs.py", "cli", "studio", "methods")
+"""Files and folders of these tests; else two workers would wait for the last file of one."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    def turn(item: pytest.Item) -> int:
+        place = item.path.relative_to(HERE).parts[0]
+        return SLOWEST_FIRST.index(place) if place in SLOWEST_FIRST else len(SLOWEST_FIRST)
+
+    items.sort(key=turn)
 
 
 def find_data_dir() -> Path | None:

@@ -64,7 +64,7 @@ ROOMS = {
         "features graph methods recordings segments",
     ),
     "labels": Room("segment tables from files and back: one registry", "formats segments"),
-    "plot": Room("pictures, each on given axes", "graph segmentation segments"),
+    "plot": Room("pictures, each on given axes", "graph methods recordings segmentation segments"),
     "clips": Room("a file per segment, loops that close", "formats labels recordings segments"),
     "interop": Room(
         "segments and recordings as other libraries have them",
@@ -80,7 +80,7 @@ ROOMS = {
     ),
     "library": Room(
         "collections of recordings, segmented once, with clusters in common, searched by example",
-        "clips features formats labels matching methods recordings segmentation segments",
+        "clips features formats labels matching methods plot recordings segmentation segments",
     ),
     "datasets": Room(
         "recordings with known truth, the bundled one among them; CMU's, fetched",
@@ -98,7 +98,7 @@ ROOMS = {
         "sources of the pages, the built pages, and what they are told",
         "features formats labels recordings segments",
     ),
-    "report": Room("one page of HTML that shows a recording", "features segments web"),
+    "report": Room("one page of HTML that shows a recording", "features recordings segments web"),
     "studio": Room(
         "a local server and its page: recordings looked at, tables corrected and kept",
         "clips datasets evaluation features formats labels methods recordings report segmentation "
@@ -126,14 +126,10 @@ BUNDLING = "kineme.features.bundling"
 
 
 class Imports(ast.NodeVisitor):
-    """Modules of the package that a module imports anywhere, but for its type checker."""
+    """Modules of the package that a module imports anywhere, be it for its type checker only."""
 
     def __init__(self) -> None:
         self.found: set[str] = set()
-
-    def visit_If(self, node: ast.If) -> None:
-        if "TYPE_CHECKING" not in ast.unparse(node.test):
-            self.generic_visit(node)
 
     def visit_Import(self, node: ast.Import) -> None:
         self.found |= {alias.name for alias in node.names if alias.name in MODULES}

@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -161,6 +161,19 @@ words = client.get(f"{opened}/export/words?level=activity").text
 print(json.dumps({"state": state, "done": done, "words": words}))
 """
 
+COMMANDS = """
+import json, sys
+from typer.testing import CliRunner
+from kineme.cli.app import app
+
+done = []
+for arguments in json.load(sys.stdin):
+    ran = CliRunner().invoke(app, arguments)
+    done.append([ran.exit_code, ran.stdout, ran.stderr])
+json.dump(done, sys.stdout)
+"""
+"""Runs commands one after the other in one process: each process takes seconds to start."""
+
 Run = Callable[..., str]
 
 
@@ -185,9 +198,10 @@ def python(package: Path, tmp_path: Path) -> Run:
     """Run Python where that package is installed; what it prints."""
     ours = Path(kineme.__file__).parents[1]
 
-    def run(*arguments: object) -> str:
+    def run(*arguments: object, given: str = "") -> str:
         done = subprocess.run(
             [sys.executable, "-W", "error", *map(str, arguments)],
+            input=given,
             capture_output=True,
             text=True,
             cwd=tmp_path,
@@ -197,6 +211,19 @@ def python(package: Path, tmp_path: Path) -> Run:
         )  # fmt: skip
         assert done.returncode == 0, done.stderr
         return done.stdout
+
+    return run
+
+
+@pytest.fixture
+def kineme_all(python: Run) -> Callable[..., list[str]]:
+    """Run commands of the command line where that package is installed; what each prints."""
+
+    def run(*commands: Sequence[object]) -> list[str]:
+        given = json.dumps([[str(each) for each in command] for command in commands])
+        done = json.loads(python("-c", COMMANDS, given=given))
+        assert [code for code, _, _ in done] == [0] * len(commands), done
+        return [printed for _, printed, _ in done]
 
     return run
 
@@ -214,44 +241,49 @@ def folder(tmp_path: Path) -> Path:
     return place
 
 
-def test_its_method_preset_and_constants_stand_in_the_help(python: Run) -> None:
-    text = python("-m", "kineme", "segment", "--help")
+def test_its_method_preset_and_constants_stand_in_the_help(kineme_all) -> None:
+    text, conversion = kineme_all(["segment", "--help"], ["convert", "--help"])
     assert "halves: Cuts a recording once." in text
     assert "slowly: For slow exercises." in text
     assert "--cut-share" in text
     assert "where the one cut is, 0.1 to 0.9" in text
     assert "PLAIN" in text
     assert ".words" in text
-    assert "words" in python("-m", "kineme", "convert", "--help")
+    assert "words" in conversion
 
 
-def test_its_files_are_read_segmented_and_converted(python: Run, folder: Path) -> None:
-    recording = folder / "a.plain"
-    shown = python("-c", f"import kineme; print(kineme.read({str(recording)!r}))")
-    assert "Signals of 1200 frames (40.0 s) at 30 Hz" in shown
+def test_its_files_are_read_segmented_and_converted(python: Run, kineme_all, folder: Path) -> None:
+    recording, place = folder / "a.plain", folder.parent
     given = ["--preset", "halves", "--cut-share", "0.25", "-o", "a.words"]
-    python("-m", "kineme", "segment", recording, *given)
-    words = Path(folder.parent / "a.words").read_text().splitlines()
-    assert words == ["0.0 10.0 0", "10.0 40.0 1"]
-    python("-m", "kineme", "convert", "a.words", "b.csv", "--fps", "30")
-    python("-m", "kineme", "convert", "b.csv", "b.words", "--fps", "30")
-    assert (folder.parent / "b.words").read_text().splitlines() == words
-    python("-m", "kineme", "convert", recording, "c.csv")
-    python("-m", "kineme", "convert", "c.csv", "c.plain")
-    same = "import kineme; print((kineme.read('c.plain').values == kineme.read({!r}).values).all())"
-    assert python("-c", same.format(str(recording))).strip() == "True"
-    python("-m", "kineme", "segment", folder, "--preset", "slowly", "-o", "{name}.json")
-    made = json.loads((folder.parent / "a.json").read_text())
+    kineme_all(
+        ["segment", recording, *given],
+        ["convert", "a.words", "b.csv", "--fps", "30"],
+        ["convert", "b.csv", "b.words", "--fps", "30"],
+        ["convert", recording, "c.csv"],
+        ["convert", "c.csv", "c.plain"],
+        ["segment", folder, "--preset", "slowly", "-o", "{name}.json"],
+    )
+    for name in ("a.words", "b.words"):
+        assert (place / name).read_text().splitlines() == ["0.0 10.0 0", "10.0 40.0 1"]
+    made = json.loads((place / "a.json").read_text())
     assert made["provenance"]["parameters"]["min_action"] == 3.0
+    code = (
+        f"import kineme; mine, back = kineme.read({str(recording)!r}), kineme.read('c.plain')\n"
+        "print(mine, (mine.values == back.values).all())"
+    )
+    shown = python("-c", code)
+    assert "Signals of 1200 frames (40.0 s) at 30 Hz" in shown
+    assert shown.strip().endswith("True")
 
 
-def test_its_methods_are_scored_by_its_score_on_its_recordings(python: Run, folder: Path) -> None:
-    given = ["evaluate", folder, "--labels", folder.parent / "labels", "--methods", "halves,slowly"]
-    scored = json.loads(python("-m", "kineme", *given, "--json"))
+def test_its_methods_are_scored_by_its_score_on_its_recordings(kineme_all, folder: Path) -> None:
+    given = ["evaluate", folder, "--labels", folder.parent / "labels", "--methods"]
+    told, table = kineme_all([*given, "halves,slowly", "--json"], [*given, "halves"])
+    scored = json.loads(told)
     assert scored["methods"]["halves"]["scores"]["longest"] == 20.0
     assert scored["methods"]["halves"]["scores"]["mof"] == 1.0
     assert "longest" in scored["methods"]["slowly"]["scores"]
-    assert "longest found" in python("-m", "kineme", *given)
+    assert "longest found" in table
 
 
 def test_the_studio_offers_all_of_it(python: Run, folder: Path) -> None:

@@ -131,9 +131,15 @@ def _hold(draft: Path) -> int | None:
     if sys.platform == "win32":
         return None
     held = _opened(draft)
-    with suppress(OSError):  # file systems without locks
-        fcntl.flock(held, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    hold(held)
     return held
+
+
+def hold(file: int) -> None:
+    """Lock an open file as one that is being written, until it is closed; see `is_held`."""
+    if sys.platform != "win32":
+        with suppress(OSError):  # file systems without locks
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
 
 
 def _opened(draft: Path) -> int:
@@ -141,7 +147,8 @@ def _opened(draft: Path) -> int:
     return os.open(draft, how | getattr(os, "O_CLOEXEC", 0), 0o666)
 
 
-def _is_held(draft: Path) -> bool:
+def is_held(draft: Path) -> bool:
+    """Whether a writer still has a draft open."""
     if sys.platform == "win32":
         return False
     file = _opened(draft)
@@ -164,7 +171,7 @@ def _sweep(folder: Path) -> None:
         for draft in drafts:
             with suppress(OSError):
                 old = time.time() - draft.stat().st_mtime > ABANDONED_S
-                if not old or _is_held(draft):
+                if not old or is_held(draft):
                     continue
                 if draft.is_dir():
                     shutil.rmtree(draft)

@@ -29,7 +29,7 @@ class FileError(KinemeError):
     """What is wrong with a file: ``PATH, line N: reason``."""
 
     def __init__(self, path: str | PathLike[str], reason: str, *, line: int | None = None):
-        self.path = fspath(path)
+        self.path = fspath(path) if isinstance(path, str | PathLike) else str(path)  # a URL
         self.reason = reason
         self.line = line
         where = self.path if line is None else f"{self.path}, line {line}"

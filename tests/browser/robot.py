@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import random
 from pathlib import Path
 from typing import Any
@@ -55,10 +54,10 @@ class Robot:
     def step(self) -> str:
         """Do something at random; what it was."""
         what = self.chance.choice(STEPS)
-        before = self.rows()
+        before, revision = self.rows(), self.revision()
         if what in EDITS:
             self.edit(what)
-            self.changed(before, what)
+            self.changed(before, what, revision)
         elif what == "undo":
             self.screen.page.keyboard.press("Control+z")
             self.settled()
@@ -76,7 +75,7 @@ class Robot:
             self.screen.opened()
             self.must_be(before, what)
         elif what == "kill":
-            self.kill(before)
+            self.kill(before, revision)
         elif what == "other tab":
             self.screen = self.tabs[1 - self.tabs.index(self.screen)]
             self.screen.wait(f"k.revision === {self.revision()}")
@@ -127,7 +126,7 @@ class Robot:
         page.get_by_role("button", name=button).click()
         self.screen.wait("k.other === null")
 
-    def kill(self, before: Rows) -> None:
+    def kill(self, before: Rows, revision: int) -> None:
         """End the server without warning, sometimes with an edit on its way."""
         page = self.screen.page
         hasty = self.chance.random() < 0.5
@@ -141,7 +140,7 @@ class Robot:
         self.screen.opened()
         self.screen.wait("k.unsent.length === 0")
         if hasty:
-            self.changed(before, "kill")
+            self.changed(before, "kill", revision)
         else:
             self.must_be(before, "kill")
         other = self.tabs[1 - self.tabs.index(self.screen)]
@@ -163,7 +162,7 @@ class Robot:
         root, token = self.server.address.split("?token=")
         name = file_id(self.take)
         answer = httpx.get(
-            f"{root}api/recordings/{name}{address}", headers={"x-kineme-token": token}, timeout=60
+            f"{root}api/recordings/{name}{address}", headers={"x-kineme-token": token}, timeout=300
         )
         return answer.json()
 
@@ -173,9 +172,9 @@ class Robot:
         self.screen.wait("k.unsent.length === 0")
         self.screen.wait(f"k.revision === {self.revision()}")
 
-    def changed(self, before: Rows, what: str) -> None:
-        """Count what an edit did; nothing, where it was refused."""
-        if self.can_undo() == len(self.past[self.take]):
+    def changed(self, before: Rows, what: str, revision: int) -> None:
+        """Count what an edit of that revision did; nothing, where it was refused."""
+        if self.revision() == revision:
             self.must_be(before, f"refused {what}")
             return
         self.edits += 1
@@ -185,13 +184,6 @@ class Robot:
             self.left[self.take].append(before)
         self.future[self.take].clear()
         self.past[self.take] = [*self.past[self.take], before][-UNDO:]
-
-    def can_undo(self) -> int:
-        """How many steps undo goes back: of the history on the disk."""
-        place = self.take.parent / ".kineme" / f"{self.take.stem}.segments" / "history.json"
-        if not place.exists():
-            return 0
-        return len(json.loads(place.read_text())["history"]["past"])
 
     def must_be(self, rows: Rows, what: str) -> None:
         """RuntimeError where the page shows another table."""

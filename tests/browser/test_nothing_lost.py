@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
 from robot import Robot
 from studio_server import StudioServer
 
@@ -16,13 +15,12 @@ from conftest import DESKTOP, copy_of_bundled
 STEPS = 25
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_a_robot_loses_nothing(chromium, tmp_path: Path, seed: int) -> None:
+def test_a_robot_loses_nothing(chromium, tmp_path: Path) -> None:
     takes = [copy_of_bundled(tmp_path) for _ in range(2)]
     context = chromium.new_context(viewport=DESKTOP)
     context.set_default_timeout(30_000)
     with StudioServer(tmp_path) as server:
-        robot = Robot(context, server, takes, seed)
+        robot = Robot(context, server, takes, seed=1)
         for _ in range(STEPS):
             robot.step()
         robot.finish()

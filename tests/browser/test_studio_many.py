@@ -45,12 +45,11 @@ def test_the_queue_shows_the_least_sure_first_and_a_new_segmentation_leaves_what
     page.keyboard.press("j")
     screen.wait("k.selected")
 
-    def sure(row: dict) -> float:
-        known = [row["score"], row["border_confidence"] if row["start_frame"] else None]
-        return min((each for each in known if each is not None), default=2.0)
-
-    least = min(map(sure, screen.state["segments"]))
-    assert sure(screen.state["selected"]) == least
+    shown = page.locator(".doubts .number:last-child").all_inner_texts()
+    known = [float(text) for text in shown if text != "–"]
+    assert len(known) > 5
+    assert known == sorted(known)
+    assert page.locator(".doubts li").first.locator("[aria-current=true]").count() == 1
     first = screen.state["selected"]
     assert page.locator(".why").inner_text().strip()
     page.keyboard.press("k")

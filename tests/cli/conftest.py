@@ -1,4 +1,4 @@
-"""The command line as a process, as people run it."""
+"""The command line as people run it: in this process, and as one of its own."""
 
 from __future__ import annotations
 
@@ -39,19 +39,20 @@ def kineme_in() -> Kineme:
 
 
 @pytest.fixture
-def kineme(kineme_in: Kineme, tmp_path: Path) -> Kineme:
-    """Run ``kineme ARGUMENTS`` in an empty folder."""
+def kineme_process(kineme_in: Kineme, tmp_path: Path) -> Kineme:
+    """Run ``kineme ARGUMENTS`` in an empty folder, as a process: it takes two seconds to start."""
     return partial(kineme_in, tmp_path)
 
 
 @pytest.fixture
-def kineme_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Kineme:
-    """The same without a process of its own: sooner, for the many ways to be refused."""
+def kineme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Kineme:
+    """Run ``kineme ARGUMENTS`` in an empty folder, sooner: without a process of its own."""
     monkeypatch.chdir(tmp_path)
 
-    def run(*arguments: object) -> subprocess.CompletedProcess[str]:
+    def run(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
         given = [*map(str, arguments)]
-        done = CliRunner(env={"COLUMNS": "120", "NO_COLOR": "1"}).invoke(app, given)
+        runner = CliRunner(env={"COLUMNS": "120", "NO_COLOR": "1", **environment})
+        done = runner.invoke(app, given)
         return subprocess.CompletedProcess(given, done.exit_code, done.stdout, done.stderr)
 
     return run

@@ -50,9 +50,9 @@ def test_end_effectors_can_be_named(kineme) -> None:
     assert json.loads(done.stdout)["end_effectors"]["left_wrist"] == "LeftForeArm"
 
 
-def test_version_and_completion(kineme) -> None:
-    assert kineme("--version").stdout == f"kineme {package.__version__}\n"
-    done = kineme(_KINEME_COMPLETE="complete_bash", COMP_WORDS="kineme se", COMP_CWORD="1")
+def test_version_and_completion(kineme_process) -> None:
+    assert kineme_process("--version").stdout == f"kineme {package.__version__}\n"
+    done = kineme_process(_KINEME_COMPLETE="complete_bash", COMP_WORDS="kineme se", COMP_CWORD="1")
     assert done.stdout.split() == ["segment"]
 
 
@@ -118,13 +118,13 @@ def test_constants_given_one_by_one_make_the_preset(
     assert set(asked) == {known.name for known in preset.constants()}
 
 
-def test_a_value_that_is_none_names_its_option(kineme_here) -> None:
-    done = kineme_here("segment", "x.bvh", "--any-pace", "perhaps")
+def test_a_value_that_is_none_names_its_option(kineme) -> None:
+    done = kineme("segment", "x.bvh", "--any-pace", "perhaps")
     assert done.returncode == 2
     told = " ".join(done.stderr.split())
     assert "--any-pace" in told
     assert "'perhaps' is not yes|no" in told
-    done = kineme_here("segment", "x.bvh", "--radius", "0.3")
+    done = kineme("segment", "x.bvh", "--radius", "0.3")
     assert done.returncode == 2
     assert "kineme has no parameter 'radius'" in " ".join(done.stderr.split())
 

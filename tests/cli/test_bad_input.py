@@ -58,11 +58,13 @@ def test_each_bad_file_is_one_sentence(kineme, tmp_path: Path) -> None:
     assert list((tmp_path / "cuts").iterdir()) == []
 
 
-def test_neither_missing_hands_nor_missing_frames_are_a_failure(kineme, tmp_path: Path) -> None:
+def test_neither_missing_hands_nor_missing_frames_are_a_failure(
+    kineme_process, tmp_path: Path
+) -> None:
     (tmp_path / "no_hands.bvh").write_text(
         HIERARCHY.format(frames=10_000_000, values="0 0 0\n" * 10)
     )
-    done = kineme("segment", "no_hands.bvh", "-o", "cuts.csv")
+    done = kineme_process("segment", "no_hands.bvh", "-o", "cuts.csv")
     assert done.returncode == 0
     assert "10000000 frames declared, 10 found" in done.stderr
     assert "distances between 2 of its 2 points" in " ".join(done.stdout.split())
@@ -119,10 +121,10 @@ def test_a_command_that_makes_no_sense_exits_with_2(kineme, arguments: tuple[str
     assert "Traceback" not in done.stderr
 
 
-def test_warnings_are_short_lines(kineme, tmp_path: Path) -> None:
+def test_warnings_are_short_lines(kineme_process, tmp_path: Path) -> None:
     text = bundled_recording().read_text().replace("Frames: 2898", "Frames: 2900")
     (tmp_path / "short.bvh").write_text(text)
-    done = kineme("segment", "short.bvh", "-q")
+    done = kineme_process("segment", "short.bvh", "-q")
     assert (done.returncode, done.stdout) == (0, "")
     (line,) = done.stderr.splitlines()
     assert line.startswith("warning: short.bvh")

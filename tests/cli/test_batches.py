@@ -35,15 +35,15 @@ def files_under(folder: Path, pattern: str = "*.csv") -> list[str]:
     return sorted(path.relative_to(folder).as_posix() for path in folder.rglob(pattern))
 
 
-def test_one_name_in_two_folders_is_told_apart(kineme_here, tmp_path, takes) -> None:
-    done = kineme_here("segment", "takes", "-r", "-q", *UNIT, "-o", "cuts")
+def test_one_name_in_two_folders_is_told_apart(kineme, tmp_path, takes) -> None:
+    done = kineme("segment", "takes", "-r", "-q", *UNIT, "-o", "cuts")
     assert done.returncode == 0
     assert done.stderr.count("skipped: takes/b/broken.bvh") == 1
     assert files_under(tmp_path / "cuts") == ["a_take.csv", "b_take.csv", "deep_take.csv"]
-    done = kineme_here("segment", "takes", "-r", "-q", *UNIT, "-o", "out/{parent}/{name}.csv")
+    done = kineme("segment", "takes", "-r", "-q", *UNIT, "-o", "out/{parent}/{name}.csv")
     assert done.returncode == 0
     assert files_under(tmp_path / "out") == ["a/take.csv", "b/take.csv", "deep/take.csv"]
-    done = kineme_here("report", "takes", "-r", "-q", *UNIT, "--segments", "cuts", "-o", "pages")
+    done = kineme("report", "takes", "-r", "-q", *UNIT, "--segments", "cuts", "-o", "pages")
     assert (done.returncode, len(files_under(tmp_path / "pages", "*.html"))) == (0, 3)
 
 
@@ -58,36 +58,36 @@ def test_folders_deeper_down_and_their_like_are_told_apart_too() -> None:
     ]
 
 
-def test_what_is_named_and_fails_is_an_error_what_is_found_is_skipped(kineme_here, takes) -> None:
-    done = kineme_here("info", "takes/b", *UNIT, "--json")
+def test_what_is_named_and_fails_is_an_error_what_is_found_is_skipped(kineme, takes) -> None:
+    done = kineme("info", "takes/b", *UNIT, "--json")
     assert (done.returncode, len(done.stdout.splitlines())) == (0, 1)
     assert [line.split(":")[0] for line in done.stderr.splitlines()] == ["skipped", "skipped"]
     assert "takes/b: --recursive looks into its folders (deep)" in done.stderr
-    done = kineme_here("info", "takes/b/broken.bvh", "takes/a", *UNIT, "--json")
+    done = kineme("info", "takes/b/broken.bvh", "takes/a", *UNIT, "--json")
     assert (done.returncode, len(done.stdout.splitlines())) == (1, 1)
     assert done.stderr.startswith("error: takes/b/broken.bvh")
     (takes / "b" / "take.bvh").unlink()
-    done = kineme_here("info", "takes/b", "takes/a", *UNIT, "--json")
+    done = kineme("info", "takes/b", "takes/a", *UNIT, "--json")
     assert done.returncode == 1  # the folder was named, and nothing came of it
-    done = kineme_here("info", "takes")
+    done = kineme("info", "takes")
     assert done.returncode == 1
     assert "there is no recording in this folder; --recursive looks into its folders (a, b)" in (
         done.stderr
     )
 
 
-def test_a_numbered_json_makes_no_video_of_a_folder(kineme_here, tmp_path, takes) -> None:
+def test_a_numbered_json_makes_no_video_of_a_folder(kineme, tmp_path, takes) -> None:
     (takes / "a" / "notes_1.json").write_text('{"subject": 1}')
-    done = kineme_here("info", "takes/a", *UNIT, "--json")
+    done = kineme("info", "takes/a", *UNIT, "--json")
     assert (done.returncode, json.loads(done.stdout)["frames"]) == (0, 40)
     frame = {"people": [{"pose_keypoints_2d": [1.0] * 75}]}
     (takes / "a" / "video_1_keypoints.json").write_text(json.dumps(frame))
-    done = kineme_here("info", "takes/a", *UNIT, "--json")
+    done = kineme("info", "takes/a", *UNIT, "--json")
     assert (done.returncode, json.loads(done.stdout)["frames"]) == (0, 40)
     assert "1 frames of OpenPose beside other recordings" in done.stderr
 
 
-def test_every_command_takes_folders(kineme_here, tmp_path: Path) -> None:
+def test_every_command_takes_folders(kineme, tmp_path: Path) -> None:
     motion = cut(package.read(bundled_recording(), unit="cm"), 0, 900)
     truth = package.Segmentation.from_columns(
         {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [900],
@@ -107,7 +107,7 @@ def test_every_command_takes_folders(kineme_here, tmp_path: Path) -> None:
         ("graph", *given, "--threshold", 0.3, "-o", "graph.json"),
         ("convert", "takes", "-r", *UNIT, "trc/{parent}.trc"),
     ):
-        done = kineme_here(*arguments)
+        done = kineme(*arguments)
         assert done.returncode == 0, done.stderr
         assert "skipped: takes/broken.bvh: the file is empty" in done.stderr
     assert {path.name for path in (tmp_path / "clips").iterdir()} == {"a_take", "b_take"}
@@ -116,13 +116,13 @@ def test_every_command_takes_folders(kineme_here, tmp_path: Path) -> None:
     assert len(json.loads((tmp_path / "graph.json").read_text())["sources"]) == 2
 
 
-def test_commands_for_motions_refuse_signals(kineme_here, tmp_path: Path) -> None:
+def test_commands_for_motions_refuse_signals(kineme, tmp_path: Path) -> None:
     rows = np.column_stack([np.arange(90) / 30, *np.random.default_rng(0).normal(size=(3, 90))])
     np.savetxt(
         tmp_path / "imu.csv", rows, "%.3f", ",", header="time,acc_x,acc_y,acc_z", comments=""
     )
     shutil.copy(bundled_recording(), tmp_path / "take.bvh")
-    done = kineme_here("graph", "imu.csv", "-o", "graph.json")
+    done = kineme("graph", "imu.csv", "-o", "graph.json")
     assert done.returncode == 1
     assert done.stderr == (
         "error: imu.csv: holds signals without a skeleton, where a motion is needed\n"

@@ -128,11 +128,11 @@ def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
     ],
 )
 def test_annotations_that_overlap_run_backwards_or_pass_the_end(
-    kineme_here, table, seconds, tmp_path, rows, message
+    kineme, table, seconds, tmp_path, rows, message
 ):
     text = rows.replace("LAST", str(seconds))
     (tmp_path / "labels.csv").write_text(f"start_s,stop_s,label\n{text}\n")
-    ran = kineme_here("evaluate", table, "--against", "labels.csv", "-o", "out.csv")
+    ran = kineme("evaluate", table, "--against", "labels.csv", "-o", "out.csv")
     assert ran.returncode == 1
     assert ran.stderr.startswith("error: ")
     assert ran.stderr.count("\n") == 1
@@ -154,9 +154,9 @@ def test_annotations_that_overlap_run_backwards_or_pass_the_end(
         (("labels.txt", "--against", "labels.csv"), 1, "give fps (--fps)"),
     ],
 )
-def test_a_call_that_cannot_work_is_one_sentence(kineme_here, tmp_path, arguments, code, message):
+def test_a_call_that_cannot_work_is_one_sentence(kineme, tmp_path, arguments, code, message):
     (tmp_path / "labels.txt").write_text("walk\n")
-    ran = kineme_here("evaluate", *arguments)
+    ran = kineme("evaluate", *arguments)
     assert ran.returncode == code
     assert message in " ".join(ran.stderr.split())
     assert "Traceback" not in ran.stderr

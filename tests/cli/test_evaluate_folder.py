@@ -57,9 +57,9 @@ def test_json_goes_to_standard_output_alone(kineme, corpus) -> None:
         (("--labels", "nowhere.csv"), "cannot be read"),
     ],
 )
-def test_a_call_that_cannot_work_is_one_sentence(kineme_here, corpus, arguments, message) -> None:
+def test_a_call_that_cannot_work_is_one_sentence(kineme, corpus, arguments, message) -> None:
     given = [corpus / a if str(a) == "labels.csv" else a for a in arguments]
-    ran = kineme_here("evaluate", corpus, *given)
+    ran = kineme("evaluate", corpus, *given)
     assert ran.returncode != 0
     assert message in " ".join(ran.stderr.split())
     assert "Traceback" not in ran.stderr

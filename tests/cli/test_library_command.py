@@ -16,11 +16,11 @@ Kineme = Callable[..., object]
 
 
 @pytest.fixture
-def home(tmp_path: Path, kineme_here) -> Path:
+def home(tmp_path: Path, kineme) -> Path:
     (tmp_path / "takes").mkdir()
     shutil.copy(bundled_recording(), tmp_path / "takes" / "take.bvh")
     (tmp_path / "takes" / "broken.bvh").write_text("HIERARCHY\n")
-    built = kineme_here("library", "build", "takes", "--into", "lib", "--jobs", 1)
+    built = kineme("library", "build", "takes", "--into", "lib", "--jobs", 1)
     assert built.returncode == 0, built.stderr
     assert built.stdout == "1 recording in lib, 1 new, 1 failed\n"
     assert built.stderr.startswith("skipped: ")
@@ -28,42 +28,42 @@ def home(tmp_path: Path, kineme_here) -> Path:
     return tmp_path
 
 
-def test_from_a_folder_to_all_the_walks_in_it(home: Path, kineme_here) -> None:
+def test_from_a_folder_to_all_the_walks_in_it(home: Path, kineme) -> None:
     example = ("--like", "takes/take.bvh", "--start", 0.5, "--stop", 1.6)
-    found = kineme_here("library", "search", "lib", *example, "--top", 5, "--json")
+    found = kineme("library", "search", "lib", *example, "--top", 5, "--json")
     hits = [json.loads(line) for line in found.stdout.splitlines()]
     assert len(hits) == 5
     assert list(hits[0]) == ["recording", "start_s", "stop_s", "distance", "cluster", "label"]
     (cluster,) = {hit["cluster"] for hit in hits}
-    assert kineme_here("library", "name", "lib", cluster, "walk").returncode == 0
-    named = kineme_here("library", "search", "lib", "--cluster", "walk", "--export", "clips")
+    assert kineme("library", "name", "lib", cluster, "walk").returncode == 0
+    named = kineme("library", "search", "lib", "--cluster", "walk", "--export", "clips")
     assert "walk" in named.stdout
     assert "clips in clips" in named.stdout
     assert (home / "clips" / "manifest.csv").is_file()
-    asked = kineme_here(
+    asked = kineme(
         "library", "query", "lib", "--json",
         "select count(*) n from segments where label = 'walk' and level = 'primitive'",
     )  # fmt: skip
     assert json.loads(asked.stdout)["n"] >= 5
-    assert kineme_here("library", "export", "lib", "--to", "table.csv").returncode == 0
+    assert kineme("library", "export", "lib", "--to", "table.csv").returncode == 0
     with (home / "table.csv").open(newline="") as file:
         assert {row["recording"] for row in csv.DictReader(file)} == {"take.bvh"}
-    shown = kineme_here("library", "show", "lib")
+    shown = kineme("library", "show", "lib")
     assert "1 recording, 0.01 h" in shown.stdout
     assert "walk" in shown.stdout
     assert "failed: " in shown.stdout
-    facts = json.loads(kineme_here("library", "show", "lib", "--json").stdout)
+    facts = json.loads(kineme("library", "show", "lib", "--json").stdout)
     assert "walk" in [each["label"] for each in facts["clusters"]]
 
 
-def test_clusters_are_merged_and_split(home: Path, kineme_here) -> None:
+def test_clusters_are_merged_and_split(home: Path, kineme) -> None:
     shutil.copy(home / "takes" / "take.bvh", home / "takes" / "again.bvh")
-    kineme_here("library", "build", "--into", "lib", "--jobs", 1)
-    kineme_here("library", "merge", "lib", 0, 1)
-    facts = json.loads(kineme_here("library", "show", "lib", "--json").stdout)
+    kineme("library", "build", "--into", "lib", "--jobs", 1)
+    kineme("library", "merge", "lib", 0, 1)
+    facts = json.loads(kineme("library", "show", "lib", "--json").stdout)
     assert 1 not in [each["cluster"] for each in facts["clusters"]]
-    new = int(kineme_here("library", "split", "lib", 0, "again.bvh").stdout)
-    facts = json.loads(kineme_here("library", "show", "lib", "--json").stdout)
+    new = int(kineme("library", "split", "lib", 0, "again.bvh").stdout)
+    facts = json.loads(kineme("library", "show", "lib", "--json").stdout)
     assert new in [each["cluster"] for each in facts["clusters"]]
 
 
@@ -89,9 +89,9 @@ def test_clusters_are_merged_and_split(home: Path, kineme_here) -> None:
     ],
 )  # fmt: skip
 def test_what_makes_no_sense_is_one_sentence(
-    home: Path, kineme_here, arguments: tuple[str, ...], code: int, said: str
+    home: Path, kineme, arguments: tuple[str, ...], code: int, said: str
 ) -> None:
-    done = kineme_here("library", *arguments)
+    done = kineme("library", *arguments)
     assert done.returncode == code, done.stdout + done.stderr
     assert said in " ".join(done.stderr.replace("│", " ").split())
     assert "Traceback" not in done.stderr

@@ -170,12 +170,14 @@ def test_a_name_in_braces_is_replaced(kineme, tmp_path: Path, recording: Path) -
     }
 
 
-def test_an_undecodable_name_is_no_obstacle(kineme, tmp_path: Path, recording: Path) -> None:
+def test_an_undecodable_name_is_no_obstacle(
+    kineme_process, tmp_path: Path, recording: Path
+) -> None:
     try:
         odd = Path(shutil.copy(recording, tmp_path / "caf\udce9 [bold].bvh"))
     except OSError:
         pytest.skip("this file system takes no such name")
-    done = kineme("segment", odd, "-o", "cuts.json")
+    done = kineme_process("segment", odd, "-o", "cuts.json")
     assert (done.returncode, done.stderr) == (0, "")
     assert "[bold].bvh" in done.stdout
     assert package.read_segments(tmp_path / "cuts.json").provenance["input"]["path"] == str(odd)

@@ -158,21 +158,21 @@ def test_clips_of_signals_are_rows_of_their_file(kineme, tmp_path: Path, imu: Pa
     assert "signals have no pose to blend" in done.stderr
 
 
-def test_signals_are_converted_as_they_are(kineme_here, tmp_path: Path, imu: Path) -> None:
-    done = kineme_here("convert", imu, "out.csv")
+def test_signals_are_converted_as_they_are(kineme, tmp_path: Path, imu: Path) -> None:
+    done = kineme("convert", imu, "out.csv")
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     assert (tmp_path / "out.csv").read_bytes() == imu.read_bytes()
-    done = kineme_here("convert", imu, "out.tsv", "--columns", "acc_z,acc_x")
+    done = kineme("convert", imu, "out.tsv", "--columns", "acc_z,acc_x")
     assert (done.returncode, done.stderr) == (0, "")
     lines = [line.split("\t") for line in (tmp_path / "out.tsv").read_text().splitlines()]
     before = [line.split(",") for line in imu.read_text().splitlines()[1:]]
     assert lines == [[row[1], row[4], row[2]] for row in before]
-    done = kineme_here("convert", imu, "out.bvh")
+    done = kineme("convert", imu, "out.bvh")
     assert done.returncode == 1
     assert "no writer of signals for the suffix '.bvh': use one of .csv" in done.stderr
 
 
-def test_channels_of_other_files_become_tables(kineme_here, tmp_path: Path, imu: Path) -> None:
+def test_channels_of_other_files_become_tables(kineme, tmp_path: Path, imu: Path) -> None:
     table = pd.read_csv(imu, comment="#")
     table.to_parquet(tmp_path / "imu.parquet")
     header = f"imu\nnRows={len(table)}\nnColumns=3\nendheader\n"
@@ -181,12 +181,12 @@ def test_channels_of_other_files_become_tables(kineme_here, tmp_path: Path, imu:
     (tmp_path / "mine.txt").write_text("0\t2\twave\n")
     for suffix in (".parquet", ".mot"):
         name = f"clips{suffix}"
-        done = kineme_here("split", f"imu{suffix}", "--segments", "mine.txt", "-q", "-o", name)
+        done = kineme("split", f"imu{suffix}", "--segments", "mine.txt", "-q", "-o", name)
         assert (done.returncode, done.stderr) == (0, "")
     clip = pd.read_parquet(tmp_path / "clips.parquet" / "imu_0000_wave.parquet")
     pd.testing.assert_frame_equal(clip, table.iloc[:100])
     clip = (tmp_path / "clips.mot" / "imu_0000_wave.mot").read_text()
     assert clip == header.replace("=1000", "=100") + "".join(motion.splitlines(True)[:101])
-    done = kineme_here("convert", "imu.mot", "mot.csv")
+    done = kineme("convert", "imu.mot", "mot.csv")
     assert (done.returncode, done.stderr) == (0, "")
     assert (tmp_path / "mot.csv").read_text() == motion.replace("\t", ",")

@@ -77,22 +77,22 @@ def test_a_random_walk_and_a_picture(kineme, graph: Path, tmp_path: Path) -> Non
     ],
 )
 def test_what_cannot_be_played_is_one_clear_error(
-    kineme_here, graph: Path, tmp_path: Path, arguments: list[str], message: str
+    kineme, graph: Path, tmp_path: Path, arguments: list[str], message: str
 ) -> None:
-    done = kineme_here("synthesize", "graph.json", *arguments, "-o", "new.bvh")
+    done = kineme("synthesize", "graph.json", *arguments, "-o", "new.bvh")
     assert done.returncode in (1, 2)
     assert message in " ".join(done.stderr.replace("│", " ").split())
     assert not (tmp_path / "new.bvh").exists()
 
 
 def test_graphs_that_cannot_be_used_are_one_clear_error(
-    kineme_here, graph: Path, tmp_path: Path
+    kineme, graph: Path, tmp_path: Path
 ) -> None:
     whole = json.loads(graph.read_text())
 
     def refused(text: str) -> str:
         (tmp_path / "bad.json").write_text(text)
-        done = kineme_here("synthesize", "bad.json", "--actions", "walk", "-o", "new.bvh")
+        done = kineme("synthesize", "bad.json", "--actions", "walk", "-o", "new.bvh")
         assert done.returncode == 1
         assert len(done.stderr.splitlines()) == 1
         assert "bad.json" in done.stderr

@@ -66,7 +66,7 @@ def test_turning_moving_and_scaling_do_the_same_to_the_result(seed, shift, facto
 
 
 @given(features(max_frames=60))
-@settings(max_examples=200)
+@settings(max_examples=60)
 def test_any_features_stay_among_their_neighbours(points: np.ndarray) -> None:
     bundled = bundle(points)
     assert bundled.shape == points.shape

@@ -23,7 +23,7 @@ SHAPE = pdist(distance_features(WALK)[0])
     st.tuples(*[st.floats(-50, 50)] * 3),
     st.floats(0.1, 10),
 )
-@settings(max_examples=25)
+@settings(max_examples=10)
 def test_moving_turning_and_scaling_change_nothing(quaternion, offset, scale) -> None:
     turned = WALK @ Rotation.from_quat(quaternion).as_matrix()
     features, _ = distance_features(scale * turned + offset)
@@ -84,9 +84,9 @@ def test_a_single_point_is_refused() -> None:
 
 
 def test_very_many_points_cost_no_more_than_many() -> None:
-    """Twenty thousand bones of a damaged file: all pairs of them would be gigabytes."""
+    """Eight thousand bones of a damaged file: all pairs of them would be a gigabyte."""
     rng = np.random.default_rng(0)
-    swing = np.sin(np.linspace(0, 20, 90))[:, None, None] * rng.normal(size=(20_000, 3))
-    features, points = distance_features(rng.normal(size=(20_000, 3)) + swing)
+    swing = np.sin(np.linspace(0, 20, 90))[:, None, None] * rng.normal(size=(8_000, 3))
+    features, points = distance_features(rng.normal(size=(8_000, 3)) + swing)
     assert features.shape == (90, 15)
     assert 2 <= len(points) <= 16

@@ -240,14 +240,14 @@ def survives(path: Path) -> None:
             assert motion.n_frames > 0
 
 
-@settings(max_examples=300)
+@settings(max_examples=60)
 @given(st.one_of(st.binary(), spoilt(BVH)))
 def test_no_bvh_raises_anything_else(data: bytes) -> None:
     with tempfile.TemporaryDirectory() as folder:
         survives(bvh(Path(folder), data))
 
 
-@settings(max_examples=300)
+@settings(max_examples=60)
 @given(
     st.one_of(
         st.tuples(spoilt(AMC), st.just(ASF.encode())),

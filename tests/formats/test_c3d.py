@@ -209,7 +209,7 @@ def test_memory_follows_the_file_and_not_what_it_declares() -> None:
     assert peak < 20 * len(data)
 
 
-@settings(max_examples=400)
+@settings(max_examples=60)
 @given(st.data())
 def test_no_c3d_raises_anything_else(data: st.DataObject) -> None:
     spoilt = bytearray(c3d_bytes(POINTS[:5, :8], PLUG_IN_GAIT[:8]))

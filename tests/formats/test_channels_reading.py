@@ -316,7 +316,7 @@ def test_a_body_in_a_mat_file_is_told_from_sensors(tmp_path) -> None:
 
 
 @given(st.binary(max_size=200), st.sampled_from([".csv", ".txt", ".mot", ".parquet", ".c3d"]))
-@settings(max_examples=200)
+@settings(max_examples=60)
 def test_anything_else_is_one_clear_error(tmp_path_factory, data, suffix) -> None:
     path = tmp_path_factory.getbasetemp() / f"fuzz{suffix}"
     path.write_bytes(data)
@@ -328,7 +328,7 @@ def test_anything_else_is_one_clear_error(tmp_path_factory, data, suffix) -> Non
 
 
 @given(st.text(alphabet="ab,;\t\n 0123456789.-#\"'xyz", max_size=60))
-@settings(max_examples=200)
+@settings(max_examples=60)
 def test_odd_tables_are_read_or_refused(tmp_path_factory, text) -> None:
     path = tmp_path_factory.getbasetemp() / "odd.csv"
     path.write_text("endheader\n" * ("#" in text) + text, encoding="utf-8")

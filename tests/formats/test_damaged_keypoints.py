@@ -65,7 +65,7 @@ TEXTS = {
 }
 
 
-@settings(max_examples=300)
+@settings(max_examples=60)
 @given(st.data())
 def test_bytes_of_text(data: st.DataObject) -> None:
     name = data.draw(st.sampled_from(sorted(TEXTS)))
@@ -91,7 +91,7 @@ def places(value: object, path: tuple = ()) -> list[tuple]:
     return [path, *(p for key in keys for p in places(value[key], (*path, key)))]
 
 
-@settings(max_examples=300)
+@settings(max_examples=60)
 @given(st.data())
 def test_json_of_other_types(data: st.DataObject) -> None:
     name = data.draw(st.sampled_from([name for name in sorted(TEXTS) if name.endswith("json")]))
@@ -117,7 +117,7 @@ MATS = {
 }
 
 
-@settings(max_examples=500)
+@settings(max_examples=60)
 @given(st.data())
 def test_mat_files(data: st.DataObject) -> None:
     sound = bytearray(MATS[data.draw(st.sampled_from(sorted(MATS)))])
@@ -138,7 +138,7 @@ def hdf5(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
     }
 
 
-@settings(max_examples=300)
+@settings(max_examples=60)
 @given(data=st.data())
 def test_hdf5_files(hdf5: dict[str, bytes], data: st.DataObject) -> None:
     name = data.draw(st.sampled_from(sorted(hdf5)))

@@ -193,7 +193,7 @@ def same(ours: object, theirs: object) -> bool:
     return ours.dtype.kind == theirs.dtype.kind and np.array_equal(ours, theirs)
 
 
-@settings(max_examples=150)
+@settings(max_examples=60)
 @given(
     st.dictionaries(
         st.text("abc", min_size=1, max_size=5),

@@ -7,6 +7,7 @@ import itertools
 import resource
 import subprocess
 import sys
+import tracemalloc
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -14,6 +15,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import kineme
+from kineme.recordings import Motion
+
+FRAMES = 40_000
 MOST = 4 << 30
 """Bytes of address space for all of Python; reading each of these files once took more."""
 
@@ -44,7 +49,7 @@ def archive_of_zeros(path: Path) -> None:
     np.lib.format.write_array_header_1_0(
         head, {"descr": "<f4", "fortran_order": False, "shape": (3_000_000, 75)}
     )
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         text = io.BytesIO()
         np.save(text, np.array('{"schema": "kineme.knowledge/1"}'))
         archive.writestr("head.npy", text.getvalue())
@@ -75,6 +80,48 @@ def landmarks_row_by_row(path: Path) -> None:
     with path.open("w") as file:
         file.write("frame,landmark,x,y\n")
         file.writelines(f"{i},0,1,1\n" for i in range(400_000))
+
+
+def long_bvh(folder: Path) -> Path:
+    channels = "CHANNELS 3 Zrotation Yrotation Xrotation"
+    path = folder / "long.bvh"
+    path.write_text(
+        "HIERARCHY\nROOT r { OFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition "
+        f"Zrotation Yrotation Xrotation\nJOINT a {{ OFFSET 0 60 0\n{channels}\n"
+        f"JOINT b {{ OFFSET 0 60 0\n{channels}\nEnd Site {{ OFFSET 0 60 0 }} }} }} }}\nMOTION\n"
+        f"Frames: {FRAMES}\nFrame Time: 0.01\n" + "1 90 3 4 5 6 7 8 9 10 11 12\n" * FRAMES
+    )
+    return path
+
+
+def long_amc(folder: Path) -> Path:
+    (folder / "long.asf").write_text(
+        ":units\nlength 1\nangle deg\n:root\norder TX TY TZ RX RY RZ\naxis XYZ\n"
+        "position 0 0 0\norientation 0 0 0\n:bonedata\n"
+        "begin\nname a\ndirection 0 1 0\nlength 30\naxis 0 0 0 XYZ\ndof rx ry rz\nend\n"
+        "begin\nname b\ndirection 0 1 0\nlength 30\naxis 0 0 0 XYZ\ndof rx ry rz\nend\n"
+        ":hierarchy\nbegin\nroot a\na b\nend\n"
+    )
+    path = folder / "long.amc"
+    frames = (f"{i}\nroot 1 2 3 4 5 6\na 7 8 9\nb 1 2 3\n" for i in range(1, FRAMES + 1))
+    path.write_text(":FULLY-SPECIFIED\n:DEGREES\n" + "".join(frames))
+    return path
+
+
+@pytest.mark.parametrize("make", [long_bvh, long_amc])
+def test_long_recordings_hold_little_more_than_themselves(
+    tmp_path: Path, make: Callable[[Path], Path]
+) -> None:
+    path = make(tmp_path)
+    kineme.read(path)  # which imports
+    tracemalloc.start()
+    motion = kineme.read(path)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert isinstance(motion, Motion)
+    assert motion.rotations is not None
+    assert motion.n_frames == FRAMES
+    assert peak < 1.8 * (motion.positions.nbytes + motion.rotations.nbytes)
 
 
 RECORDING, KNOWLEDGE = "kineme.read(path, fps=30)", "kineme.KnowledgeBase.load(path)"

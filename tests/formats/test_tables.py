@@ -375,7 +375,7 @@ SOUND = {
 }
 
 
-@settings(max_examples=500)
+@settings(max_examples=60)
 @given(st.data())
 def test_nothing_raises_anything_else(data: st.DataObject) -> None:
     name = data.draw(st.sampled_from(sorted(SOUND)))
@@ -389,7 +389,7 @@ def test_nothing_raises_anything_else(data: st.DataObject) -> None:
             assert "\n" not in str(error)
 
 
-@settings(max_examples=100)
+@settings(max_examples=60)
 @given(st.data())
 def test_damaged_parquet(data: st.DataObject) -> None:
     pa = pytest.importorskip("pyarrow")

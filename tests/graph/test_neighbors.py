@@ -17,7 +17,7 @@ from kineme.errors import ParameterError
 from kineme.graph import NeighborGraph, neighbor_graph
 
 pytestmark = pytest.mark.filterwarnings("error")
-seconds = settings(max_examples=80)
+seconds = settings(max_examples=60)
 SHARES = st.sampled_from([0.0, 0.2, 0.5, 0.9, 1.0, 2.0])
 COUNTS = st.none() | st.integers(1, 12)
 

@@ -14,7 +14,7 @@ from graphs import as_graph, as_lists, as_pairs, sparse_graphs
 from kineme.errors import ParameterError
 from kineme.graph import BASIC_STEPS, component_labels, neighbor_graph, warping_paths
 
-seconds = settings(max_examples=80)
+seconds = settings(max_examples=60)
 STEPS = st.sampled_from(
     [
         BASIC_STEPS,

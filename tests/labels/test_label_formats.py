@@ -471,7 +471,7 @@ def test_a_document_type_is_refused_before_it_can_grow(tmp_path) -> None:
 
 
 @pytest.mark.parametrize("name", LABEL_FORMATS)
-@settings(max_examples=80)
+@settings(max_examples=60)
 @given(data=st.data())
 def test_a_damaged_file_is_read_or_refused(folder, name, data) -> None:
     path = place(folder, name, "damaged")

@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Generator
 from pathlib import Path
 
 import pytest
@@ -17,6 +16,7 @@ import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Library, Settings, build
 from kineme.library import work as work_module
+from kineme.library.executors.processes import Processes
 from library_folders import contents
 
 
@@ -120,24 +120,15 @@ def test_the_number_of_processes_changes_no_byte(built: Path, takes: Path, tmp_p
     assert contents(tmp_path / "library") == contents(built)
 
 
-def test_few_small_files_are_left_to_one_process(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    started = []
-
-    def pool(waiting: list[object], jobs: int) -> Generator[None, None, list[object]]:
-        waiting.clear()
-        started.append(jobs)
-        yield from ()
-        return []
-
-    monkeypatch.setattr(work_module, "_in_a_pool", pool)
-    for size in (10, work_module.PER_WORKER):
-        for name in "abcdefgh":
-            (tmp_path / name).write_bytes(b" " * size)
-        tasks = [work_module.Task(tmp_path / name, tmp_path, Settings()) for name in "abcdefgh"]
-        list(work_module.outcomes_of(tasks, 4))
-    assert started == [1, 4]
+def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:
+    paths = [tmp_path / name for name in "abcdefgh"]
+    for size, jobs in ((10, 1), (work_module.PER_WORKER, 4)):
+        for path in paths:
+            path.write_bytes(b" " * size)
+        paths[5].write_bytes(b" " * (size + 1))
+        tasks = work_module.tasks_for(paths, tmp_path, Settings())
+        assert tasks[0].path == paths[5]  # the largest is worked on first
+        assert work_module.executor_for(tasks, 4) == Processes(jobs)
 
 
 def test_a_build_that_was_killed_goes_on_to_the_same_bytes(

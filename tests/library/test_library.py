@@ -11,6 +11,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from matplotlib.image import imread
 from pyarrow import parquet
 
 import kineme
@@ -26,7 +27,7 @@ from kineme.segments.table import COLUMNS
 def test_columns_are_those_described(library: Library) -> None:
     for name, columns in DESCRIBED.items():
         assert sorted(library.table(name).column_names) == sorted(columns)
-    pieces = {path.stem for path in (library.folder / "pieces").iterdir()}
+    pieces = {path.name.split(".")[0] for path in (library.folder / "pieces").iterdir()}
     assert pieces == set(library.recordings["piece"])
 
 
@@ -240,6 +241,17 @@ def test_columns_of_the_docs_are_those_of_the_tables() -> None:
         for column, known in columns.items():
             if (name, column) != ("embeddings", "embedding") and column not in COLUMNS:
                 assert f"| `{column}` | {types[known.type]} | {known.meaning} |" in text
+
+
+def test_each_cluster_has_a_picture(library: Library, tmp_path: Path) -> None:
+    library.name(0, "walk / run")
+    written = library.pictures(tmp_path / "pictures")
+    numbers = sorted(each.cluster for each in library.clusters())
+    names = {path.name for path in written}
+    assert names == {"clusters.png", "cluster-0-walk-run.png"} | {
+        f"cluster-{number}.png" for number in numbers[1:]
+    }
+    assert imread(written[0]).shape[0] > imread(written[1]).shape[0]
 
 
 def test_words_are_joined_as_far_as_a_search_reaches() -> None:

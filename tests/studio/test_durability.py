@@ -6,6 +6,7 @@ import json
 import os
 import signal
 import socket
+import sys
 import threading
 import time
 from pathlib import Path
@@ -22,7 +23,7 @@ from kineme.segments.history import LONGEST, History
 from kineme.studio import server
 from kineme.studio.folder import Folder
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.uploads import FORGOTTEN, forget_drafts
+from kineme.studio.uploads import FORGOTTEN, Upload, forget_drafts
 
 
 def test_a_killed_server_loses_nothing_it_acknowledged(start, folder: Path) -> None:
@@ -231,6 +232,17 @@ def test_what_a_killed_server_left_of_uploads_goes(tmp_path: Path) -> None:
         os.utime(path, (time.time() - 2 * FORGOTTEN,) * 2)
     forget_drafts(tmp_path)
     assert sorted(tmp_path.iterdir()) == [new, other]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="open files cannot be removed there")
+def test_an_upload_that_pauses_for_hours_is_not_swept_by_another_server(tmp_path: Path) -> None:
+    with Upload(tmp_path, "take.bvh") as upload:
+        upload.write(b"HIERARCHY")
+        (draft,) = tmp_path.iterdir()
+        os.utime(draft, (time.time() - 2 * FORGOTTEN,) * 2)
+        forget_drafts(tmp_path)
+        assert draft.exists()
+        assert upload.finish().read_bytes() == b"HIERARCHY"
 
 
 @given(st.lists(st.integers(0, 9) | st.sampled_from(["undo", "redo"]), max_size=150))

@@ -265,7 +265,7 @@ JSON = st.recursive(
 KINDS = st.sampled_from(["split", "merge", "segment", "transfer", "name_cluster", "undo", "x"])
 
 
-@settings(max_examples=300)
+@settings(max_examples=60)
 @given(st.fixed_dictionaries({"kind": KINDS | JSON, "level": JSON, "frame": JSON}) | JSON, JSON)
 def test_any_value_is_a_message_or_a_sentence(edit: object, revision: object) -> None:
     value = {"revision": revision, "edit": edit}

@@ -112,7 +112,7 @@ def test_a_missing_file_says_so(tmp_path: Path) -> None:
         KnowledgeBase.load(tmp_path / "gone.npz")
 
 
-@settings(max_examples=80)
+@settings(max_examples=60)
 @given(st.data())
 def test_any_damage_is_an_error_of_ours_or_harmless(tmp_path_factory, data: st.DataObject) -> None:
     content = bytearray(stored(HEAD))

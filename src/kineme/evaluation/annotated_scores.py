@@ -1,33 +1,93 @@
-"""Every score of one result against one truth, in one call (as ``mir_eval`` does).
+"""Scores of one result against what annotators say, uncertain borders and all: one object each.
 
 Scores of labels read ``clusters``; scores of borders, and the published
 strict and tolerant accuracies, read ``activities``; repetitions and variances
 read ``primitives``. Where a method has only one level, all three are the same.
+
+They stand beside the scores of `kineme.evaluation.score`, which compare plain labels frame
+by frame: an `Annotation` has several annotators and borders that are not sure.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme.evaluation.borders import border_ratio, border_score, covering, cut_ratio
-from kineme.evaluation.counts import count_errors
-from kineme.evaluation.frames import (
-    cluster_ratio,
-    mutual_information,
-    one_to_one_accuracy,
-    rand_index,
-)
+from kineme.evaluation.borders import border_ratio, covering, cut_ratio
+from kineme.evaluation.frames import cluster_ratio, mutual_information, rand_index
+from kineme.evaluation.judged import Judged, Pair
 from kineme.evaluation.labelling import TRANSITION, Annotation, Labelling
-from kineme.evaluation.paper import majority_accuracy, strict_and_tolerant
-from kineme.evaluation.variance import (
-    feature_variance,
-    length_variance,
-    overall,
-    point_cloud_variance,
-)
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
+
+
+@dataclass(frozen=True)
+class AnnotatedScore:
+    """One way of judging a result by an annotation.
+
+    Parameters
+    ----------
+    name : str
+        In JSON and CSV.
+    title : str
+        In tables.
+    group : str
+        Under which tables show it.
+    function : callable
+        From a `Judged` to a number, or to None where the truth does not tell.
+    """
+
+    name: str
+    title: str
+    group: str
+    function: Callable[[Judged], float | None]
+
+
+def _of(pair: Pair | None, which: int) -> float | None:
+    return None if pair is None else pair[which]
+
+
+PUBLISHED, FAIR, RATIOS = "published protocols", "fair", "found / true"
+REPETITIONS, WITHIN = "repetitions", "within clusters"
+
+SCORES = (
+    AnnotatedScore("strict", "strict", PUBLISHED, lambda j: j.published[0]),
+    AnnotatedScore("tolerant", "tolerant", PUBLISHED, lambda j: j.published[1]),
+    AnnotatedScore("majority", "majority", PUBLISHED, lambda j: j.majority[0]),
+    AnnotatedScore("majority_agreed", "majority, agreed", PUBLISHED, lambda j: j.majority[1]),
+    AnnotatedScore("one_to_one", "one to one", FAIR, lambda j: j.one_to_one[0]),
+    AnnotatedScore("one_to_one_agreed", "one to one, agreed", FAIR, lambda j: j.one_to_one[1]),
+    AnnotatedScore(
+        "rand_index", "adjusted Rand", FAIR, lambda j: rand_index(j.truth, j.clusters)
+    ),
+    AnnotatedScore(
+        "mutual_information", "mutual information", FAIR,
+        lambda j: mutual_information(j.truth, j.clusters),
+    ),
+    AnnotatedScore("border_precision", "border precision", FAIR, lambda j: j.borders.precision),
+    AnnotatedScore("border_recall", "border recall", FAIR, lambda j: j.borders.recall),
+    AnnotatedScore("border_f1", "border F1", FAIR, lambda j: j.borders.f1),
+    AnnotatedScore("covering", "covering", FAIR, lambda j: covering(j.truth, j.activities)),
+    AnnotatedScore(
+        "border_ratio", "borders", RATIOS, lambda j: border_ratio(j.truth, j.activities)
+    ),
+    AnnotatedScore("cut_ratio", "cuts", RATIOS, lambda j: cut_ratio(j.truth, j.activities)),
+    AnnotatedScore(
+        "cluster_ratio", "clusters", RATIOS, lambda j: cluster_ratio(j.truth, j.clusters)
+    ),
+    AnnotatedScore("count_error", "count error", REPETITIONS, lambda j: _of(j.counts, 0)),
+    AnnotatedScore("count_exact", "counted exactly", REPETITIONS, lambda j: _of(j.counts, 1)),
+    AnnotatedScore("cloud_distance", "cloud distance, m", WITHIN, lambda j: _of(j.clouds, 0)),
+    AnnotatedScore("cloud_variance", "cloud variance, m²", WITHIN, lambda j: _of(j.clouds, 1)),
+    AnnotatedScore("feature_distance", "feature distance, m", WITHIN, lambda j: _of(j.vectors, 0)),
+    AnnotatedScore("feature_variance", "feature variance, m²", WITHIN, lambda j: _of(j.vectors, 1)),
+    AnnotatedScore("length_mean", "length, s", WITHIN, lambda j: j.lengths[0]),
+    AnnotatedScore("length_variance", "length variance, s²", WITHIN, lambda j: j.lengths[1]),
+)  # fmt: skip
+"""In the order in which tables show them; a score more is an object more here."""
 
 
 def evaluate(
@@ -80,28 +140,9 @@ def evaluate(
         (level or clusters).at(frames=truth.frames, fps=truth.fps)
         for level in (clusters, activities, primitives)
     )
-    scores: dict[str, float] = {}
-    scores["strict"], scores["tolerant"] = strict_and_tolerant(truth, spans)
-    scores["majority"], scores["majority_agreed"] = majority_accuracy(truth, clusters)
-    scores["one_to_one"], scores["one_to_one_agreed"] = one_to_one_accuracy(truth, clusters)
-    scores["rand_index"] = rand_index(truth, clusters)
-    scores["mutual_information"] = mutual_information(truth, clusters)
-    for name, value in border_score(truth, spans)._asdict().items():
-        scores[f"border_{name}"] = value
-    scores["covering"] = covering(truth, spans)
-    scores["border_ratio"] = border_ratio(truth, spans)
-    scores["cut_ratio"] = cut_ratio(truth, spans)
-    scores["cluster_ratio"] = cluster_ratio(truth, clusters)
-    if any(count is not None for count in truth.counts):
-        scores["count_error"], scores["count_exact"] = count_errors(truth, units)
-    scores["length_mean"], scores["length_variance"] = length_variance(units)
-    if positions is not None:
-        clouds = point_cloud_variance(positions, units)
-        scores["cloud_distance"], scores["cloud_variance"] = overall(clouds)
-    if features is not None:
-        vectors = feature_variance(features, units)
-        scores["feature_distance"], scores["feature_variance"] = overall(vectors)
-    return scores
+    judged = Judged(truth, clusters, spans, units, positions, features)
+    found = {score.name: score.function(judged) for score in SCORES}
+    return {name: value for name, value in found.items() if value is not None}
 
 
 def evaluate_segmentation(

@@ -16,41 +16,9 @@ from typing import Any
 from kineme._files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
+from kineme.evaluation.annotated_scores import SCORES
 from kineme.labels.delimited import as_text
 
-GROUPS: Mapping[str, Mapping[str, str]] = {
-    "published protocols": {
-        "strict": "strict",
-        "tolerant": "tolerant",
-        "majority": "majority",
-        "majority_agreed": "majority, agreed",
-    },
-    "fair": {
-        "one_to_one": "one to one",
-        "one_to_one_agreed": "one to one, agreed",
-        "rand_index": "adjusted Rand",
-        "mutual_information": "mutual information",
-        "border_precision": "border precision",
-        "border_recall": "border recall",
-        "border_f1": "border F1",
-        "covering": "covering",
-    },
-    "found / true": {
-        "border_ratio": "borders",
-        "cut_ratio": "cuts",
-        "cluster_ratio": "clusters",
-    },
-    "repetitions": {"count_error": "count error", "count_exact": "counted exactly"},
-    "within clusters": {
-        "cloud_distance": "cloud distance, m",
-        "cloud_variance": "cloud variance, m²",
-        "feature_distance": "feature distance, m",
-        "feature_variance": "feature variance, m²",
-        "length_mean": "length, s",
-        "length_variance": "length variance, s²",
-    },
-    "cost": {"seconds": "seconds"},
-}
 OUTPUTS = (".json", ".csv")
 
 
@@ -64,8 +32,11 @@ def score_rows(
     columns : mapping of str to mapping of str to float
         Scores by column title; scores that no column has are left out.
     """
+    titles: dict[str, dict[str, str]] = {}
+    for score in SCORES:
+        titles.setdefault(score.group, {})[score.name] = score.title
     groups = []
-    for group, names in GROUPS.items():
+    for group, names in {**titles, "cost": {"seconds": "seconds"}}.items():
         rows = [
             (title, [shown(scores.get(name, math.nan)) for scores in columns.values()])
             for name, title in names.items()

@@ -60,6 +60,10 @@ class FileContent:
         """Where a recording in this file comes from, with the remarks so far and these notes."""
         return Provenance(str(self.path), name, self.digest).noted(*self.remarks, *notes)
 
+    def let_go(self) -> None:
+        """Give up the bytes, for readers that have all and now make as much again of it."""
+        object.__setattr__(self, "data", b"")
+
     @property
     def room(self) -> int:
         """Bytes of memory that what a file of this size holds can honestly take."""

@@ -161,7 +161,7 @@ def _names_spans(head: bytes) -> bool:
 
 
 def _names_motion(path: Path) -> bool:
-    with zipfile.ZipFile(path) as archive:
+    with path.open("rb") as file, zipfile.ZipFile(file) as archive:
         names = [name.removesuffix(".npy") for name in archive.namelist()]
     return (
         not {"poses", "positions"}.isdisjoint(names)

@@ -94,11 +94,14 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     kept = sorted([*kept, *_gone_with_the_body(positions, gaps, used, seen, points.fps)])
     notes = _said_of_gaps(names, gaps, kept, len(positions))
     notes += _said_of_splits(names, gaps, used, missing, points.fps)
-    scale, note = _scale(points.unit, positions[seen][:, kept])
+    visible = positions if seen.all() else positions[seen]
+    scale, note = _scale(points.unit, visible if len(kept) == len(names) else visible[:, kept])
     notes += note
-    up, note = _up(points, positions[seen], body)
+    up, note = _up(points, visible, body)
     notes += note
-    skeleton, positions = _tree(names, upright(scale * positions, up), body, kept, seen)
+    del visible
+    positions *= scale
+    skeleton, positions = _tree(names, upright(positions, up), body, kept, seen)
     if "pelvis" in body:
         notes.append(f"joints of the body: {described(body, names)}")
     return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)

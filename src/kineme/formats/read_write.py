@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codecs import BOM_UTF8
+import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,8 @@ from kineme.formats.files import FileContent, load, warn
 from kineme.formats.options import AnyPath, ReadOptions
 from kineme.formats.registry import recognise, supported_formats
 from kineme.recordings import Motion, Signals
+
+_BLANK = re.compile(rb"(\xef\xbb\xbf)?\s*\Z")
 
 
 def read(
@@ -163,7 +165,7 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
 
 
 def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    if not content.data.removeprefix(BOM_UTF8).strip():
+    if _BLANK.match(content.data):
         raise content.error("the file is empty")
     known = recognise(content)
     if known.read is None:

@@ -8,7 +8,7 @@ inferred is said in the motion's provenance.
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from collections.abc import Iterator
 from decimal import Decimal
 from math import ceil, floor
 
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
-from kineme.recordings import Motion, Note, Provenance, Skeleton
+from kineme.recordings import Note, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
 
 Floats = NDArray[np.float64]
@@ -48,8 +48,15 @@ AXES = tuple(_TO_Y)
 _HEAD = re.compile("head", re.IGNORECASE)
 _FOOT = re.compile("foot|feet|toe|ankle", re.IGNORECASE)
 
-BYTES_PER_JOINT = 2 * 8 * (4 + 3 + 3)
-"""What `place` takes for a joint in a frame: rotation, translation, position, and as much again."""
+
+BLOCK = 2048
+"""Frames."""
+
+
+def blocks(n_frames: int) -> Iterator[slice]:
+    """The frames in order, as many at a time as stay in the processor's cache."""
+    for start in range(0, n_frames, BLOCK):
+        yield slice(start, min(start + BLOCK, n_frames))
 
 
 def metres(unit: str | float) -> float:
@@ -68,59 +75,12 @@ def unit_named(word: str) -> str | None:
     return (longer | known).get(word)
 
 
-def place(
-    skeleton: Skeleton,
-    rotations: Floats,
-    translations: Floats,
-    fps: float,
-    *,
-    unit: str | float | None,
-    up: str | None,
-    provenance: Provenance,
-) -> Motion:
-    """The motion in metres with y up, from one in a file's own units and axes.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        As for `forward_kinematics`, in file units.
-    rotations, translations : ndarray
-        See `skeleton`.
-    unit : str, float or None
-        Of the file; None to infer them.
-    up : str or None
-        See `unit`.
-    """
-    if unit is None:
-        unit, note = infer_unit(skeleton, translations)
-        provenance = provenance.noted(note)
-    else:
-        tall = _height(skeleton, translations) * metres(unit)
-        if not BODIES[0] <= tall <= BODIES[1]:
-            provenance = provenance.noted(
-                f"with unit {unit} the skeleton is about {tall:.4g} m tall: look whether it fits"
-            )
-    scale = metres(unit)
-    skeleton = replace(skeleton, offsets=scale * skeleton.offsets)
-    translations = scale * translations
-    positions = forward_kinematics(skeleton, rotations, translations=translations)
-    if up is None:
-        up = infer_up(skeleton, positions)
-        if up != "y":
-            provenance = provenance.noted(
-                f"turned: head and feet lie along {up}, so that axis was taken to be up"
-            )
-    if up != "y":
-        turn = up_rotation(up)
-        skeleton = replace(skeleton, offsets=rot.rotate(turn, skeleton.offsets))
-        rotations = rot.multiply(rot.multiply(turn, rotations), rot.conjugate(turn))
-        positions = rot.rotate(turn, positions)
-    return Motion(skeleton, positions, fps, rotations, provenance)
-
-
 def upright(points: Floats, up: str) -> Floats:
-    """The points (..., 3) turned so that their axis ``up`` becomes y."""
-    return points if up == "y" else rot.rotate(up_rotation(up), points)
+    """The points (frames, points, 3), turned in place so that their axis ``up`` becomes y."""
+    if up != "y":
+        for span in blocks(len(points)):
+            points[span] = rot.rotate(up_rotation(up), points[span])
+    return points
 
 
 def up_rotation(up: str) -> Floats:
@@ -128,7 +88,7 @@ def up_rotation(up: str) -> Floats:
     return np.array(_TO_Y[up])
 
 
-def infer_unit(skeleton: Skeleton, translations: Floats) -> tuple[str, Note]:
+def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
     """The unit that makes this a body of human size, and the note that says so.
 
     The height is taken as three quarters of the longest path along the bones,
@@ -136,7 +96,7 @@ def infer_unit(skeleton: Skeleton, translations: Floats) -> tuple[str, Note]:
     within 7 % of the path along the bones from head to toes. If no unit fits the
     nearest is taken, and the note is a warning.
     """
-    height = _height(skeleton, translations)
+    height = height_of(skeleton, means)
     fits = {name: HEIGHTS[0] <= height * size <= HEIGHTS[1] for name, size in UNITS.items()}
     if any(fits.values()):
         unit = next(name for name, fit in fits.items() if fit)
@@ -151,9 +111,16 @@ def infer_unit(skeleton: Skeleton, translations: Floats) -> tuple[str, Note]:
     return unit, Note(said, "warning")
 
 
-def _height(skeleton: Skeleton, translations: Floats) -> float:
-    """Three quarters of the longest path along the bones, in file units."""
-    return 0.75 * _longest_path(skeleton, np.linalg.norm(translations.mean(axis=0), axis=1))
+def height_of(skeleton: Skeleton, means: Floats) -> float:
+    """Three quarters of the longest path along the bones, in file units.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+    means : ndarray, shape (joints, 3)
+        Where each joint is in its parent's frame, in the mean.
+    """
+    return 0.75 * _longest_path(skeleton, np.linalg.norm(means, axis=1))
 
 
 def infer_up(skeleton: Skeleton, positions: Floats) -> str:

@@ -112,7 +112,8 @@ def parse(text: str, path: Path) -> dict[str, Any]:
         raise ReadError(path, 'is not a segment table: it has no "schema": "kineme.segments/..."')
     if schema != SCHEMA:
         raise ReadError(
-            path, f"has schema {schema!r}, but this version of kineme reads {SCHEMA!r}: upgrade it"
+            path,
+            f"has schema {schema!r:.40}, but this version of kineme reads {SCHEMA!r}: upgrade it",
         )
     return data
 
@@ -121,9 +122,9 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     """The segmentation of a table and what `head_of` gave."""
     n_frames, fps = head.get("n_frames"), head.get("fps")
     if type(n_frames) is not int:
-        raise ReadError(path, f'"n_frames" must be a whole number, not {n_frames!r}')
+        raise ReadError(path, f'"n_frames" must be a whole number, not {n_frames!r:.40}')
     if not isinstance(fps, int | float) or not 0 < fps < 1e9:
-        raise ReadError(path, f'"fps" must be a positive number, not {fps!r}')
+        raise ReadError(path, f'"fps" must be a positive number, not {fps!r:.40}')
     notes = {name: head.get(name, {}) for name in ("provenance", "timings")}
     for name, value in notes.items():
         if not isinstance(value, dict):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,10 @@ from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.library.constants import VOCABULARY
 from kineme.library.edits import read_edits
+from kineme.library.executors import Executor
+from kineme.library.executors.cluster import connected
 from kineme.library.gathering import Progress, gather
+from kineme.library.index.kept import write_index
 from kineme.library.layout import (
     HEAD,
     LOCK_EDITS,
@@ -29,6 +32,7 @@ from kineme.library.pieces import has_piece
 from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import Settings
 from kineme.library.sources import listed, names_of
+from kineme.library.storage.places import place, reaching, remove_folder
 from kineme.library.tables import read_table, write_tables
 
 Head = Mapping[str, Any]
@@ -78,6 +82,7 @@ def build(
     recursive: bool | None = None,
     settings: Settings | None = None,
     jobs: int = 1,
+    client: Any = None,
     progress: Progress | None = None,
 ) -> Built:
     """Make a library of recordings, or bring one up to date.
@@ -102,6 +107,9 @@ def build(
     jobs : int
         Processes at most. With more than 1, a script must guard what it runs with
         ``if __name__ == "__main__"``, as always with processes.
+    client : dask.distributed.Client or str, optional
+        Work on this cluster instead, or on that of the scheduler at an address. Its workers see
+        recordings and library at the same places.
     progress : callable, optional
         Called with a sentence on how far it is.
 
@@ -132,14 +140,15 @@ def build(
     arrow()
     if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
-    folder = opened(into)
-    with held(folder, "build"):
-        head = read_json(folder / HEAD)
-        plan = plan_of(folder, head, as_paths(sources), as_paths(remove), recursive, settings)
-        return _built(plan, head, int(jobs), progress or _silent)
+    with nullcontext(int(jobs)) if client is None else connected(client) as executor:
+        folder = opened(into)
+        with held(folder, "build"), reaching(folder):
+            head = read_json(folder / HEAD)
+            plan = plan_of(folder, head, as_paths(sources), as_paths(remove), recursive, settings)
+            return _built(plan, head, executor, progress or _silent)
 
 
-def _built(plan: Plan, head: Head, jobs: int, progress: Progress) -> Built:
+def _built(plan: Plan, head: Head, executor: Executor | int, progress: Progress) -> Built:
     """The library brought up to date, for one that holds it."""
     progress("looking for recordings")
     before = _before(plan.folder, head)
@@ -147,7 +156,7 @@ def _built(plan: Plan, head: Head, jobs: int, progress: Progress) -> Built:
     gone = [source for source in plan.sources if not source.exists()]
     unseen = {path: known for path, known in before.items() if path not in found}
     kept = _kept(plan, unseen, gone)
-    gathered = gather(plan, list(found), jobs, progress)
+    gathered = gather(plan, list(found), executor, progress)
     failed = dict.fromkeys(gone, GONE) | gathered.failed
     keys = {path: plan.settings.key(digest) for path, digest in gathered.digests.items()}
     keys |= {path: before[path][1] for path in kept}
@@ -175,7 +184,7 @@ def _before(folder: Path, head: Head) -> Known:
         return {}
     table = read_table(folder, head["tables"], "recordings")
     columns = (table.column(name).to_pylist() for name in ("path", "recording", "piece"))
-    return {Path(path): (name, key) for path, name, key in zip(*columns, strict=True)}
+    return {place(path): (name, key) for path, name, key in zip(*columns, strict=True)}
 
 
 def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
@@ -216,6 +225,7 @@ def _written(
         following = max(head.get("following", 0), read_edits(plan.folder).following)
         made, following = compiled(plan.folder, entries, head.get("tables"), following)
         tables = write_tables(plan.folder, made)
+        write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**wanted, "following": following, "tables": tables}
     if now != head:
         write_json(plan.folder / HEAD, now)
@@ -225,11 +235,11 @@ def _written(
 def _clean(folder: Path, keys: set[str], tables: str) -> None:
     """Remove what nothing names any more, and drafts of builds that were ended."""
     for path in (folder / PIECES).iterdir():
-        if path.suffix not in (".npy", ".parquet") or path.stem not in keys:
+        if path.suffix not in (".npy", ".parquet") or path.name.partition(".")[0] not in keys:
             path.unlink(missing_ok=True)
     for path in (folder / TABLES).iterdir():
         if path.name != tables:
-            shutil.rmtree(path, ignore_errors=True)
+            remove_folder(path)
     for path in folder.glob(".kineme-*"):
         path.unlink(missing_ok=True)
 

@@ -84,6 +84,7 @@ def clusters_of(tables: OpenTables) -> list[Cluster]:
         typical = own[np.argmin(words["spread"][own])]
         rows = active & (segments["cluster"] == number)
         repeated = rows & finer
+        typically = lasts[repeated if repeated.any() else rows]
         recording = str(words["recording"][typical])
         found.append(
             Cluster(
@@ -94,7 +95,7 @@ def clusters_of(tables: OpenTables) -> list[Cluster]:
                 int((rows & ~finer).sum()),
                 int(repeated.sum()),
                 round(float(lasts[rows & ~finer].sum()), 6),
-                round(float(np.median(lasts[repeated if repeated.any() else rows])), 6),
+                round(float(np.median(typically)), 6) if len(typically) else 0.0,
                 recording,
                 float(words["start_s"][typical]),
                 float(words["stop_s"][typical]),

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from kineme.library.constants import VOCABULARY
 from kineme.library.layout import EMBEDDED, PIECES, arrow, as_array, as_column
-from kineme.library.numbering import Spans, lasting_numbers
 from kineme.library.pieces import Piece, read_piece
 from kineme.library.tables import read_table, table_of
-from kineme.library.vocabulary import joined
-from kineme.library.words import Place, places_in, word_at
+from kineme.library.vocabulary.crowds import clusters_in
+from kineme.library.vocabulary.numbering import Spans, lasting_numbers
+from kineme.library.vocabulary.words import Place, crowd_of, places_in
 from kineme.segments.table import COLUMNS
 
 Entry = tuple[str, Path, str]
@@ -92,12 +92,8 @@ def _joined_words(folder: Path, entries: Sequence[Entry], pieces: Sequence[Piece
         ]
         if not own:
             continue
-        words = [
-            word_at(place, pieces[place.recording], folder / PIECES, key, VOCABULARY)
-            for place in own
-            for key in [entries[place.recording][2]]
-        ]
-        found = joined(words, VOCABULARY)
+        crowd = crowd_of(own, pieces, folder / PIECES, [key for _, _, key in entries])
+        found = clusters_in(crowd, VOCABULARY)
         following = np.where(found.following < 0, -1, found.following + count)
         places += own
         parts.append((found.labels + count, following, found.confidence, found.spread))
@@ -121,8 +117,9 @@ def _shared(pieces: Sequence[Piece], words: _Words) -> list[Ints]:
 
 
 def _spans(columns: Columns, clusters: Ints) -> Spans:
-    """The activities of a recording with their clusters."""
-    own = (columns["level"] == "activity") & (columns["kind"] == "activity")
+    """The activities of a recording with their clusters, and what only primitives are of."""
+    active, coarse = columns["kind"] == "activity", columns["level"] == "activity"
+    own = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))
     return columns["start_s"][own], columns["stop_s"][own], clusters[own]
 
 
@@ -144,7 +141,7 @@ def _before(folder: Path, before: str | None) -> dict[str, Spans]:
 
 def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
     facts = [piece.facts for piece in pieces]
-    kept = ("vocabulary", "format", "n_frames", "fps", "features_fps")
+    kept = ("vocabulary", "format", "n_frames", "fps", "features_fps", "samples")
     columns: Columns = {name: [each[name] for each in facts] for name in kept}
     return {
         "recording": [name for name, _, _ in entries],
@@ -153,6 +150,7 @@ def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
         "duration_s": [each["n_frames"] / each["fps"] for each in facts],
         "piece": [key for _, _, key in entries],
         "features_fps": columns["features_fps"],
+        "samples": columns["samples"],
         "notes": ["\n".join(each["notes"]) for each in facts],
     }
 

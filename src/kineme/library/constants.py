@@ -8,6 +8,7 @@ from typing import Any
 
 from kineme.methods.constants import (
     SHARE,
+    SOME,
     SOME_LENGTH,
     SOME_TIME,
     check,
@@ -34,6 +35,16 @@ class VocabularyConstants:
     longest_context: float = constant(
         "and what it is looked for in to this", unit="s", limits=SOME_TIME, default=12.0, fine=True
     )
+    most: int = constant(
+        "words compared each with each; of more a sample is", limits=SOME, default=400, fine=True
+    )
+    typical: int = constant(
+        "words of each cluster that the others are compared with", limits=SOME, default=5, fine=True
+    )
+    nearest: int = constant(
+        "clusters whose embeddings are nearest, of which a word may be", limits=SOME, default=4,
+        fine=True,
+    )  # fmt: skip
     unsure: float = constant(
         "confidence below which a word is shown as unsure", limits=SHARE, default=0.1,
         fine=True,

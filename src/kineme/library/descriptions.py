@@ -19,7 +19,7 @@ from kineme.errors import MotionError, ParameterError
 from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
-from kineme.library.layout import EMBEDDED
+from kineme.library.layout import BODIES, EMBEDDED
 from kineme.matching.whole_segments import course, embedding
 from kineme.methods.hierarchy.preset import SENSORS
 from kineme.methods.hierarchy.statistics import channel_statistics
@@ -29,8 +29,6 @@ from kineme.segmentation.channels import at_rate, standardized
 Float32s = NDArray[np.float32]
 Floats = NDArray[np.float64]
 
-BODIES = "bodies"
-"""The vocabulary of everything that has a body."""
 NOWHERE = 100.0
 """In each feature of channels that were not recorded: farther from anything than a match can be."""
 

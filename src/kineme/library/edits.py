@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
-from kineme.library.layout import EDITS, as_array, as_column, read_json, write_json
+from kineme.library.layout import EDITS, MOST_CLUSTERS, as_array, as_column, read_json, write_json
 
 SCHEMA = "kineme.library.edits/1"
 Ints = NDArray[np.int64]
@@ -134,15 +134,27 @@ def read_edits(folder: Path) -> Edits:
         raise ReadError(path, f"is of the schema {told.get('schema')!r:.40}, not {SCHEMA}")
     try:
         return Edits(
-            {int(number): str(name) for number, name in told["names"].items()},
-            {int(old): int(new) for old, new in told["merged"].items()},
+            {_cluster(number): str(name) for number, name in told["names"].items()},
+            {_cluster(old): _cluster(new) for old, new in told["merged"].items()},
             tuple(
-                Split(int(one["cluster"]), int(one["into"]), tuple(map(str, one["recordings"])))
+                Split(
+                    _cluster(one["cluster"]),
+                    _cluster(one["into"]),
+                    tuple(map(str, one["recordings"])),
+                )
                 for one in told["splits"]
             ),
         )
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
         raise ReadError(path, "is damaged: names, merges or splits are not as written") from error
+
+
+def _cluster(written: Any) -> int:
+    """The number of a cluster; ValueError for one that no table can hold."""
+    number = int(written)
+    if not -1 <= number < MOST_CLUSTERS:
+        raise ValueError(f"no cluster has the number {number}")
+    return number
 
 
 def edited(table: Any, edits: Edits) -> Any:

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
-from kineme.formats import read
 from kineme.library.descriptions import Description, describe
 from kineme.library.layout import PIECES
 from kineme.library.opened import OpenTables
 from kineme.library.pieces import read_features
 from kineme.library.searching import Example
+from kineme.library.storage.places import place
+from kineme.library.storage.recordings import read_at
 from kineme.recordings import Motion, Signals
 
 AnyPath = str | PathLike[str]
@@ -88,7 +88,7 @@ def _description(
 ) -> Description:
     """The features of a recording, from the library where it is one of it."""
     told, settings = tables.recordings, tables.settings
-    if isinstance(recording, str) and not Path(recording).exists():
+    if isinstance(recording, str) and not place(recording).exists():
         if recording not in told["recording"]:
             raise ReadError(recording, "there is no such file, and no recording of that name")
         if not mirrored:
@@ -99,7 +99,7 @@ def _description(
         recording = tables.path_of(recording)
     seen = recording
     if not isinstance(seen, Motion | Signals):
-        seen = read(seen, **settings.reading)
+        seen = read_at(place(seen), settings.reading)
     emg = settings.options().emg
     described = describe(seen, effectors=settings.effectors, emg=emg, mirrored=mirrored)
     return _comparable(described, seen.provenance.path or "the example")

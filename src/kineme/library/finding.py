@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from kineme._checks import is_number
-from kineme._threads import map_threads
 from kineme.errors import ParameterError
 from kineme.library.clusters import numbers_of
 from kineme.library.examples import features_of, one_vocabulary
-from kineme.library.layout import PIECES
+from kineme.library.executors import Executor
+from kineme.library.index.kept import open_index
+from kineme.library.index.nearest import joined, parts_like
+from kineme.library.index.parts import Parts, Sought, matches_in
+from kineme.library.index.windows import Float32s, length_for
+from kineme.library.layout import BODIES, PIECES
 from kineme.library.opened import OpenTables
-from kineme.library.pieces import read_features
-from kineme.library.searching import Example, Hit, best, spans_like
-from kineme.matching import Matches
+from kineme.library.searching import Example, Hit, best
 
 TYPICAL = 5
 """Words that stand for a cluster in a search, the most typical ones."""
@@ -31,6 +32,7 @@ def hits_like(
     top: int | None,
     max_per_recording: int | None,
     mirror: bool,
+    executor: Executor | None = None,
 ) -> list[Hit]:
     """Where the recordings of a library are like one of the examples, the nearest first.
 
@@ -48,6 +50,8 @@ def hits_like(
         Of one recording at most.
     mirror : bool
         Search for the mirror images of the examples as well.
+    executor : Executor, optional
+        Where it is searched; threads of this process by default.
 
     Raises
     ------
@@ -62,19 +66,35 @@ def hits_like(
     wanted = features_of(tables, examples, mirror=mirror)
     vocabulary = one_vocabulary(wanted)
     refused = [part for kind, part in features_of(tables, counterexamples) if kind == vocabulary]
-    rows = _rows_of(tables, vocabulary)
-    parts = [part for _, part in wanted]
-
-    def spans_in(row: int) -> Matches:
-        features = read_features(tables.folder / PIECES, tables.recordings["piece"][row])
-        return spans_like(
-            features, parts, refused, threshold=threshold, top=max_per_recording or top
-        )
-
-    with threadpool_limits(1):  # recordings are searched side by side
-        found = map_threads(spans_in, rows)
-    chosen = best(found, top=top, most=max_per_recording)
+    own = [part for _, part in wanted]
+    sought = Sought(own, refused, threshold, None if max_per_recording else top)
+    parts = _whole(tables, vocabulary)
+    if top is not None and vocabulary == BODIES:
+        parts = _likely(tables, own, top) or parts
+    found = matches_in(tables.folder / PIECES, tables.recordings["piece"], parts, sought, executor)
+    rows = list(found)
+    chosen = best(list(found.values()), top=top, most=max_per_recording)
     return [_hit(tables, rows[i], *span) for i, span in chosen]
+
+
+def _whole(tables: OpenTables, vocabulary: str) -> Parts:
+    """All recordings of a vocabulary."""
+    rows = np.array(_rows_of(tables, vocabulary), np.int64)
+    samples = np.array(tables.recordings["samples"], np.int64)[rows]
+    return Parts(rows, np.zeros_like(rows), samples)
+
+
+def _likely(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
+    """What is most like any of the examples, where there is an index that tells."""
+    found = []
+    for example in examples:
+        windows = open_index(
+            tables.folder, tables.head["tables"], tables.recordings, length_for(example)
+        )
+        if windows is None:
+            return None
+        found.append(parts_like(windows, example, top))
+    return joined(Parts(*(np.concatenate(column) for column in zip(*found, strict=True))))
 
 
 def typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
@@ -107,7 +127,9 @@ def _hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -
     fps, lasts = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
     start_s, stop_s = start / fps, min(stop / fps, lasts)
     segments = tables.columns("segments")
-    rows = slice(*tables.rows[recording])
+    rows = slice(*tables.rows.get(recording, (0, 0)))
+    if rows.stop == rows.start:
+        return Hit(recording, start_s, stop_s, round(distance, 4), -1, "")
     shared = np.minimum(segments["stop_s"][rows], stop_s)
     shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)
     covers = int(np.lexsort((segments["level"][rows] == "primitive", shared))[-1])

@@ -5,13 +5,17 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
+from threading import Thread
 
 from kineme.errors import WriteError
+from kineme.library.executors import Executor
+from kineme.library.executors.here import Here
 from kineme.library.layout import SEEN, read_json, write_json
-from kineme.library.pieces import has_piece
 from kineme.library.planning import Plan
 from kineme.library.sources import Glances
+from kineme.library.work import executor_for, outcomes_of, tasks_for
 
 Progress = Callable[[str], None]
 
@@ -35,7 +39,9 @@ class Gathered:
     new: int = 0
 
 
-def gather(plan: Plan, found: Sequence[Path], jobs: int, progress: Progress) -> Gathered:
+def gather(
+    plan: Plan, found: Sequence[Path], executor: Executor | int, progress: Progress
+) -> Gathered:
     """The pieces of recordings, made where there is none.
 
     Files that look as they did when they were last read are not read again.
@@ -45,8 +51,8 @@ def gather(plan: Plan, found: Sequence[Path], jobs: int, progress: Progress) -> 
     plan : Plan
     found : sequence of Path
         The recordings.
-    jobs : int
-        Processes at once.
+    executor : Executor or int
+        Where they are made; a number is that of processes of this machine at most.
     progress : callable
         Called with a sentence on how far it is.
 
@@ -61,7 +67,7 @@ def gather(plan: Plan, found: Sequence[Path], jobs: int, progress: Progress) -> 
     there = Gathered(_unchanged(plan, looks, seen))
     waiting = [path for path in found if path not in there.digests]
     if waiting:
-        _make(plan, waiting, jobs, progress, there)
+        _make(plan, waiting, executor, progress, there)
     told = {str(path): [looks[path], digest] for path, digest in there.digests.items()}
     if told != seen:
         write_json(plan.folder / SEEN, told)
@@ -73,22 +79,30 @@ def _unchanged(
 ) -> dict[Path, str]:
     """Digests of recordings that look as they did, and have a piece."""
     digests = {}
+    whole = {piece.stem for piece in plan.pieces.glob("*.parquet")}
     for path, look in looks.items():
         glance, digest = seen.get(str(path), ("", ""))
-        if glance and glance == look and has_piece(plan.pieces, plan.settings.key(digest)):
+        if glance and glance == look and plan.settings.key(digest) in whole:
             digests[path] = digest
     return digests
 
 
 def _make(
-    plan: Plan, waiting: Sequence[Path], jobs: int, progress: Progress, into: Gathered
+    plan: Plan,
+    waiting: Sequence[Path],
+    executor: Executor | int,
+    progress: Progress,
+    into: Gathered,
 ) -> None:
     """Make the pieces of recordings; what came of each is noted."""
-    from kineme.library.work import Task, outcomes_of
-
-    tasks = [Task(path, plan.pieces, plan.settings) for path in waiting]
-    started = time.monotonic()
-    for done, (task, outcome) in enumerate(outcomes_of(tasks, jobs), 1):
+    tasks = tasks_for(waiting, plan.pieces, plan.settings)
+    if isinstance(executor, int):
+        executor = executor_for(tasks, executor)
+    if not isinstance(executor, Here):  # what comes next is imported while others work
+        Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
+    started, done = time.monotonic(), 0
+    whole = sum(task.size for task in tasks)
+    for number, (task, outcome) in enumerate(outcomes_of(tasks, executor), 1):
         if outcome.fatal:
             raise WriteError(plan.folder, outcome.error)
         if outcome.error:
@@ -96,11 +110,12 @@ def _make(
         else:
             into.digests[task.path] = outcome.digest
         into.new += outcome.new
-        progress(_told(done, len(tasks), time.monotonic() - started))
+        done += task.size
+        left = (time.monotonic() - started) * (whole - done) / max(done, 1)
+        progress(_told(number, len(tasks), left))
 
 
-def _told(done: int, of: int, seconds: float) -> str:
-    """How far it is, and for how long it goes on."""
-    left = seconds / done * (of - done)
+def _told(number: int, of: int, left: float) -> str:
+    """How far it is, and for how many seconds it goes on."""
     shown = f"{left:.0f} s" if left < 90 else f"{left / 60:.0f} min"
-    return f"{done} of {of}" + (f", {shown} left" if done < of else "")
+    return f"{number} of {of}" + (f", {shown} left" if number < of else "")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
@@ -14,19 +15,32 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._files import atomic_write
+from kineme._checks import is_number
 from kineme.errors import MissingDependencyError, ReadError, WriteError
+from kineme.library.storage.places import is_remote, place, written
 
 if sys.platform != "win32":
     import fcntl
 
-SCHEMA = "kineme.library/1"
+SCHEMA = "kineme.library/2"
 """Of the folder; a change that old readers would misunderstand gets the next number."""
 HEAD, EDITS, SEEN = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"
 TABLES, PIECES = "tables", "pieces"
 EMBEDDED = 32
 """Numbers in an embedding."""
+BODIES = "bodies"
+"""The vocabulary of everything that has a body."""
+MOST_CLUSTERS = 1 << 62
+"""Above the number of any cluster, so that columns of integers hold it."""
+_KINDS = {
+    "failed": dict,
+    "following": int,
+    "settings": dict,
+    "sources": list,
+    "tables": str,
+    "vocabulary": dict,
+}
 EXTRA = "library"
 """The extra that installs what libraries need."""
 
@@ -48,7 +62,7 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
     ReadError
         There is no library, or one of another schema.
     """
-    path = Path(folder) / HEAD
+    path = place(folder) / HEAD
     if not path.is_file():
         raise ReadError(folder, "is no library: kineme library build FOLDER --into LIB makes one")
     head = read_json(path)
@@ -56,9 +70,25 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
         raise ReadError(
             path,
             f"is of the schema {head.get('schema')!r:.40}, this version of kineme reads "
-            f"{SCHEMA}: build the library anew",
+            f"{SCHEMA}: build the library anew, into another folder",
         )
+    if not _is_whole(head):
+        raise ReadError(path, "is damaged: what it tells is not as written; build the library anew")
     return head
+
+
+def _is_whole(head: Mapping[str, Any]) -> bool:
+    """Whether everything in a head is of its type."""
+    if not all(isinstance(head.get(name), kind) for name, kind in _KINDS.items()):
+        return False
+    constants = head["vocabulary"]
+    return (
+        re.fullmatch("[0-9a-f]{1,64}", head["tables"]) is not None
+        and 0 <= head["following"] < MOST_CLUSTERS
+        and all(isinstance(text, str) for text in (*head["sources"], *head["failed"].values()))
+        and "unsure" in constants
+        and all(is_number(value) for value in constants.values())
+    )
 
 
 def read_json(path: Path) -> dict[str, Any]:
@@ -79,7 +109,7 @@ def read_json(path: Path) -> dict[str, Any]:
 def write_json(path: Path, content: dict[str, Any]) -> None:
     """Leave an object at ``path``, whole or not at all."""
     text = json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False)
-    with atomic_write(path) as draft:
+    with written(path) as draft:
         draft.write_text(text + "\n", encoding="utf-8")
 
 
@@ -100,6 +130,9 @@ def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
     WriteError
         Another process holds it, or the folder cannot be written.
     """
+    if is_remote(folder):  # nobody locks there
+        yield
+        return
     try:
         lock = os.open(folder / name, os.O_CREAT | os.O_RDWR | getattr(os, "O_CLOEXEC", 0), 0o666)
     except OSError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import nullcontext
 from os import PathLike
 from pathlib import Path
 from typing import Any, Self
@@ -12,12 +13,15 @@ from kineme.errors import ParameterError
 from kineme.library.clusters import Cluster, Word, clusters_of, numbers_of, unsure_words
 from kineme.library.editing import merge_clusters, name_cluster, split_cluster
 from kineme.library.examples import as_examples
+from kineme.library.executors.cluster import connected
 from kineme.library.exporting import answer, table_called, write_hits, write_table
 from kineme.library.finding import hits_like, typical_examples
 from kineme.library.layout import arrow
 from kineme.library.opened import OpenTables
+from kineme.library.pictures import write_pictures
 from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
+from kineme.library.storage.places import place, reaching
 from kineme.matching import THRESHOLD
 from kineme.recordings import Motion, Signals
 
@@ -25,14 +29,12 @@ AnyPath = str | PathLike[str]
 
 
 class Library:
-    """A library, opened for reading; edits are written at once.
-
-    Wherever a cluster is asked for, its number or its name will do.
+    """A library, opened for reading; edits are written at once. Clusters go by number or name.
 
     Parameters
     ----------
     folder : path-like
-        What `kineme.library.build` made.
+        What `kineme.library.build` made; or a URL, such as ``s3://bucket/library``.
 
     Raises
     ------
@@ -53,10 +55,10 @@ class Library:
     """
 
     def __init__(self, folder: AnyPath):
-        check_path(folder, "Library")
         arrow()
-        self.folder = Path(folder)
-        self._tables = OpenTables(self.folder)
+        self.folder = place(folder, "Library")
+        with reaching(self.folder):
+            self._tables = OpenTables(self.folder)
 
     @property
     def head(self) -> dict[str, Any]:
@@ -123,10 +125,12 @@ class Library:
         top: int | None = 50,
         max_per_recording: int | None = None,
         mirror: bool = False,
+        client: Any = None,
     ) -> list[Hit]:
         """Where the recordings of the library are like an example, the nearest first.
 
-        Segments play no part: short recordings and parts of activities are found as well.
+        Segments play no part: short recordings and parts of activities are found as well. Of more
+        than 100 hours of bodies an index tells what is looked at; all, if ``top`` is None.
 
         Parameters
         ----------
@@ -146,6 +150,8 @@ class Library:
             Of one recording at most.
         mirror : bool
             Search for the mirror images of the examples as well; of bodies only.
+        client : dask.distributed.Client or str, optional
+            Search on this cluster, or on that of the scheduler at an address.
 
         Raises
         ------
@@ -159,21 +165,19 @@ class Library:
             examples += typical_examples(self._tables, cluster)
         if not examples:
             raise ParameterError("nothing to search for: give an example or a cluster")
-        return hits_like(
-            self._tables,
-            examples,
-            unlike,
-            threshold=threshold,
-            top=top,
-            max_per_recording=max_per_recording,
-            mirror=mirror,
-        )
+        with nullcontext() if client is None else connected(client) as executor:
+            return hits_like(
+                self._tables, examples, unlike, threshold=threshold, top=top, mirror=mirror,
+                max_per_recording=max_per_recording, executor=executor,
+            )  # fmt: skip
+
+    def pictures(self, folder: AnyPath) -> list[Path]:
+        """A PNG of each cluster in a folder, its most typical segment as a strip; of all first."""
+        check_path(folder, "pictures")
+        return write_pictures(self._tables, Path(folder))
 
     def clips(self, hits: Sequence[Hit], folder: AnyPath) -> list[Path]:
-        """The clips of hits in a new or empty folder, with a manifest; see `kineme.clips.split`.
-
-        Those of one recording are together, in the order of the first of each.
-        """
+        """The clips of hits, recording by recording, in a new or empty folder with a manifest."""
         return write_hits(self._tables, hits, folder)
 
     def query(self, sql: str) -> Any:
@@ -223,10 +227,7 @@ class Library:
         return self
 
     def split(self, cluster: int | str, recordings: Iterable[str]) -> int:
-        """The number of a new cluster: what one has in some recordings, by their names.
-
-        ParameterError where it is in none of these recordings, or in no other.
-        """
+        """The number of a new cluster: what one has in some of its recordings."""
         return split_cluster(self._tables, cluster, list(recordings))
 
     def path_of(self, recording: str) -> Path:

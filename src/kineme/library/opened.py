@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
-from kineme.formats import read
 from kineme.library.edits import Edits, edited, read_edits
 from kineme.library.layout import LOCK_EDITS, as_array, held, read_head
 from kineme.library.settings import Settings
+from kineme.library.storage.places import place
+from kineme.library.storage.recordings import read_at
 from kineme.library.tables import DESCRIBED, read_table
 from kineme.recordings import Motion, Signals
 
@@ -66,11 +67,11 @@ class OpenTables:
             row = self.recordings["recording"].index(recording)
         except ValueError:
             raise ParameterError(f"no recording is called {recording!r:.60}") from None
-        return Path(self.recordings["path"][row])
+        return place(self.recordings["path"][row])
 
     def read(self, recording: str) -> Motion | Signals:
         """A recording of the library, read as it was when the library was built."""
-        return read(self.path_of(recording), **self.settings.reading)
+        return read_at(self.path_of(recording), self.settings.reading)
 
     def table(self, name: str) -> Any:
         """A table, one of `kineme.library.tables.DESCRIBED`, as a pyarrow.Table."""
@@ -117,5 +118,12 @@ class OpenTables:
 
     def _read(self) -> dict[str, Any]:
         """All tables but the embeddings, which few need."""
-        names = (name for name in DESCRIBED if name != "embeddings")
-        return {name: read_table(self.folder, self.head["tables"], name) for name in names}
+        names = [name for name in DESCRIBED if name != "embeddings"]
+        tables = {name: read_table(self.folder, self.head["tables"], name) for name in names}
+        known = {*tables["recordings"].column("recording").to_pylist()}
+        for name in names:
+            if not known.issuperset(tables[name].column("recording").unique().to_pylist()):
+                raise ReadError(
+                    self.folder, f"{name} and recordings do not fit: build the library again"
+                )
+        return tables

@@ -1,14 +1,17 @@
 """Pieces: what is kept of one recording, as it was found alone.
 
 The segments with their embeddings are a Parquet file, whose metadata tell of the recording; its
-features are a plain array beside it. The array is written first: where there is a Parquet file,
-the piece is whole.
+features, and their windows for an index, are plain arrays beside it. These are written first: where
+there is a Parquet file, the piece is whole.
 """
 
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -16,12 +19,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._doors import reading
-from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.library.layout import EMBEDDED, arrow, as_array, as_column
+from kineme.library.index.windows import all_windows
+from kineme.library.layout import BODIES, EMBEDDED, arrow, as_array, as_column
+from kineme.library.storage.places import near, written
 from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
 
 METADATA = b"kineme.library"
+FEATURES, WINDOWS = ".npy", ".windows.npy"
+LARGEST = 1e30
+"""Sum of the squares of all features of a recording; no distance overflows below it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +38,7 @@ class Piece:
     Attributes
     ----------
     facts : dict
-        ``format``, ``n_frames``, ``fps``, ``vocabulary``, ``features_fps``, ``notes``.
+        ``format``, ``n_frames``, ``fps``, ``vocabulary``, ``features_fps``, ``samples``, ``notes``.
     table : SegmentTable
         Its segments, with the clusters of this recording alone.
     embeddings : (segments, 32) array of float32
@@ -46,17 +53,24 @@ class Piece:
 def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float32]) -> None:
     """Leave a piece, and the features (samples, dims) of its recording, in a folder."""
     pa, parquet = arrow()
-    with atomic_write(folder / f"{key}.npy") as draft, draft.open("wb") as file:
-        np.save(file, np.ascontiguousarray(features, np.float32), allow_pickle=False)
-    values = as_column(piece.embeddings.ravel(), np.float32)
-    embeddings = pa.FixedSizeListArray.from_arrays(values, EMBEDDED)
+    values = np.ascontiguousarray(features, np.float32)
+    arrays: dict[str, NDArray[Any]] = {FEATURES: values}
+    if piece.facts["vocabulary"] == BODIES:
+        arrays[WINDOWS] = all_windows(values)
+    for suffix, held in arrays.items():
+        array = BytesIO()  # into a file itself, numpy does not tell that the disk is full
+        np.save(array, held, allow_pickle=False)
+        with written(folder / f"{key}{suffix}") as draft:
+            draft.write_bytes(array.getbuffer())
+    flat = as_column(piece.embeddings.ravel(), np.float32)
+    embeddings = pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)
     columns = {
         name: as_column(column, DESCRIBED[name].type)
         for name, column in piece.table.columns().items()
     }
     table = pa.table({**columns, "embedding": embeddings})
     told = json.dumps(piece.facts, sort_keys=True).encode()
-    with atomic_write(folder / f"{key}.parquet") as draft:
+    with written(folder / f"{key}.parquet") as draft:
         parquet.write_table(
             table.replace_schema_metadata({METADATA: told}), draft, compression="zstd"
         )
@@ -93,14 +107,64 @@ def read_features(folder: Path, key: str) -> NDArray[np.float32]:
     ReadError
         They are gone, as after a build that took the recording out, or damaged.
     """
-    path = folder / f"{key}.npy"
+    features: NDArray[np.float32] = _read_array(folder / f"{key}{FEATURES}", np.float32)
+    return features
+
+
+def read_windows(folder: Path, key: str) -> NDArray[np.float16]:
+    """The windows of these features, as `kineme.library.index.windows.all_windows` gives them."""
+    windows: NDArray[np.float16] = _read_array(folder / f"{key}{WINDOWS}", np.float16)
+    return windows
+
+
+def read_parts(
+    folder: Path, key: str, dims: int, parts: Iterable[tuple[int, int]]
+) -> list[NDArray[np.float32]]:
+    """Parts [start, stop) of the features in a piece, without the rest of them.
+
+    Raises
+    ------
+    ReadError
+        They are gone or damaged.
+    """
+    path = folder / f"{key}{FEATURES}"
+    found = []
+    with _opening(path), near(path).open("rb", buffering=0) as file:
+        head = file.read(10)
+        data = 10 + int.from_bytes(head[8:10], "little")  # after the header of an npy file
+        for start, stop in parts:
+            file.seek(data + 4 * dims * start)
+            values = np.frombuffer(file.read(4 * dims * (stop - start)), np.float32)
+            found.append(_sound(values.reshape(stop - start, dims), np.float32))
+    return found
+
+
+def _read_array(path: Path, kind: type[np.floating[Any]]) -> NDArray[Any]:
+    with _opening(path):
+        return _sound(np.load(near(path), allow_pickle=False), kind)
+
+
+def _sound(rows: NDArray[Any], kind: type[np.floating[Any]]) -> NDArray[Any]:
+    """These rows, or a ValueError where they are not what a build writes."""
+    if rows.ndim != 2 or rows.dtype != kind:
+        raise ValueError("not rows of features")
+    if kind is np.float32:  # half precision cannot hold what overflows a distance
+        with np.errstate(all="ignore"):
+            squares = float(np.vdot(rows, rows))  # one pass, and not finite if any of them is not
+        if not squares < LARGEST:
+            raise ValueError("features that no recording has")
+    return rows
+
+
+@contextmanager
+def _opening(path: Path) -> Iterator[None]:
+    """A block that reads an array of a piece, or ends in a ReadError."""
     try:
-        features: NDArray[np.float32] = np.load(path, allow_pickle=False)
+        yield
     except FileNotFoundError as error:
         raise ReadError(path, "is gone: the library was built anew, open it again") from error
-    except (OSError, ValueError) as error:
+    except Exception as error:
         raise ReadError(path, "is damaged: remove it and build the library again") from error
-    return features
 
 
 def _column(table: Any, name: str) -> NDArray[Any]:

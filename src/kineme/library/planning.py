@@ -9,10 +9,10 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import check_path
 from kineme.errors import ParameterError, WriteError
 from kineme.library.layout import HEAD, PIECES, read_head, read_json
 from kineme.library.settings import Settings
+from kineme.library.storage.places import is_remote, place
 
 AnyPath = str | PathLike[str]
 
@@ -78,8 +78,8 @@ def known_sources(
     into: AnyPath, sources: Iterable[Path] = (), remove: Iterable[Path] = ()
 ) -> list[Path]:
     """The sources of a library after these were added and removed, as absolute paths."""
-    head = read_json(Path(into) / HEAD)
-    sources = [Path(each) for each in head.get("sources", ())] + [*map(absolute, sources)]
+    head = read_json(place(into) / HEAD)
+    sources = [place(each) for each in head.get("sources", ())] + [*map(absolute, sources)]
     removed = {*map(absolute, remove)}
     unknown = removed - set(sources)
     if unknown:
@@ -92,8 +92,7 @@ def known_sources(
 
 def opened(into: AnyPath) -> Path:
     """The folder of a library, made where there is none."""
-    check_path(into, "build")
-    folder = Path(into)
+    folder = place(into, "build")
     if (folder / HEAD).is_file():
         read_head(folder)
         return folder
@@ -110,13 +109,10 @@ def opened(into: AnyPath) -> Path:
 def as_paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
     """One path or several as a list; ParameterError where one is none."""
     if isinstance(given, str | PathLike):
-        return [Path(given)]
-    paths = list(given)
-    for path in paths:
-        check_path(path, "build")
-    return [Path(path) for path in paths]
+        return [place(given)]
+    return [place(path, "build") for path in given]
 
 
 def absolute(path: Path) -> Path:
     """The path from the root; links are not followed."""
-    return Path(os.path.abspath(path))  # noqa: PTH100
+    return path if is_remote(path) else Path(os.path.abspath(path))  # noqa: PTH100

@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from hashlib import sha256
 from os import PathLike, fspath
 from typing import Any
@@ -15,7 +16,7 @@ from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.methods.presets import DEFAULT, resolve_preset
 
-PIECE = "kineme.library.piece/1"
+PIECE = "kineme.library.piece/2"
 """Schema of a piece: a change of what is kept of a recording gets the next number."""
 
 
@@ -73,15 +74,27 @@ class Settings:
 
     @classmethod
     def from_json(cls, held: Mapping[str, Any]) -> Settings:
-        """Settings as `to_json` gave them."""
-        constants = {name: _tupled(value) for name, value in held["constants"].items()}
-        reading = {name: _tupled(value) for name, value in held["reading"].items()}
-        return cls(held["preset"], constants, reading, held["effectors"])
+        """Settings as `to_json` gave them.
+
+        Raises
+        ------
+        ParameterError
+            They are not.
+        """
+        try:
+            constants = {name: _tupled(value) for name, value in held["constants"].items()}
+            reading = {name: _tupled(value) for name, value in held["reading"].items()}
+            return cls(held["preset"], constants, reading, held["effectors"])
+        except (KeyError, TypeError, AttributeError) as error:
+            raise ParameterError(
+                "the settings of the library are not as they were written: build it anew"
+            ) from error
 
     def key(self, digest: str) -> str:
         """The name of the piece of a recording whose files have this digest."""
-        return sha256(f"{self._digest()} {digest}".encode()).hexdigest()[:32]
+        return sha256(f"{self._digest} {digest}".encode()).hexdigest()[:32]
 
+    @cached_property
     def _digest(self) -> str:
         """A digest of the version and of everything that decides what is found."""
         presets = []

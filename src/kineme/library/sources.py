@@ -9,9 +9,9 @@ from pathlib import Path
 
 from kineme.errors import ReadError
 from kineme.formats.keypoints.openpose import frame_files
-from kineme.formats.listing import recordings_in
 from kineme.formats.options import AnyPath
 from kineme.formats.skeletons.amc import find_skeleton
+from kineme.library.storage.recordings import recordings_under
 
 CHUNK = 1 << 20
 """Bytes that are digested at a time."""
@@ -106,7 +106,7 @@ def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[P
     for source in sources:
         inside = [source]
         if source.is_dir():
-            inside = recordings_in(source, recursive=recursive).recordings
+            inside = recordings_under(source, recursive=recursive)
         for path in inside:
             if path.exists() and not path.is_relative_to(without):
                 found.setdefault(path, source)

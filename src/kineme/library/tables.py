@@ -11,12 +11,16 @@ import shutil
 from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
+
+import numpy as np
 
 from kineme._doors import reading
 from kineme._files import atomic_write
-from kineme.errors import WriteError
-from kineme.library.layout import EMBEDDED, TABLES, arrow, as_column
+from kineme.errors import ReadError, WriteError
+from kineme.library.layout import EMBEDDED, TABLES, arrow, as_array, as_column
+from kineme.library.storage.places import is_remote, written
 from kineme.segments.table import DESCRIBED as SEGMENTS
 from kineme.segments.table import Column
 
@@ -31,6 +35,7 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
         "duration_s": Column(float, "seconds"),
         "piece": Column(str, "name of the files in `pieces/` that hold what is kept of it"),
         "features_fps": Column(float, "samples of its features per second"),
+        "samples": Column(int, "of its features; 0 where it is not searched"),
         "notes": Column(str, "what had to be inferred and what is unsure, one a line"),
     },
     "segments": {
@@ -59,6 +64,12 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     },
 }
 """The columns of each table, edits applied, and what is in them."""
+
+LARGEST = 1e30
+"""Of any number in a table."""
+
+ADDED = ("label", "action_label")
+"""Columns that come with the edits, where a table has none."""
 
 
 def table_of(name: str, columns: Mapping[str, Any]) -> Any:
@@ -92,6 +103,8 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
     """
     _, parquet = arrow()
     home = folder / TABLES
+    if is_remote(home):
+        return _put(home, tables)
     draft = home / f".{secrets.token_hex(6)}"
     try:
         draft.mkdir(parents=True)
@@ -107,6 +120,16 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error
     finally:
         shutil.rmtree(draft, ignore_errors=True)
+    return named
+
+
+def _put(home: Path, tables: Mapping[str, Any]) -> str:
+    """The same where folders cannot be moved: nothing names these tables before all are there."""
+    with TemporaryDirectory(prefix="kineme-") as near:
+        named = write_tables(Path(near), tables)
+        for file in sorted((Path(near) / TABLES / named).iterdir()):
+            with written(home / named / file.name) as draft:
+                shutil.copy(file, draft)
     return named
 
 
@@ -129,4 +152,26 @@ def read_table(folder: Path, named: str, name: str) -> Any:
     pa, parquet = arrow()
     path = folder / TABLES / named / f"{name}.parquet"
     with reading(path):
-        return parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
+        table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
+        table.validate(full=True)
+    for column, known in DESCRIBED[name].items():
+        times = table.column_names.count(column)
+        if times > 1 or (times == 0 and column not in ADDED):
+            said = "holds twice" if times else "lacks"
+            raise ReadError(path, f"is damaged: it {said} {column!r}; build the library again")
+        if times and not _is_sound(table.column(column), known.type):
+            raise ReadError(path, f"is damaged in {column!r}; build the library again")
+    return table
+
+
+def _is_sound(column: Any, kind: type) -> bool:
+    """Whether a column is of its type, and has a value in every row."""
+    pa, _ = arrow()
+    types = {str: pa.string(), int: pa.int64(), float: pa.float64()}
+    if column.null_count:
+        return False
+    if pa.types.is_fixed_size_list(column.type):
+        return bool(column.type.value_type == pa.float32() and column.type.list_size == EMBEDDED)
+    if column.type != types[kind]:
+        return False
+    return kind is not float or not (np.abs(as_array(column)) > LARGEST).any()

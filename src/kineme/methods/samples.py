@@ -34,3 +34,12 @@ def unstacked(features: NDArray[Any], offsets: tuple[float, ...]) -> NDArray[Any
         return None
     first = dims * int(np.argmin(np.abs(offsets)))
     return features[:, first : first + dims]
+
+
+def single_poses(features: NDArray[np.float32], offsets: tuple[float, ...]) -> NDArray[np.float32]:
+    """The poses without their neighbours in time; all, if they were not stacked at the offsets."""
+    bare = unstacked(features, offsets)
+    if bare is None:
+        return features
+    poses: NDArray[np.float32] = bare * len(offsets) ** 0.5
+    return poses

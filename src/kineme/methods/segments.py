@@ -19,6 +19,7 @@ def columns_of(
     is_primitive: NDArray[np.bool_] | None = None,
     clusters: tuple[Ints, Ints],
     scores: tuple[Floats, Floats],
+    border_confidence: tuple[Floats, Floats] | None = None,
 ) -> Columns:
     """Columns of both levels.
 
@@ -33,15 +34,18 @@ def columns_of(
         Whether it is a primitive, or else a transition; by default all in activities are.
     clusters, scores : pair of arrays
         Of the activities, and of the primitives.
+    border_confidence : pair of arrays, optional
+        How sure their starts are, where the method knows.
 
     Returns
     -------
     dict of str to array
-        ``level``, ``kind``, ``start_frame``, ``stop_frame``, ``cluster``, ``score``.
+        ``level``, ``kind``, ``start_frame``, ``stop_frame``, ``cluster``, ``score``, and
+        ``border_confidence`` if given.
     """
     parents = np.searchsorted(activities, primitives[:-1], side="right") - 1
     primitive = is_activity[parents] if is_primitive is None else is_primitive
-    return {
+    columns = {
         "level": np.repeat(["activity", "primitive"], [len(activities) - 1, len(parents)]),
         "kind": np.where(np.append(is_activity, primitive), "activity", "transition"),
         "start_frame": np.concatenate([activities[:-1], primitives[:-1]]),
@@ -49,6 +53,9 @@ def columns_of(
         "cluster": np.concatenate(clusters),
         "score": np.concatenate(scores),
     }
+    if border_confidence is not None:
+        columns["border_confidence"] = np.concatenate(border_confidence)
+    return columns
 
 
 def by_first_appearance(labels: NDArray[np.integer]) -> Ints:

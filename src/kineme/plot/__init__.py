@@ -2,6 +2,14 @@
 
 from kineme.plot.matrix import plot_matrix, similarity_image
 from kineme.plot.segmentation import plot_segmentation
+from kineme.plot.strips import plot_strip
 from kineme.plot.timeline import compare, plot_timeline
 
-__all__ = ["compare", "plot_matrix", "plot_segmentation", "plot_timeline", "similarity_image"]
+__all__ = [
+    "compare",
+    "plot_matrix",
+    "plot_segmentation",
+    "plot_strip",
+    "plot_timeline",
+    "similarity_image",
+]

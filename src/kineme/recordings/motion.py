@@ -74,7 +74,8 @@ class Motion(Recording):
         check_type(self.skeleton, Skeleton, "Motion", "then positions and fps", error=MotionError)
         assign(self, fps=as_rate(self.fps, error=MotionError))
         assign(self, positions=frozen(self.positions, "positions", error=MotionError))
-        if (reach := float(np.abs(self.positions).max(initial=0.0))) > FARTHEST:
+        reach = max(float(self.positions.max(initial=0.0)), -float(self.positions.min(initial=0.0)))
+        if reach > FARTHEST:
             raise MotionError(
                 f"positions reach {reach:.3g} m, where no body is: give unit=, or mend the values"
             )
@@ -94,7 +95,7 @@ class Motion(Recording):
                 f"rotations have shape {self.rotations.shape}, not ({self.n_frames}, {joints}, 4)"
             )
         norm = np.einsum("fjc,fjc->fj", self.rotations, self.rotations)
-        if np.abs(norm - 1).max() > 1e-6:
+        if max(norm.max() - 1, 1 - norm.min()) > 1e-6:
             raise MotionError("rotations are not unit quaternions: divide them by their norm")
 
     @classmethod

@@ -83,6 +83,8 @@ def _integers(values: ArrayLike, name: str) -> NDArray[np.int64]:
     array = _array(values, name)
     if array.size and array.dtype.kind not in "iu":
         raise ParameterError(f"column {name!r} must hold whole numbers, not {array.dtype}")
+    if array.size and int(array.max()) > np.iinfo(np.int64).max:
+        raise ParameterError(f"column {name!r} holds {array.max()}, which is too large")
     return array.astype(np.int64)
 
 
@@ -95,9 +97,11 @@ def _shares(values: ArrayLike, name: str) -> NDArray[np.float64]:
 
 def _texts(values: ArrayLike, name: str, allowed: tuple[str, ...] = ()) -> NDArray[np.str_]:
     texts = _array(values, name)
-    for text in set(texts.ravel().tolist()):
-        if not isinstance(text, str):
-            raise ParameterError(f"column {name!r} must hold texts, not {text!r}")
+    held = texts.ravel().tolist()
+    other = next((value for value in held if not isinstance(value, str)), "")
+    if other != "":
+        raise ParameterError(f"column {name!r} must hold texts, not {other!r:.60}")
+    for text in set(held):
         if allowed and text not in allowed:
             raise ParameterError(f"{name} must be {' or '.join(allowed)}, not {text!r}")
         if any(unicodedata.category(letter) in ("Cc", "Cs", "Zl", "Zp") for letter in text):

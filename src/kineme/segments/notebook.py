@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 from kineme.segments.timeline import segment_color, timeline_svg
 
 if TYPE_CHECKING:
-    from kineme.segments.table import Segment, SegmentTable
+    from kineme.segments.row import Rows, Segment
 
 ROWS = 8
 """Shown of a table."""
 COLUMNS = ("kind", "start s", "stop s", "duration s", "cluster", "label", "score")
 
 
-def page(title: str, timelines: Sequence[SegmentTable], rows: SegmentTable) -> str:
+def page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
     """HTML of a title, timelines below each other, and the first rows of a table.
 
     Parameters
@@ -43,9 +43,9 @@ def page(title: str, timelines: Sequence[SegmentTable], rows: SegmentTable) -> s
     return f"<div><p>{escape(title)}</p>{picture}{_rows(rows)}{below}</div>"
 
 
-def _rows(table: SegmentTable) -> str:
+def _rows(table: Rows) -> str:
     head = "".join(f"<th>{name}</th>" for name in COLUMNS)
-    body = "".join(f"<tr>{_cells(segment)}</tr>" for segment in table[:ROWS])
+    body = "".join(f"<tr>{_cells(segment)}</tr>" for segment in table.select(slice(ROWS)))
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 

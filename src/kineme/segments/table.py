@@ -1,6 +1,6 @@
 """The segment table: the package's common tongue.
 
-It has one row per segment and the columns of `DESCRIBED`. Rows are ordered by
+It has one row per segment and the columns described in `kineme.segments.row`. Rows are ordered by
 level, then by time. The activity level tiles the recording, and so does the
 primitive level where there is one: the first segment starts at 0, each starts
 where the one before it stops, the last stops at ``n_frames``. Frames are the
@@ -9,87 +9,29 @@ truth; seconds are always derived from them.
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, get_args, overload
+from typing import TYPE_CHECKING, Any, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import MissingDependencyError, ParameterError
+from kineme.segments.row import COLUMNS, DESCRIBED, Column, Kind, Level, Segment, lacking
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Level = Literal["activity", "primitive"]
-Kind = Literal["activity", "transition"]
-
-
-@dataclass(frozen=True)
-class Column:
-    """One column of the table: what files, pages and docs need to know of it.
-
-    Attributes
-    ----------
-    type : type
-        Of its cells; a float is nan where nothing is known.
-    meaning : str
-        In a sentence.
-    since_first : bool
-        Whether every file that kineme wrote has it; else it may be missing.
-    """
-
-    type: type[str | int | float]
-    meaning: str
-    since_first: bool = True
-
-
-DESCRIBED: Mapping[str, Column] = {
-    "level": Column(str, "`activity` or `primitive`"),
-    "kind": Column(str, "`activity`, or `transition` between two of them"),
-    "start_frame": Column(int, "first frame, from 0, at the rate of the source file"),
-    "stop_frame": Column(int, "one past the last frame"),
-    "start_s": Column(float, "`start_frame / fps`"),
-    "stop_s": Column(float, "`stop_frame / fps`"),
-    "cluster": Column(int, "equal numbers are equal movements; -1: in no cluster"),
-    "activity": Column(int, "the segment of the activity level that it lies in (or is), from 0"),
-    "label": Column(str, "a name given by a person or a knowledge base, or empty"),
-    "score": Column(float, "how probable it is that the segment is right; none where nobody says"),
-    "action": Column(int, "`cluster` of the activity that it lies in (or is)", since_first=False),
-    "border_confidence": Column(
-        float, "how probable it is that its start is right; none where nobody says",
-        since_first=False,
-    ),
-}  # fmt: skip
-COLUMNS = tuple(DESCRIBED)
-
-
-def lacking(names: Container[str]) -> list[str]:
-    """The columns that every segment table in a file has, and these names have not."""
-    return [name for name, known in DESCRIBED.items() if known.since_first and name not in names]
-
-
-@dataclass(frozen=True, slots=True)
-class Segment:
-    """One row of the table: a span ``[start_frame, stop_frame)`` and what it is."""
-
-    level: Level
-    kind: Kind
-    start_frame: int
-    stop_frame: int
-    start_s: float
-    stop_s: float
-    cluster: int
-    activity: int
-    label: str
-    score: float
-    action: int
-    border_confidence: float
-
-    @property
-    def duration_s(self) -> float:
-        """Seconds from start to stop."""
-        return self.stop_s - self.start_s
+__all__ = [
+    "COLUMNS",
+    "DESCRIBED",
+    "Column",
+    "Kind",
+    "Level",
+    "Segment",
+    "SegmentTable",
+    "lacking",
+]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -18,7 +18,7 @@ from kineme._colors import cluster_color, label_colors
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kineme.segments.table import Segment, SegmentTable
+    from kineme.segments.row import Rows, Segment
 
 BAND = 0.8
 """Height of a row's bars; the rest parts it from the next."""
@@ -42,7 +42,7 @@ def segment_color(segment: Segment, labels: Mapping[str, str] = NO_LABELS) -> st
 
 
 def draw_timeline(
-    rows: Mapping[str, SegmentTable],
+    rows: Mapping[str, Rows],
     seconds: float,
     *,
     colors: Sequence[Sequence[str]] | None = None,
@@ -89,7 +89,7 @@ def draw_timeline(
     return axes
 
 
-def timeline_svg(rows: Sequence[SegmentTable], start_s: float, stop_s: float) -> str:
+def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
     """The same as an ``<svg>``: never more bars in a row than it has pixels.
 
     Parameters
@@ -118,9 +118,7 @@ def timeline_svg(rows: Sequence[SegmentTable], start_s: float, stop_s: float) ->
     )
 
 
-def _pixels(
-    table: SegmentTable, start_s: float, stop_s: float
-) -> list[tuple[Segment, float, float]]:
+def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Segment, float, float]]:
     """The segments that begin a pixel of their own, with the pixels where they start and stop."""
     scale = WIDTH / max(stop_s - start_s, 1e-9)
     left = (table.start_s - start_s) * scale
@@ -130,7 +128,7 @@ def _pixels(
     return [
         (segment, round(a, 1), round(max(b, a + 0.5), 1))
         for segment, a, b in zip(
-            table[first], left[first].tolist(), (right - gap)[first].tolist(), strict=True
+            table.select(first), left[first].tolist(), (right - gap)[first].tolist(), strict=True
         )
     ]
 

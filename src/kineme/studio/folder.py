@@ -48,9 +48,12 @@ class Folder:
 
     def knowledge_bases(self) -> dict[str, Path]:
         """The knowledge bases by id."""
-        from kineme.transfer.knowledge_file import holds_knowledge
+        archives = [path for path in self._listed() if path.suffix.lower() == ".npz"]
+        if not archives:
+            return {}
+        from kineme.transfer.knowledge_file import holds_knowledge  # half a second of imports
 
-        return {file_id(path): path for path in self._listed() if holds_knowledge(path)}
+        return {file_id(path): path for path in archives if holds_knowledge(path)}
 
     def annotations(self) -> dict[str, Path]:
         """The label files by id, without the tables that the studio itself saves."""

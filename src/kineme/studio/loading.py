@@ -16,6 +16,7 @@ from kineme.methods.presets import DEFAULT
 from kineme.recordings import Motion
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Kind
 from kineme.studio.choices import check_offered
 from kineme.studio.reading import RecordingCache, stamp_of
 
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
     from kineme.transfer import KnowledgeBase
     from kineme.web.curves import Curves
     from kineme.web.page_data import PageData
+
+
+LONG = 300.0
+"""Seconds of a recording that is shown before it is segmented, which takes some seconds."""
 
 
 class LoadedRecording:
@@ -74,6 +79,11 @@ class LoadedRecording:
             return stamp_of(self.path) != self._stamp
         except ReadError:
             return True
+
+    @property
+    def is_long(self) -> bool:
+        """Whether segmenting it takes longer than people like to wait for a picture."""
+        return self.n_frames > LONG * self.fps
 
     def page_data(self) -> PageData:
         """All that a page draws but the segments."""
@@ -134,7 +144,11 @@ class LoadedRecording:
         try:
             return self.segment(), []
         except MotionError as error:  # a single point
-            return self._one_segment(), [f"not segmented: {error}"]
+            return self._one_segment("activity"), [f"not segmented: {error}"]
+
+    def not_segmented(self) -> Segmentation:
+        """The table while segments are being found: one transition."""
+        return self._one_segment("transition")
 
     def labelled(
         self,
@@ -172,10 +186,10 @@ class LoadedRecording:
         name = Path(str(said.get("path") or "")).name
         return said["sha256"] == self.provenance.sha256 or name == self.path.name
 
-    def _one_segment(self) -> Segmentation:
+    def _one_segment(self, kind: Kind) -> Segmentation:
         columns: dict[str, list[str] | list[int]] = {
             "level": ["activity"],
-            "kind": ["activity"],
+            "kind": [kind],
             "start_frame": [0],
             "stop_frame": [self.n_frames],
         }

@@ -14,16 +14,14 @@ import threading
 from pathlib import Path
 from typing import Any
 
-from msgspec import UNSET, structs
+from msgspec import structs
 
-from kineme.errors import ParameterError
-from kineme.segments import editing
-from kineme.segments.editing.carrying import names_of
-from kineme.segments.hierarchy import DEFAULT_DETAIL
+from kineme.errors import KinemeError, ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.journal import Change, Journal
 from kineme.studio.loading import LoadedRecording
+from kineme.studio.looks import preview_of, versions_of
 from kineme.studio.reading import RecordingCache
 from kineme.studio.storage import ChangedOnDiskError, saved_table
 from kineme.studio.videos import video_message
@@ -69,13 +67,34 @@ class OpenRecording:
         self._others = others
         self._lock = threading.RLock()
         self._file, table, self._notes = saved_table(path, self.loaded.fits, others)
-        if table is None:
+        self._finding = table is None and self.loaded.is_long
+        if self._finding:
+            table = self.loaded.not_segmented()
+        elif table is None:
             table, notes = self.loaded.first_table()
             self._notes = [*self._notes, *notes]
         elif _digest(table) not in ("", self.loaded.provenance.sha256):
             self._notes = [*self._notes, f"{path.name} has changed since its table was made"]
         self._table, self._journal = table, Journal(self._file.path, table)
         self.revision = max(revision, self._journal.revision)
+
+    @property
+    def finding(self) -> bool:
+        """Whether its segments are still to be found; until then nothing can be edited."""
+        return self._finding
+
+    def find(self) -> None:
+        """Segment a long recording, which is shown and played meanwhile."""
+        try:
+            table, notes = self.loaded.first_table()
+        except KinemeError as error:
+            table, notes = self._table, [f"not segmented: {error}"]
+        with self._lock:
+            self._finding = False
+            self._notes = [*self._notes, *notes]
+            self.revision = max(self.revision, self._journal.revision) + 1
+            if not self._file.changed():  # else another program has left a table
+                self._table, self._journal = table, Journal(self._file.path, table)
 
     @property
     def table_path(self) -> Path:
@@ -110,6 +129,7 @@ class OpenRecording:
                 can_redo=self._journal.can_redo,
                 saved=self._saved,
                 video=video_message(self.path),
+                finding=self._finding,
                 warnings=[*shown.warnings, *self._notes],
             )
             return message, anew
@@ -140,6 +160,8 @@ class OpenRecording:
             The edit cannot be made, or its result cannot be saved.
         """
         with self._lock:
+            if self._finding:
+                raise ParameterError("the segments are still being found: try again once they are")
             if self._journal.knows(name):
                 return self._edited([])
             if revision != self.revision:
@@ -158,39 +180,14 @@ class OpenRecording:
 
     def preview(self, wanted: PreviewRequest) -> Preview:
         """What segmenting again would make of the table, which stays as it is."""
-        from kineme.web.page_data import segments_message
-
-        before = self.table
-        detail = DEFAULT_DETAIL if wanted.detail is UNSET else wanted.detail
-        found = self.loaded.segment(wanted.preset, wanted.parameters, detail)
-        result = editing.carried(before, found)
-        shown = result.segmentation if wanted.keep else found
-        lost = [f"{result.corrections} corrections and {result.names} names"]
-        return Preview(
-            segmentation=segments_message(shown),
-            corrections=result.corrections,
-            names=result.names,
-            lost=result.lost if wanted.keep else lost,
-            details=list(found.hierarchy.details) if found.hierarchy else [DEFAULT_DETAIL],
-            detail=found.hierarchy.detail if found.hierarchy else DEFAULT_DETAIL,
-        )
+        return preview_of(self.table, self.loaded, wanted)
 
     def versions(self) -> list[Version]:
         """The tables that were replaced, the latest first."""
         with self._lock:
             kept = self._journal.kept()
             tables = {number: self._journal.table(number) for number in kept}
-        return [
-            Version(
-                number=number,
-                at=step.at,
-                edit=step.edit,
-                segments=len(tables[number]),
-                corrections=int(tables[number].provenance.get("corrections") or 0),
-                names=names_of(tables[number]),
-            )
-            for number, step in kept.items()
-        ]
+        return versions_of(kept, tables)
 
     def version(self, number: int) -> Comparison:
         """A table that was replaced, to lay beside the present one."""

@@ -75,8 +75,21 @@ class OpenRecordings:
                 others = [other for other in list(self._open.values()) if other.path != path]
                 tables = {other.table_path for other in others}
                 revision = 1 if known is None else known.revision + 1
-                self._open[name] = OpenRecording(name, path, self._cache, tables, revision)
+                opened = OpenRecording(name, path, self._cache, tables, revision)
+                self._open[name] = opened
+                if opened.finding:
+                    threading.Thread(target=self._find, args=[opened], daemon=True).start()
             return self._open[name]
+
+    def _find(self, opened: OpenRecording) -> None:
+        """Segment a long recording, and say when its table is there."""
+        try:
+            opened.find()
+        except Exception:
+            if threading.main_thread().is_alive():  # else the server has ended
+                raise
+        else:
+            self._changed(opened.id, opened.revision)
 
     def message(self, name: str) -> Recording:
         """All that a page shows of the recording of that id."""

@@ -12,11 +12,13 @@ import secrets
 import shutil
 import time
 import unicodedata
+from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from kineme._files import hold, is_held
 from kineme.errors import ParameterError, WriteError
 from kineme.formats import supported_formats
 from kineme.labels import label_formats
@@ -75,6 +77,7 @@ class Upload:
             self._file = self._draft.open("xb")
         except OSError as error:
             raise WriteError(root, f"cannot be written to: {error.strerror}") from error
+        hold(self._file.fileno())
 
     def __enter__(self) -> Self:
         return self
@@ -128,10 +131,13 @@ def safe_name(name: str) -> str:
 
 
 def forget_drafts(root: Path) -> None:
-    """Remove what a killed server left of uploads."""
+    """Remove what a killed server left of uploads; not what another one still writes."""
     for path in root.glob(".upload-*.part"):
-        if DRAFT.fullmatch(path.name) and time.time() - path.stat().st_mtime > FORGOTTEN:
-            path.unlink(missing_ok=True)
+        if not DRAFT.fullmatch(path.name):
+            continue
+        with suppress(OSError):  # another server may have been quicker
+            if time.time() - path.stat().st_mtime > FORGOTTEN and not is_held(path):
+                path.unlink()
 
 
 def recording_suffixes() -> list[str]:

@@ -117,6 +117,7 @@ class Recording(Struct, frozen=True, kw_only=True):
 
     ``levels`` has the tables at all details, coarsest first, in a report; the studio's server is
     asked for them.
+    While ``finding`` its segments are still to be found, and the table is a single transition.
     """
 
     id: str
@@ -132,6 +133,7 @@ class Recording(Struct, frozen=True, kw_only=True):
     can_undo: bool
     can_redo: bool
     saved: str
+    finding: bool = False
     warnings: list[str]
 
 

@@ -185,7 +185,7 @@ def test_activities_alternate_and_are_counted_by_first_appearance() -> None:
     st.integers(1, 90), st.integers(1, 4), st.integers(0, 2**32 - 1),
     st.sampled_from(["held", "noise", "drift", "far"]),
 )  # fmt: skip
-@settings(max_examples=80)
+@settings(max_examples=60)
 def test_nothing_is_too_short_or_too_strange(frames, dims, seed, kind) -> None:
     rng = np.random.default_rng(seed)
     rows = {
@@ -237,7 +237,7 @@ def constants(draw: st.DrawFn) -> dict[str, float | None]:
 
 
 @given(constants(), st.integers(1, 400))
-@settings(max_examples=150)
+@settings(max_examples=60)
 def test_segments_tile_whatever_the_constants(overrides, frames) -> None:
     rows = np.concatenate([swing(5, period=1), swing(6, period=1.2, axis=2)])[:frames]
     found = analyze_actions(rows, resolve_preset("kineme", **overrides))

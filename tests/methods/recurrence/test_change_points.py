@@ -22,7 +22,7 @@ from kineme.methods.recurrence.recurrence import Recurrence, narrower, phase_win
 from kineme.methods.segments import by_first_appearance
 from loops import swing
 
-seconds = settings(max_examples=120)
+seconds = settings(max_examples=60)
 
 
 @st.composite

@@ -84,7 +84,7 @@ def test_with_nothing_between_two_cuts_the_ends_stay() -> None:
 
 
 @given(st.integers(0, 400), st.integers(1, 400), st.sets(st.integers(1, 399), max_size=9))
-@settings(max_examples=100)
+@settings(max_examples=60)
 def test_repetitions_lie_in_their_activity_whatever_is_cut(start, length, places) -> None:
     rows = shaken(8)
     start = min(start, len(rows) - 1)

@@ -15,7 +15,7 @@ from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.recurrence.recurrence import narrower, phase_windows, recurrence
 from loops import swing
 
-seconds = settings(max_examples=120)
+seconds = settings(max_examples=60)
 STEPS = st.integers(1, 7)
 WIDTHS = st.integers(0, 12)
 BLURS = GAPS = st.integers(0, 15)

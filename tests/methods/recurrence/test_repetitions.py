@@ -17,7 +17,7 @@ from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from loops import nod, swing
 
-seconds = settings(max_examples=150)
+seconds = settings(max_examples=60)
 
 
 @given(points(), st.data())

@@ -19,7 +19,7 @@ from kineme.methods.region_growing.activities import (
     square_cuts,
 )
 
-seconds = settings(max_examples=150)
+seconds = settings(max_examples=60)
 GAPS = st.integers(1, 6)
 COUNTS = st.integers(0, 30)
 

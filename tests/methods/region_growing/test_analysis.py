@@ -171,7 +171,7 @@ def constants(draw: st.DrawFn) -> RegionGrowingPreset:
 
 
 @given(features(max_frames=60), constants())
-@settings(max_examples=300)
+@settings(max_examples=60)
 def test_segments_tile_whatever_the_constants(points, preset) -> None:
     assert_tiles(analyze_regions(points, preset, mirror=np.negative), len(points))
 

@@ -13,7 +13,7 @@ from kineme.graph import BASIC_STEPS, neighbor_graph, warping_paths
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.clustering import cluster_segments
 
-seconds = settings(max_examples=100)
+seconds = settings(max_examples=60)
 CONSTANTS = {"steps": BASIC_STEPS, "skip_penalty": 0.0, "zero_cost": 1e-6, "separation": None}
 COVERAGES = st.sampled_from([0.1, 0.5, 0.66, 1.0])
 

@@ -13,7 +13,7 @@ from kineme.graph import BASIC_STEPS, WarpingPaths, neighbor_graph, warping_path
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.primitives import _choose, primitive_cuts
 
-seconds = settings(max_examples=100)
+seconds = settings(max_examples=60)
 CONSTANTS = {"steps": BASIC_STEPS, "skip_penalty": 0.0, "zero_cost": 1e-6, "separation": None}
 
 

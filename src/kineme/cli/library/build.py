@@ -9,7 +9,8 @@ import typer
 
 from kineme.cli.help import RECORDINGS
 from kineme.cli.inputs import Batch
-from kineme.cli.messages import Failures, progress
+from kineme.cli.library.folder import Scheduler, path_or_url
+from kineme.cli.messages import Failures, progress, say_skipped
 from kineme.cli.preset_options import PRESET, with_preset_options
 from kineme.cli.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.request import Request
@@ -23,24 +24,36 @@ if TYPE_CHECKING:
 @with_reading_options
 def build(
     into: Annotated[
-        Path, typer.Option("--into", help="Folder of the library, new or to be brought up to date.")
+        Path,
+        typer.Option(
+            "--into",
+            parser=path_or_url,
+            metavar="PATH",
+            help="Folder or URL of the library, new or to be brought up to date.",
+        ),
     ],
     files: Annotated[
         list[Path] | None,
         typer.Argument(
+            parser=path_or_url,
             metavar="FILES",
-            help=f"Recordings, or folders of them: {RECORDINGS}. They add to those that the "
-            "library knows; without any, it looks at these again.",
+            help=f"Recordings, folders of them, or URLs: {RECORDINGS}. They add to those that "
+            "the library knows; without any, it looks at these again.",
         ),
     ] = None,
     remove: Annotated[
         list[Path] | None,
-        typer.Option(help="Take these files or folders out of the library; may be given again."),
+        typer.Option(
+            parser=path_or_url,
+            metavar="PATH",
+            help="Take these files or folders out of the library; may be given again.",
+        ),
     ] = None,
     jobs: Annotated[
         int | None,
         typer.Option(min=1, help="Processes at once.", show_default="one for each core"),
     ] = None,
+    scheduler: Scheduler = None,
     recursive: Annotated[
         bool | None,
         typer.Option(
@@ -68,6 +81,7 @@ def build(
         from kineme.library import Settings
         from kineme.library.building import build as build_library
         from kineme.library.planning import known_sources
+        from kineme.library.storage.places import is_remote
 
         said = any((preset, constants, reading, effectors))
         settings: Settings | None = None
@@ -84,12 +98,25 @@ def build(
                 recursive=recursive,
                 settings=settings,
                 jobs=_cores() if jobs is None else jobs,
+                client=scheduler,
                 progress=stage,
             )
         if not quiet:
             typer.echo(_summary(built))
-        _exit(built, Batch(sources, recursive=built.recursive))
+        elsewhere = {path for path in sources if is_remote(path)}
+        here = [path for path in sources if path not in elsewhere]
+        _say_elsewhere(built, elsewhere)
+        _exit(built, Batch(here, recursive=built.recursive))
     failures.exit()
+
+
+def _say_elsewhere(built: Built, sources: set[Path]) -> None:
+    """Say what failed that was to be read from URLs; end with 1 if a source itself did."""
+    failed = {path: reason for path, reason in built.failed.items() if hasattr(path, "protocol")}
+    for path, reason in failed.items():
+        say_skipped(f"{path}: {reason.removeprefix(f'{path}: ')}")
+    if sources & failed.keys():
+        raise typer.Exit(1)
 
 
 def _exit(built: Built, batch: Batch) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme.cli.library.folder import Folder, Json, opened
+from kineme.cli.library.folder import Folder, Json, Scheduler, opened
 from kineme.cli.reading import Quiet
 from kineme.cli.targets import make_folder_of
 
@@ -55,6 +55,7 @@ def search(
     export: Annotated[
         Path | None, typer.Option(help="Folder to make: each hit as a clip, and a manifest.")
     ] = None,
+    scheduler: Scheduler = None,
     json: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -81,6 +82,7 @@ def search(
             top=top,
             max_per_recording=max_per_recording,
             mirror=mirror,
+            client=scheduler,
         )
         clips = [] if export is None else library.clips(hits, export)
         if json:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from json import dumps
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -16,9 +17,20 @@ UNSURE = 8
 """Of what is unsure, so many are shown."""
 
 
-def show(folder: Folder, json: Json = False) -> None:
+def show(
+    folder: Folder,
+    pictures: Annotated[
+        Path | None,
+        typer.Option(
+            help="Folder for pictures: a strip of small figures for each cluster, as PNG.",
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
     """Tell the recordings, hours and clusters of a library, and what is unsure."""
     with opened(folder) as library:
+        if pictures is not None:
+            library.pictures(pictures)
         if json:
             typer.echo(dumps(_facts(library)))
         else:

@@ -29,6 +29,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._checks import is_number
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import Person, Video, video_to_motion
 from kineme.formats.options import ReadOptions
@@ -217,7 +218,7 @@ def _found(mapping: Mapping[str, Any], keys: Sequence[str]) -> Any:
 
 
 def _positive(value: Any) -> float | None:
-    good = isinstance(value, int | float) and np.isfinite(value) and value > 0
+    good = is_number(value) and value > 0
     return float(value) if good else None
 
 

@@ -55,7 +55,7 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
         notes.append("events: " + ", ".join(f"{name} at {at:.2f} s" for at, name in file.events))
     points = Points(
         [file.labels[i] for i in markers],
-        file.points[:, markers],
+        file.points[:, markers] if left_out else file.points,
         fps,
         unit=options.unit or _unit(file),
         up=options.up or _up(file),

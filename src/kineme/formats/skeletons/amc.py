@@ -27,9 +27,11 @@ from kineme.errors import ReadError
 from kineme.formats.files import FileContent, load, numbers
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
+from kineme.formats.skeletons.amc_frames import read_frames
 from kineme.formats.skeletons.amc_writer import write_amc
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
-from kineme.formats.units import BYTES_PER_JOINT, metres, place
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
+from kineme.formats.units import blocks, metres
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
@@ -37,7 +39,6 @@ Floats = NDArray[np.float64]
 FPS = 120.0
 _FPS_COMMENT = re.compile(rb"^# fps ([0-9.e+-]+)\s*$", re.MULTILINE)
 _KEYWORD = re.compile(rb"^[ \t]*:(FULLY-SPECIFIED|DEGREES|RADIANS)\b", re.MULTILINE | re.IGNORECASE)
-_COMMENT = re.compile(rb"^[ \t]*#.*$", re.MULTILINE)
 _FIRST_FRAME = re.compile(rb"^[ \t]*\d+[ \t]*\r?$", re.MULTILINE)
 
 
@@ -45,15 +46,10 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of an AMC file on the skeleton of its ASF."""
     asf = options.skeleton or find_skeleton(content.path)
     figure = read_asf(load(asf), None if options.unit is None else metres(options.unit))
-    start = _FIRST_FRAME.search(content.data)
-    if start is None:
-        raise content.error("no frame found: an AMC has a line with a number before each")
-    head = content.data[: start.start()]
+    head = _head(content)
     said = [word.lower() for word in _KEYWORD.findall(head)]
     turn = 1.0 if b"radians" in said else radians(1) if b"degrees" in said else figure.turn
-    values = _quickly(content, start.start(), figure) or _line_by_line(
-        content, start.start(), figure
-    )
+    values = read_frames(content, len(head), figure)
     notes = [f"skeleton from {asf}"]
     fps = options.fps or _written_rate(head)
     if fps is None:
@@ -61,14 +57,27 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
         notes.append(f"frame rate {FPS:g} Hz assumed: AMC files do not store one")
     n_frames, n_joints = len(next(iter(values.values()))), figure.skeleton.n_joints
     content.claim(BYTES_PER_JOINT * n_joints * n_frames, f"{n_joints} joints in {n_frames} frames")
+    provenance = content.provenance("AMC", notes)
+    content.let_go()
+    rotations, slides = _local(values, figure, turn)
+    del values  # before as much again is made of it
     return place(
         figure.skeleton,
-        *_local(values, figure, turn),
+        rotations,
+        slides,
         fps,
         unit="m",
         up=options.up or "y",
-        provenance=content.provenance("AMC", notes),
+        provenance=provenance,
     )
+
+
+def _head(content: FileContent) -> bytes:
+    """What stands before the first frame."""
+    start = _FIRST_FRAME.search(content.data)
+    if start is None:
+        raise content.error("no frame found: an AMC has a line with a number before each")
+    return content.data[: start.start()]
 
 
 def find_skeleton(path: Path) -> Path:
@@ -111,136 +120,38 @@ def _written_rate(head: bytes) -> float | None:
         return None
 
 
-def _local(values: dict[str, Floats], figure: Figure, turn: float) -> tuple[Floats, Floats]:
-    """Rotations (frames, joints, 4) and translations (frames, joints, 3), metres."""
+def _local(
+    values: dict[str, Floats], figure: Figure, turn: float
+) -> tuple[Floats, dict[int, Floats]]:
+    """Rotations (frames, joints, 4); where joints slide, (frames, 3) each, metres."""
     skeleton = figure.skeleton
     n = len(next(iter(values.values())))
-    rotations = np.zeros((skeleton.n_joints, 4, n))
-    rotations[:, 0] = 1.0
-    translations = np.empty((skeleton.n_joints, 3, n))
-    translations[:] = skeleton.offsets[:, :, None]
+    rotations = np.empty((n, skeleton.n_joints, 4))
+    for span in blocks(n):
+        turned = np.zeros((skeleton.n_joints, 4, span.stop - span.start))
+        turned[:, 0] = 1.0
+        for name, bone in figure.bones.items():
+            turns = [i for i, dof in enumerate(bone.dof) if dof[0] == "r"][::-1]
+            axes = "".join(bone.dof[i][1] for i in turns)
+            local = rot.from_euler(turn * values[name][span][:, turns], axes)
+            if name == ROOT:
+                local = rot.multiply(local, bone.frame)
+            else:
+                local = rot.multiply(rot.multiply(bone.frame, local), rot.conjugate(bone.frame))
+            turned[skeleton.joint(name)] = local.T
+        rotations[span] = turned.transpose(2, 0, 1)
+    slides = {}
     for name, bone in figure.bones.items():
-        j = skeleton.joint(name)
-        turns = [i for i, dof in enumerate(bone.dof) if dof[0] == "r"][::-1]
-        axes = "".join(bone.dof[i][1] for i in turns)
-        local = rot.from_euler(turn * values[name][:, turns], axes)
-        if name == ROOT:
-            rotations[j] = rot.multiply(local, bone.frame).T
-        else:
-            rotations[j] = rot.multiply(
-                rot.multiply(bone.frame, local), rot.conjugate(bone.frame)
-            ).T
-        slides = np.zeros((n, 3))
+        slid = np.zeros((n, 3))
         for i, dof in enumerate(bone.dof):
             if dof[0] == "t":
-                slides[:, "xyz".index(dof[1])] = values[name][:, i]
+                slid[:, "xyz".index(dof[1])] = values[name][:, i]
+        j = skeleton.joint(name)
         if name == ROOT:
-            translations[j] = figure.scale * (bone.position + slides).T
-        elif slides.any():
-            translations[j] += figure.scale * rot.rotate(bone.frame, slides).T
-    return rotations.transpose(2, 0, 1), translations.transpose(2, 0, 1)
-
-
-def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floats] | None:
-    """Each bone's values, (frames, dofs), if every frame is laid out as the first, else None."""
-    body = content.data[start:]
-    words = (_COMMENT.sub(b"", body) if b"#" in body else body).split()
-    columns: dict[str, int] = {}
-    at = 1
-    while at < len(words) and not words[at].isdigit():
-        name = words[at].decode("utf-8", "replace")
-        if name not in figure.bones or name in columns:
-            return None
-        columns[name] = at
-        at += 1 + len(figure.bones[name].dof)
-    period = at
-    n, rest = divmod(len(words), period)
-    if rest or any(len(figure.bones[name].dof) and name not in columns for name in figure.bones):
-        return None
-    values = {name: np.zeros((n, len(bone.dof))) for name, bone in figure.bones.items()}
-    try:
-        if list(map(int, words[::period])) != list(range(int(words[0]), int(words[0]) + n)):
-            return None
-        for name, at in columns.items():
-            if words[at::period].count(words[at]) != n:
-                return None
-            for i in range(values[name].shape[1]):
-                values[name][:, i] = list(map(float, words[at + 1 + i :: period]))
-    except ValueError:
-        return None
-    finite = all(np.isfinite(block).all() for block in values.values())
-    return values if finite else None
-
-
-def _line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
-    """As `_quickly`, for any layout, and with an error that names the line.
-
-    A fault in the very last line, or bones missing from the last frame, is
-    what a truncated file looks like: that frame is left out with a warning.
-    Anything else that cannot be understood is an error.
-    """
-    frames: list[dict[str, list[float]]] = []
-    first = content.line_at(start)
-    lines = content.data[start:].rstrip().splitlines()
-    last = first + len(lines) - 1
-    began, label = first, 0
-    fault: ReadError | None = None
-    for number, line in enumerate(lines, first):
-        words = line.split()
-        if not words or words[0].startswith(b"#"):
-            continue
-        if len(words) == 1 and words[0].isdigit() and len(words[0]) < 19:
-            if frames:
-                _check_complete(content, frames, began)
-                if int(words[0]) != label + 1:
-                    content.warn(f"frame {int(words[0])} follows {label}", number)
-            began, label = number, int(words[0])
-            frames.append({})
-            continue
-        try:
-            _add_bone(frames[-1], words, figure)
-        except ValueError as error:
-            fault = content.error(str(error), number)
-            if number < last:
-                raise fault from None
-    try:
-        _check_complete(content, frames, began)
-    except ReadError as error:
-        fault = fault or error
-    if fault is not None:
-        if len(frames) == 1:
-            raise fault
-        frames.pop()
-        content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
-    absent = [n for n, bone in figure.bones.items() if bone.dof and n not in frames[0]]
-    if absent:
-        content.warn(f"no values for {', '.join(absent)}: taken to be 0")
-    return {
-        name: np.array([frame.get(name, [0.0] * len(bone.dof)) for frame in frames])
-        for name, bone in figure.bones.items()
-    }
-
-
-def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure) -> None:
-    name = words[0].decode("utf-8", "replace")
-    if name not in figure.bones:
-        raise ValueError(f"bone {name[:40]!r} is not in the skeleton: is it the wrong ASF?")
-    if name in frame:
-        raise ValueError(f"bone {name!r} stands twice in one frame")
-    values = numbers(words[1:])
-    dof = figure.bones[name].dof
-    if len(values) != len(dof):
-        raise ValueError(
-            f"bone {name!r} has {len(values)} values, the skeleton asks for {len(dof)}"
-        )
-    frame[name] = values
-
-
-def _check_complete(content: FileContent, frames: list[dict[str, list[float]]], line: int) -> None:
-    """ReadError if the newest frame is empty or lacks a bone that the first one has."""
-    missing = [name for name in frames[0] if name not in frames[-1]]
-    if missing or not frames[-1]:
-        raise content.error(f"a frame without {missing[0] if missing else 'any bone'}", line)
+            slides[j] = figure.scale * (bone.position + slid)
+        elif slid.any():
+            slides[j] = skeleton.offsets[j] + figure.scale * rot.rotate(bone.frame, slid)
+    return rotations, slides
 
 
 def _recognises(head: bytes) -> bool:

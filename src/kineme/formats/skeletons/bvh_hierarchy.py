@@ -103,7 +103,7 @@ class _Hierarchy:
 
     def _channels(self, line: int) -> list[tuple[str, str]]:
         declared = self._next()[0]
-        if not declared.isdecimal():
+        if not declared.isdecimal() or len(declared) > 18:
             raise self.content.error(f"CHANNELS needs a number, found {declared[:40]!r}", line)
         channels = []
         for _ in range(int(declared)):

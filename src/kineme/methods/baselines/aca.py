@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,10 +34,11 @@ from kineme.methods.baselines.reduction import (
 )
 from kineme.methods.baselines.segments import Segments
 
+if TYPE_CHECKING:
+    from kineme.methods.baselines.constants import AcaConstants, AlignedConstants
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-
-ITERATIONS = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,61 +55,46 @@ class State:
         )
 
 
-def aca(
-    features: Floats,
-    *,
-    n_classes: int,
-    shortest: int = 32,
-    longest: int = 60,
-    starts: int = 1,
-    centres: int = 20,
-    seed: int = 0,
-) -> Segments:
-    """Segments in ``n_classes`` clusters with the least total distance to their class.
+def aca(features: Floats, preset: AcaConstants) -> Segments:
+    """Segments in ``preset.n_classes`` clusters with the least total distance to their class.
 
     Parameters
     ----------
     features : ndarray of shape (frames, dims)
         At 120 Hz, such as `joints.log_maps`.
-    n_classes : int
-        The number of classes, which the method has to be told.
-    shortest, longest : int, optional
-        Length of a segment, in blocks of at most five frames.
-    starts : int, optional
-        Initialisations, of which the one with the least objective is kept.
-    centres : int, optional
-        K-means centres of the reduction to blocks.
-    seed : int, optional
-        Of all k-means starts; equal seeds give equal results.
+    preset : AcaConstants
+        Told the number of classes; equal seeds give equal results.
 
     Raises
     ------
     ParameterError
         The recording is too short for the classes or lengths.
     """
-    random = np.random.RandomState(seed)
-    blocks = block_starts(features, centres=centres, random=random)
-    check_room(len(blocks), n_classes, shortest, longest)
-    kernel = frame_kernel(features[blocks])
+    n_classes, shortest, longest = preset.told(), preset.shortest, preset.longest
+    random = np.random.RandomState(preset.seed)
+    blocks = block_starts(features, preset, random)
+    check_room(len(blocks), n_classes, shortest, longest, preset.longest_block)
+    kernel = frame_kernel(features[blocks], preset.nearest_share)
     weights = np.ones(len(blocks))
-    first = initial_states(kernel, n_classes, shortest, longest, starts, random)
-    best = least([improve(kernel, weights, state, n_classes, longest) for state in first])
+    lengths = shortest, longest
+    first = initial_states(kernel, n_classes, lengths, preset.starts, preset, random)
+    best = least([improve(kernel, weights, each, n_classes, longest, preset) for each in first])
     return segments_of(best, np.append(blocks, len(features)))
 
 
 def initial_states(
     kernel: Floats,
     n_classes: int,
-    shortest: int,
-    longest: int,
+    lengths: tuple[int, int],
     starts: int,
+    preset: AlignedConstants,
     random: np.random.RandomState,
 ) -> Iterator[State]:
     """States from spectral clustering of the propagated kernel, one per start."""
-    embedding = spectral_embedding(propagate(kernel, longest), n_classes)
+    embedding = spectral_embedding(propagate(kernel, lengths[1]), n_classes)
     for _ in range(starts):
-        labels = tightest_clusters(embedding, n_classes, random)
-        yield majority_segments(labels, n_classes, shortest, longest)
+        labels = tightest_clusters(embedding, n_classes, preset.kmeans_starts, random)
+        yield majority_segments(labels, n_classes, *lengths)
 
 
 def spectral_embedding(similarity: Floats, n_classes: int) -> Floats:
@@ -142,15 +129,22 @@ def majority_segments(labels: Ints, n_classes: int, shortest: int, longest: int)
     return State(borders, majority[borders[1:] - 1, np.diff(borders) - 1])
 
 
-def improve(kernel: Floats, weights: Floats, state: State, n_classes: int, longest: int) -> State:
-    """The state reached when the segments repeat, or after 20 searches.
+def improve(
+    kernel: Floats,
+    weights: Floats,
+    state: State,
+    n_classes: int,
+    longest: int,
+    preset: AlignedConstants,
+) -> State:
+    """The state reached when the segments repeat, or after ``preset.searches``.
 
     A class left without segments ends it with an infinite objective. A search
-    depends on the state alone, so once a state comes back the 20th is known.
+    depends on the state alone, so once a state comes back the last is known.
     """
     found: list[State] = []
     alignments: dict[tuple[int, int], Floats] = {}
-    for _ in range(ITERATIONS):
+    for _ in range(preset.searches):
         spans = [(int(a), int(b)) for a, b in pairwise(state.borders)]
         alignments = {
             span: alignments[span]
@@ -164,7 +158,7 @@ def improve(kernel: Floats, weights: Floats, state: State, n_classes: int, longe
         for earlier, other in enumerate(found):
             if state.same(other):
                 period = len(found) - earlier
-                return [*found, state][earlier + 1 + (ITERATIONS - earlier - 2) % period]
+                return [*found, state][earlier + 1 + (preset.searches - earlier - 2) % period]
         found.append(state)
     return state
 
@@ -210,7 +204,9 @@ def segments_of(state: State, block_borders: Ints) -> Segments:
     return Segments(borders[1:-1], state.classes, int(borders[-1]), state.objective)
 
 
-def check_room(n_blocks: int, n_classes: int, shortest: int, longest: int) -> None:
+def check_room(
+    n_blocks: int, n_classes: int, shortest: int, longest: int, longest_block: int
+) -> None:
     """Refuse lengths and classes that no segmentation of so many blocks can have."""
     if not 1 <= shortest <= longest:
         raise ParameterError(
@@ -218,8 +214,8 @@ def check_room(n_blocks: int, n_classes: int, shortest: int, longest: int) -> No
         )
     if n_classes < 1 or n_blocks < n_classes * shortest:
         raise ParameterError(
-            f"{n_blocks} blocks (of up to five frames) cannot hold {n_classes} classes with "
-            f"segments of at least {shortest}: use a longer recording or smaller values"
+            f"{n_blocks} blocks (of up to {longest_block} frames) cannot hold {n_classes} classes "
+            f"with segments of at least {shortest}: use a longer recording or smaller values"
         )
     if -(-n_blocks // longest) > n_blocks // shortest:
         raise ParameterError(

@@ -8,6 +8,8 @@ spectral clustering of the frames.)
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.decomposition import PCA
@@ -18,15 +20,16 @@ from kineme.errors import ParameterError
 from kineme.methods.baselines.principal import checked
 from kineme.methods.baselines.segments import Segments
 
+if TYPE_CHECKING:
+    from kineme.methods.baselines.constants import GmmConstants
+
 Floats = NDArray[np.float64]
 
-SHARE = 0.9
 
-
-def gmm(features: Floats, *, n_classes: int, seed: int = 0) -> Segments:
+def gmm(features: Floats, preset: GmmConstants) -> Segments:
     """Runs of frames whose likeliest Gaussian is the same; the Gaussians are the clusters.
 
-    The features are reduced to the principal components with 90 % of their
+    The features are reduced to the principal components with most of their
     variance; expectation maximisation starts from k-means. No segment is too
     short to stand.
 
@@ -34,21 +37,19 @@ def gmm(features: Floats, *, n_classes: int, seed: int = 0) -> Segments:
     ----------
     features : ndarray of shape (frames, dims)
         Such as the quaternions of `joints.joint_quaternions`.
-    n_classes : int
-        The number of Gaussians, which the method has to be told.
-    seed : int, optional
-        Of k-means.
+    preset : GmmConstants
+        Told the number of Gaussians.
 
     Raises
     ------
     ParameterError
         Fewer frames than Gaussians.
     """
-    frames = checked(features, 1.0)
-    if not 1 <= n_classes <= len(frames):
+    frames, n_classes = checked(features), preset.told()
+    if n_classes > len(frames):
         raise ParameterError(f"{len(frames)} frames cannot be told into {n_classes} classes")
     with threadpool_limits(1):  # sums, and so results, would change with the number of cores
-        reduced = PCA(SHARE, svd_solver="full").fit_transform(frames)
-        labels = GaussianMixture(n_classes, random_state=seed).fit_predict(reduced)
+        reduced = PCA(preset.variance_kept, svd_solver="full").fit_transform(frames)
+        labels = GaussianMixture(n_classes, random_state=preset.seed).fit_predict(reduced)
     cuts = np.flatnonzero(np.diff(labels)) + 1
     return Segments(cuts, labels[np.append(0, cuts)].astype(np.int64), len(frames))

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,17 +28,13 @@ from kineme.methods.baselines.principal import (
 )
 from kineme.methods.baselines.segments import Segments, unclustered
 
+if TYPE_CHECKING:
+    from kineme.methods.baselines.constants import PcaConstants, PpcaConstants
+
 Floats = NDArray[np.float64]
 
-# PCA: frames that fix the dimension, span of the error's rise, variance kept, deviations.
-FIRST_S, LAG_S, PCA_SHARE, DEVIATIONS = 240 / 120, 60 / 120, 0.9, 3.0
 
-# Probabilistic PCA: frames ahead (and first model), growth of the model, variance kept, and
-# the share of H's range by which a peak must rise above the valley before it.
-AHEAD_S, GROWTH_S, PPCA_SHARE, RISE = 150 / 120, 10 / 120, 0.95, 0.1
-
-
-def pca(features: Floats, *, fps: float) -> Segments:
+def pca(features: Floats, preset: PcaConstants) -> Segments:
     """Cuts where the error of a fixed number of principal components rises faster than before.
 
     The first two seconds fix the number r of components that keep 90 % of the
@@ -49,19 +46,18 @@ def pca(features: Floats, *, fps: float) -> Segments:
     Parameters
     ----------
     features : ndarray of shape (frames, dims)
-    fps : float
-        Frames per second.
+        At ``preset.working_fps``.
+    preset : PcaConstants
 
     Raises
     ------
     ParameterError
         Features that are not finite numbers of shape (frames, dims).
     """
-    first, lag = round(FIRST_S * fps), max(1, round(LAG_S * fps))
-    return _cut_and_start_anew(checked(features, fps), partial(_error_jump, first=first, lag=lag))
+    return _cut_and_start_anew(checked(features), partial(_error_jump, preset=preset))
 
 
-def ppca(features: Floats, *, fps: float) -> Segments:
+def ppca(features: Floats, preset: PpcaConstants) -> Segments:
     """Cuts where the frames ahead are least like the frames so far.
 
     A Gaussian is fitted to the first K frames: their principal components up to
@@ -73,18 +69,15 @@ def ppca(features: Floats, *, fps: float) -> Segments:
     Parameters
     ----------
     features : ndarray of shape (frames, dims)
-    fps : float
-        Frames per second.
+        At ``preset.working_fps``.
+    preset : PpcaConstants
 
     Raises
     ------
     ParameterError
         Features that are not finite numbers of shape (frames, dims).
     """
-    ahead, growth = max(2, round(AHEAD_S * fps)), max(1, round(GROWTH_S * fps))
-    return _cut_and_start_anew(
-        checked(features, fps), partial(_distance_peak, ahead=ahead, growth=growth)
-    )
+    return _cut_and_start_anew(checked(features), partial(_distance_peak, preset=preset))
 
 
 def _cut_and_start_anew(features: Floats, find: Callable[..., int | None]) -> Segments:
@@ -100,51 +93,58 @@ def _cut_and_start_anew(features: Floats, find: Callable[..., int | None]) -> Se
     return unclustered(starts[1:], len(features))
 
 
-def _error_jump(features: Floats, *, first: int, lag: int, floor: float) -> int | None:
+def _error_jump(features: Floats, preset: PcaConstants, *, floor: float) -> int | None:
     """The first frame at which the projection error jumps, None if there is none."""
+    first, lag = max(1, preset.frames(preset.first)), max(1, preset.frames(preset.rise_span))
     if len(features) < first + 2 * lag:
         return None
     errors: list[Floats] = []
     kept = 0
     for _, _, scatters in leading_scatters(features, np.arange(first, len(features) + 1)):
         variances = np.linalg.eigvalsh(scatters)[:, ::-1]
-        kept = kept or dimensions_kept(variances[0], PCA_SHARE)
+        kept = kept or dimensions_kept(variances[0], preset.variance_kept)
         errors.append(variances[:, kept:].sum(axis=1))
     error = np.concatenate(errors)
     rise = error[lag:] - error[:-lag]
     count = np.arange(1, len(rise))
     mean = np.cumsum(rise)[:-1] / count
     spread = np.sqrt(np.maximum(np.cumsum(rise**2)[:-1] / count - mean**2, 0))
-    bound = mean + DEVIATIONS * spread + floor * len(features)
+    bound = mean + preset.deviations * spread + floor * len(features)
     jumps = np.flatnonzero(rise[1:] > bound) + 1
     jumps = jumps[jumps >= lag]
     return first + lag + int(jumps[0]) if jumps.size else None
 
 
-def _distance_peak(features: Floats, *, ahead: int, growth: int, floor: float) -> int | None:
+def _distance_peak(features: Floats, preset: PpcaConstants, *, floor: float) -> int | None:
     """The first frame at which the distance H of the frames ahead peaks, None if it does not."""
+    ahead, growth = max(2, preset.frames(preset.ahead)), max(1, preset.frames(preset.growth_step))
     counts = np.arange(ahead, len(features) - ahead + 1, growth)
     if len(counts) < 3:
         return None
     distance = np.array(
         [
-            _mahalanobis(features[count : count + ahead] - mean, scatter / (count - 1), floor)
+            _mahalanobis(
+                features[count : count + ahead] - mean,
+                scatter / (count - 1),
+                floor,
+                preset.variance_kept,
+            )
             for batch in leading_scatters(features, counts)
             for count, mean, scatter in zip(*batch, strict=True)
         ]
     )
-    threshold = RISE * np.ptp(distance)
+    threshold = preset.rise * np.ptp(distance)
     valley = np.minimum.accumulate(distance)
     before, here, after = distance[:-2], distance[1:-1], distance[2:]
     peaks = (here > before) & (here >= after) & (here - valley[:-2] >= threshold)
     return int(counts[1:-1][peaks][0]) if peaks.any() else None
 
 
-def _mahalanobis(deviations: Floats, covariance: Floats, floor: float) -> float:
+def _mahalanobis(deviations: Floats, covariance: Floats, floor: float, share: float) -> float:
     """Mean squared distance under the covariance that probabilistic PCA makes of this one."""
     variances, axes = np.linalg.eigh(covariance)
     variances, axes = np.maximum(variances[::-1], floor), axes[:, ::-1]
-    kept = min(dimensions_kept(variances, PPCA_SHARE), len(variances) - 1)
+    kept = min(dimensions_kept(variances, share), len(variances) - 1)
     inside = deviations @ axes[:, :kept]
     outside = (deviations**2).sum(axis=1) - (inside**2).sum(axis=1)
     distances = (inside**2 / variances[:kept]).sum(axis=1) + outside / variances[kept:].mean()

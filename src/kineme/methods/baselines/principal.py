@@ -56,13 +56,11 @@ def dimensions_kept(variances: Floats, share: float) -> int:
     return int(np.searchsorted(total, share * total[-1], side="right")) + 1
 
 
-def checked(features: Floats, fps: float) -> Floats:
+def checked(features: Floats) -> Floats:
     """The features as an array (frames, dims), or a clear refusal."""
     array = np.asarray(features, np.float64)
     if array.ndim != 2 or not len(array):
         raise ParameterError(f"features must be (frames, dims), not of shape {array.shape}")
     if not np.isfinite(array).all():
         raise ParameterError("features must be finite numbers")
-    if not (np.isfinite(fps) and fps > 0):
-        raise ParameterError(f"the frame rate must be a positive number, not {fps}")
     return array

@@ -7,42 +7,41 @@ Hodgins, TPAMI 35(3), 2013, and their program (``tempoReduce``, ``conKnl``).
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 from sklearn.cluster import KMeans
 from threadpoolctl import threadpool_limits
 
+if TYPE_CHECKING:
+    from kineme.methods.baselines.constants import AlignedConstants
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-KMEANS_STARTS = 50
-
-
-def block_starts(
-    features: Floats, *, centres: int, random: np.random.RandomState, longest: int = 5
-) -> Ints:
+def block_starts(features: Floats, preset: AlignedConstants, random: np.random.RandomState) -> Ints:
     """First frames of the blocks, runs of like poses.
 
     A block ends where the nearest of the k-means centres changes, or when it
-    has ``longest`` frames.
+    has ``preset.longest_block`` frames.
 
     Parameters
     ----------
     features : ndarray of shape (frames, dims)
-    centres : int
-        Number of k-means centres.
-    longest : int, optional
-        Frames a block has at most.
+    preset : AlignedConstants
+    random : RandomState
+        Of the starts of k-means.
     """
-    nearest = tightest_clusters(features, centres, random)
+    nearest = tightest_clusters(features, preset.centres, preset.kmeans_starts, random)
     changes = np.flatnonzero(np.diff(nearest, prepend=-1))
     runs = zip(changes, [*changes[1:], len(features)], strict=True)
-    return np.concatenate([np.arange(start, stop, longest) for start, stop in runs])
+    return np.concatenate([np.arange(start, stop, preset.longest_block) for start, stop in runs])
 
 
-def frame_kernel(features: Floats, *, nearest: float = 0.02) -> Floats:
+def frame_kernel(features: Floats, nearest: float) -> Floats:
     """``kernel[a, b] = exp(-|x_a - x_b|^2 / 2 sigma^2)``, (frames, frames).
 
     sigma is the mean distance of a frame to its nearest frames, itself among
@@ -56,14 +55,16 @@ def frame_kernel(features: Floats, *, nearest: float = 0.02) -> Floats:
     return kernel
 
 
-def tightest_clusters(points: Floats, count: int, random: np.random.RandomState) -> Ints:
-    """The cluster of each point: the best of 50 runs of k-means from random points.
+def tightest_clusters(
+    points: Floats, count: int, starts: int, random: np.random.RandomState
+) -> Ints:
+    """The cluster of each point: the best of so many runs of k-means from random points.
 
     In single precision, which tells poses apart well enough and takes half the
     time. On one thread: the order of sums, and so the result, would change with
     the number of cores, and arrays this small gain nothing from more.
     """
-    means = KMeans(count, init="random", n_init=KMEANS_STARTS, random_state=random)
+    means = KMeans(count, init="random", n_init=starts, random_state=random)
     with threadpool_limits(1):
         labels: Ints = means.fit_predict(points.astype(np.float32)).astype(np.int64)
     return labels

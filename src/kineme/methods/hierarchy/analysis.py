@@ -19,10 +19,10 @@ from kineme.methods.hierarchy.agreement import most_agreed
 from kineme.methods.hierarchy.constants import HierarchyConstants
 from kineme.methods.hierarchy.evidence import evidence
 from kineme.methods.hierarchy.found import HierarchyFound
-from kineme.methods.hierarchy.level import segments_of
+from kineme.methods.hierarchy.level import Segments, segments_of
 from kineme.methods.hierarchy.parts import linked, part_ends
 from kineme.methods.hierarchy.tree import median_distance
-from kineme.methods.hierarchy.views import views as views_of
+from kineme.methods.hierarchy.views import seen
 from kineme.methods.recurrence.evidence import counted
 from kineme.methods.recurrence.repetitions import Repetitions, repetitions
 from kineme.methods.samples import unstacked
@@ -58,16 +58,13 @@ def analyze_channels(
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
     with stage("statistics"):
-        views = views_of(rows if bare is None else bare, preset)
-    ends = part_ends(len(views[0]), max(1, round(preset.samples(preset.part))))
+        channels = seen(rows if bare is None else bare, preset)
     with stage("tree"):
-        answers = [
-            [segments_of(view[start:stop], preset) for start, stop in pairwise(ends)]
-            for view in views
-        ]
+        answers = [_in_parts(view, preset) for view in channels.views]
+        others = [_in_parts(view, preset) for view in channels.halves]
     with stage("level"):
-        best = most_agreed([[part.per_sample() for part in parts] for parts in answers])
-        features = views[best]
+        best = most_agreed(*([_per_sample(each) for each in found] for found in (answers, others)))
+        features = channels.views[best]
         unit = median_distance(features)
         level = linked(features, answers[best])
     with stage("repetitions"):
@@ -83,6 +80,16 @@ def analyze_channels(
     return HierarchyFound(
         features, preset, unit, frames, level.labels, primitives, shown, level.fine, timings
     )
+
+
+def _in_parts(view: NDArray[np.float32], preset: HierarchyConstants) -> list[Segments]:
+    """The segments of each part of a recording."""
+    ends = part_ends(len(view), max(1, round(preset.samples(preset.part))))
+    return [segments_of(view[start:stop], preset) for start, stop in pairwise(ends)]
+
+
+def _per_sample(parts: list[Segments]) -> list[Frames]:
+    return [part.per_sample() for part in parts]
 
 
 def _in_frames(borders: Frames, preset: HierarchyConstants, n: int) -> Frames:

@@ -65,14 +65,14 @@ class HierarchyFound:
         """Activities, repetitions, and how probable it is that each is right."""
         parents = self.evidence.parents
         sure = self.confidence
-        columns = columns_of(
+        return columns_of(
             self.borders,
             self.primitives,
             is_activity=np.full(len(self.labels), True),
             clusters=(self.labels, self.labels[parents]),
             scores=(sure.links, sure.counts[parents]),
+            border_confidence=(sure.borders, sure.cuts),
         )
-        return columns | {"border_confidence": np.concatenate([sure.borders, sure.cuts])}
 
     @cached_property
     def confidence(self) -> Confidence:
@@ -83,7 +83,15 @@ class HierarchyFound:
         """The table at coarser and finer details; see `kineme.methods.hierarchy.levels`."""
         from kineme.methods.hierarchy.levels import levels_of
 
-        return levels_of(self, columns)
+        return levels_of(
+            columns,
+            borders=self.borders,
+            labels=self.labels,
+            fine=self.fine,
+            features=self.features,
+            unit=self.unit,
+            preset=self.preset,
+        )
 
     @cached_property
     def graph(self) -> NeighborGraph:

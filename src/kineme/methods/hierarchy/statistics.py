@@ -8,12 +8,14 @@ two samples are similar if these are.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 NYQUIST = 0.45
 """Share of the rate up to which a band of frequency can be told."""
@@ -27,7 +29,7 @@ def channel_statistics(
     Parameters
     ----------
     channels : (frames, channels) array
-            With equal deviations.
+        With equal deviations.
     fps : float
         Frames per second.
     rate : float
@@ -44,33 +46,41 @@ def channel_statistics(
 
     Examples
     --------
-    >>> from itertools import pairwise
-
-    import numpy as np
+    >>> import numpy as np
     >>> still = np.zeros((500, 2))
     >>> channel_statistics(still, 50.0, rate=5.0, window=1.0, bands=(1.0, 4.0, 16.0)).shape
     (50, 6)
     """
-    width = max(1, round(window * fps))
-    groups = [_mean(channels, width)]
-    groups += [
-        np.sqrt(_mean(_band(channels, fps, low, high) ** 2, width))
-        for low, high in pairwise(bands)
-        if low < NYQUIST * fps
+    return means_and_energies(in_bands(channels, fps, bands), fps, rate=rate, window=window)
+
+
+def in_bands(channels: Floats, fps: float, bands: tuple[float, ...]) -> list[Floats]:
+    """The channels as they are, and in each band of frequency."""
+    return [channels] + [
+        _band(channels, fps, low, high) for low, high in pairwise(bands) if low < NYQUIST * fps
     ]
-    n = int((len(channels) - 1) / fps * rate + 1e-9) + 1
-    at = np.minimum(np.rint(np.arange(n) * fps / rate).astype(np.int64), len(channels) - 1)
-    return np.asarray(np.hstack([group[at] for group in groups]), np.float64)
 
 
-def _mean(values: Floats, width: int) -> Floats:
-    """The mean over so many frames around each; at the ends over what is there."""
+def means_and_energies(
+    parts: Sequence[Floats], fps: float, *, rate: float, window: float
+) -> Floats:
+    """The statistics of what `in_bands` gives, or of its mixtures, `rate` times a second."""
+    frames = len(parts[0])
+    n = int((frames - 1) / fps * rate + 1e-9) + 1
+    at = np.minimum(np.rint(np.arange(n) * fps / rate).astype(np.int64), frames - 1)
+    width = max(1, round(window * fps))
+    first = np.clip(at - width // 2, 0, frames)
+    last = np.clip(at - width // 2 + width, 0, frames)
+    groups = [_means(parts[0], first, last)]
+    groups += [np.sqrt(np.maximum(_means(band**2, first, last), 0.0)) for band in parts[1:]]
+    return np.hstack(groups)
+
+
+def _means(values: Floats, first: Ints, last: Ints) -> Floats:
+    """The means over the frames from first to last, at the ends over what is there."""
     sums = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
-    frames = np.arange(len(values))
-    first = np.clip(frames - width // 2, 0, len(values))
-    last = np.clip(frames - width // 2 + width, 0, len(values))
     means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
-    return np.maximum(means, 0.0) if (values >= 0).all() else means
+    return means
 
 
 def _band(channels: Floats, fps: float, low: float, high: float) -> Floats:

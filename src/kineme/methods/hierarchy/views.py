@@ -4,29 +4,48 @@ Two questions have no one answer. What channels share is movement where sensors
 are on both legs, and only where somebody stands where channels are the places
 of joints. And what varies most tells activities apart for some sensors, what
 changes seldom for others. The first and the last view answer both in opposite
-ways; that is taken which those between them agree with more
-(`kineme.methods.hierarchy.agreement`).
+ways, and those between them are the other answers; that of the two is taken
+which all agree with more (`kineme.methods.hierarchy.agreement`), among them the
+two as half of the channels give them: what hangs on few channels is doubtful.
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.hierarchy.constants import HierarchyConstants
-from kineme.methods.hierarchy.statistics import channel_statistics
+from kineme.methods.hierarchy.statistics import in_bands, means_and_energies
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 STILL = 0.05
 """Least restlessness of a statistic, as a share of that of all of them."""
 TINY = 1e-9
 """Deviations below it are rounding."""
-SPREAD = 20_000
-"""Frames that tell how channels go together."""
 
 
-def views(channels: Floats, preset: HierarchyConstants) -> list[NDArray[np.float32]]:
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A recording as it is compared, `preset.rate` times a second.
+
+    Attributes
+    ----------
+    views : list of (samples, dims) array
+        All channels, in each of the scales that the preset names.
+    halves : list of (samples, dims) array
+        Half of the channels, in the first and in the last of these.
+    """
+
+    views: list[NDArray[np.float32]]
+    halves: list[NDArray[np.float32]]
+
+
+def seen(channels: Floats, preset: HierarchyConstants) -> Seen:
     """The statistics of the channels in each of the scales that the preset names.
 
     Parameters
@@ -37,51 +56,83 @@ def views(channels: Floats, preset: HierarchyConstants) -> list[NDArray[np.float
 
     Returns
     -------
-    list of (samples, channels * groups) array
-        `preset.rate` times a second.
+    Seen
     """
-    rescaled = {shared: without_shared(channels, shared) for shared in dict.fromkeys(preset.shared)}
-    statistics = {
-        shared: channel_statistics(
-            each,
-            preset.working_fps,
-            rate=preset.rate,
-            window=preset.averaging,
-            bands=preset.bands,
-        )
-        for shared, each in rescaled.items()
-    }
+    centred = channels - channels.mean(axis=0)
+    scaled = np.asarray(centred / _deviations(centred), np.float64)
+    bands = in_bands(scaled, preset.working_fps, preset.bands)
+    every = range(len(preset.shared))
+    ends = (every[0], every[-1]) if len(every) > 1 else ()
+    return Seen(
+        _in_scales(bands, every, preset),
+        [
+            view
+            for half in slow_and_fast(scaled)
+            for view in _in_scales([band[:, half] for band in bands], ends, preset)
+        ],
+    )
+
+
+def slow_and_fast(scaled: Floats) -> list[Ints]:
+    """The half of the channels that changes less from frame to frame, and the other half.
+
+    Examples
+    --------
+    >>> frames = np.arange(100)[:, None]
+    >>> [half.tolist() for half in slow_and_fast(np.sin(frames * [0.1, 2, 0.2, 1]))]
+    [[0, 2], [1, 3]]
+    """
+    if scaled.shape[1] < 2:
+        return []
+    order = np.argsort(np.abs(np.diff(scaled, axis=0)).sum(axis=0), kind="stable")
+    middle = (len(order) + 1) // 2
+    return [np.sort(order[:middle]), np.sort(order[middle:])]
+
+
+def _in_scales(
+    bands: Sequence[Floats], which: Iterable[int], preset: HierarchyConstants
+) -> list[NDArray[np.float32]]:
+    """Statistics of channels of which all bands are given, in these scales of the preset."""
+    channels = bands[0].shape[1]
+    raw: dict[float, Floats] = {}
     found = []
-    for shared, weight, over in zip(
-        preset.shared, preset.weights, preset.restless_over, strict=True
-    ):
-        raw = statistics[shared]
+    for i in which:
+        shared, over = preset.shared[i], preset.restless_over[i]
+        if shared not in raw:
+            mixing = holding_down(bands[0], shared)
+            raw[shared] = means_and_energies(
+                bands if mixing is None else [band @ mixing for band in bands],
+                preset.working_fps,
+                rate=preset.rate,
+                window=preset.averaging,
+            )
         found.append(
-            by_restlessness(raw, round(preset.samples(over)), weight)
+            by_restlessness(raw[shared], round(preset.samples(over)), preset.weights[i])
             if over
-            else by_deviation(raw, channels.shape[1], weight)
+            else by_deviation(raw[shared], channels, preset.weights[i])
         )
     return found
 
 
-def without_shared(channels: Floats, most: float) -> Floats:
-    """The channels with what they share held down, each with a deviation of 1.
+def holding_down(scaled: Floats, most: float) -> Floats | None:
+    """What channels are multiplied by to hold down what they share; None where that is nothing.
+
+    Each then has a deviation of 1, as before.
 
     Parameters
     ----------
-    channels : (frames, channels) array
+    scaled : (frames, channels) array
+        With a mean of 0 and a deviation of 1, or 0 where nothing changes.
     most : float
-        Largest variance along any direction, where that of a channel is 1.
+        Largest variance along any direction.
     """
-    centred = channels - channels.mean(axis=0)
-    scaled = centred / _deviations(centred)
     if most >= scaled.shape[1]:  # they cannot share more
-        return np.asarray(scaled, np.float64)
-    sample = scaled[:: max(1, len(scaled) // SPREAD)]
-    variances, directions = np.linalg.eigh(sample.T @ sample / len(sample))
-    kept = np.sqrt(most / np.maximum(variances, most))
-    left = scaled @ ((directions * kept) @ directions.T)
-    return np.asarray(left / _deviations(left), np.float64)
+        return None
+    covariance = scaled.T @ scaled / len(scaled)
+    variances, directions = np.linalg.eigh(covariance)
+    mixing = (directions * np.sqrt(most / np.maximum(variances, most))) @ directions.T
+    left = np.sqrt(np.maximum(np.einsum("ij,ik,kj->j", mixing, covariance, mixing), 0.0))
+    return np.asarray(mixing / np.where(left > TINY, left, 1.0), np.float64)
 
 
 def by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np.float32]:

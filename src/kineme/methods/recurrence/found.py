@@ -74,15 +74,15 @@ class RecurrenceFound:
         """Activities, primitives, and how probable it is that each is right."""
         parents = self.evidence.parents
         sure = self.confidence
-        columns = columns_of(
+        return columns_of(
             self.borders,
             self.primitives,
             is_activity=self.labels >= 0,
             is_primitive=self.clusters >= 0,
             clusters=(self.labels, self.clusters),
             scores=(sure.links, np.where(self.clusters >= 0, sure.counts[parents], np.nan)),
+            border_confidence=(sure.borders, sure.cuts),
         )
-        return columns | {"border_confidence": np.concatenate([sure.borders, sure.cuts])}
 
     @cached_property
     def confidence(self) -> Confidence:
@@ -93,7 +93,13 @@ class RecurrenceFound:
         """The table at coarser and finer details; see `kineme.methods.recurrence.levels`."""
         from kineme.methods.recurrence.levels import levels_of
 
-        return levels_of(self, columns)
+        return levels_of(
+            columns,
+            borders=self.borders,
+            labels=self.labels,
+            narrow=self.narrow,
+            preset=self.preset,
+        )
 
     @cached_property
     def graph(self) -> NeighborGraph:

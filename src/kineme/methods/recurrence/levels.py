@@ -14,7 +14,8 @@ from kineme.methods.recurrence import _action_kernels as kernels
 from kineme.methods.recurrence.change_points import change_points
 
 if TYPE_CHECKING:
-    from kineme.methods.recurrence.found import RecurrenceFound
+    from kineme.methods.recurrence.constants import RecurrenceConstants
+    from kineme.methods.recurrence.recurrence import Recurrence
 
 Samples = NDArray[np.int64]
 
@@ -22,21 +23,28 @@ MOST = 1000
 """Pieces of a long recording, at most, if it has not more segments."""
 
 
-def levels_of(found: RecurrenceFound, columns: Columns) -> Mapping[float, Columns]:
+def levels_of(
+    columns: Columns,
+    *,
+    borders: Samples,
+    labels: Samples,
+    narrow: Recurrence,
+    preset: RecurrenceConstants,
+) -> Mapping[float, Columns]:
     """The table at each detail but 1.
 
     Parameters
     ----------
-    found : RecurrenceFound
     columns : dict of str to array
         The table at detail 1.
+    borders, labels, narrow, preset
+        As in `RecurrenceFound`.
 
     Returns
     -------
     mapping of float to columns
     """
-    preset = found.preset
-    pieces, frames = _pieces(found)
+    pieces, frames = _pieces(borders, labels, narrow, preset)
     cost = preset.border_cost * preset.working_fps / preset.step
     at = levels.clusters_at(pieces, levels.DETAILS, border_price=cost, cluster_price=cost)
     longest = preset.frames(preset.min_action)
@@ -48,41 +56,43 @@ def levels_of(found: RecurrenceFound, columns: Columns) -> Mapping[float, Column
     }
 
 
-def _pieces(found: RecurrenceFound) -> tuple[levels.Pieces, Samples]:
+def _pieces(
+    default: Samples, actions: Samples, narrow: Recurrence, preset: RecurrenceConstants
+) -> tuple[levels.Pieces, Samples]:
     """Activities cut where finer change points are, and transitions; with their frames."""
-    preset, recurrence = found.preset.narrowed(), found.narrow
-    n, step = len(recurrence), recurrence.step
-    frames = found.borders
+    short = preset.narrowed()
+    n, step = len(narrow), narrow.step
+    least = preset.frames(preset.min_segment)
+    frames = default
     for finest in sorted(levels.FINER, reverse=True):
         cuts = change_points(
-            recurrence,
-            penalty=preset.border_cost * preset.working_fps / step / finest,
-            min_length=max(1, preset.samples(preset.min_segment)),
+            narrow,
+            penalty=short.border_cost * short.working_fps / step / finest,
+            min_length=max(1, short.samples(short.min_segment)),
         )
-        finer = _divided(found, cuts * step)
+        finer = _divided(default, actions >= 0, cuts * step, least)
         if len(finer) <= MOST:
             frames = finer
             break
-    parents = found.labels[np.searchsorted(found.borders, frames[:-1], side="right") - 1]
+    parents = actions[np.searchsorted(default, frames[:-1], side="right") - 1]
     labels = np.where(parents >= 0, np.cumsum(parents >= 0) - 1, -1)
     borders = np.minimum(np.rint(frames / step).astype(np.int64), n)
     borders[-1] = n
     k = int(labels.max(initial=-1)) + 1
     sums, counts = np.zeros((k, k)), np.zeros((k, k))
-    kernels.sum_similarities(
-        recurrence.similarity, np.repeat(labels, np.diff(borders)), sums, counts
-    )
+    kernels.sum_similarities(narrow.similarity, np.repeat(labels, np.diff(borders)), sums, counts)
     lengths = np.bincount(labels[labels >= 0], np.diff(borders)[labels >= 0], k)
     pairs = np.outer(lengths, lengths)
     differences = pairs * (1 - sums / np.maximum(counts, 1))
     return levels.Pieces(borders, labels, parents[labels >= 0], differences), frames
 
 
-def _divided(found: RecurrenceFound, cuts: Samples) -> Samples:
-    """The borders with those cuts that lie in activities, not near their ends."""
-    borders, least = found.borders, found.preset.frames(found.preset.min_segment)
+def _divided(
+    borders: Samples, is_activity: NDArray[np.bool_], cuts: Samples, least: int
+) -> Samples:
+    """The borders with those cuts that lie in activities, so far at least from their ends."""
     at = np.searchsorted(borders, cuts, side="right") - 1
-    inside = (at >= 0) & (at < len(found.labels))
+    inside = (at >= 0) & (at < len(is_activity))
     cuts, at = cuts[inside], at[inside]
     far = (cuts - borders[at] >= least) & (borders[at + 1] - cuts >= least)
-    return np.unique(np.concatenate([borders, cuts[far & (found.labels[at] >= 0)]]))
+    return np.unique(np.concatenate([borders, cuts[far & is_activity[at]]]))

@@ -12,10 +12,9 @@ from kineme.segments.editing.naming import (
     changed,
     known_names,
     members_of,
-    starting,
     with_cluster_names,
 )
-from kineme.segments.editing.rows import as_activity, as_transition, joined, with_rows
+from kineme.segments.editing.rows import as_activity, as_transition, joined, starting, with_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, Literal
 
-from kineme.errors import ParameterError
+from kineme.segments.editing.rows import starting
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -84,12 +84,7 @@ def check(
     ParameterError
         No segment starts at one of them.
     """
-    rows = {row.start_frame: span_of(row) for row in segmentation.level(level)}
-    chosen = set()
-    for frame in frames:
-        if frame not in rows:
-            raise ParameterError(f"no segment of level {level!r} starts at frame {frame}")
-        chosen.add(rows[frame])
+    chosen = {span_of(starting(segmentation, level, frame)) for frame in frames}
     before = marked(segmentation, "checked")
     return with_marks(segmentation, "checked", before | chosen if checked else before - chosen)
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 from typing import Any
 
 from kineme.errors import ParameterError
-from kineme.segments.editing.rows import with_rows
+from kineme.segments.editing.rows import starting, with_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -155,11 +155,3 @@ def changed(
         for row in segmentation
     ]
     return with_rows(segmentation, rows, [])
-
-
-def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
-    """The segment of a level that starts at ``frame``; ParameterError where none does."""
-    for row in segmentation.level(level):
-        if row.start_frame == frame:
-            return row
-    raise ParameterError(f"no segment of level {level!r} starts at frame {frame}")

@@ -6,11 +6,22 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
+import numpy as np
+
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, Level, Segment
 
 Rows = list[Segment]
+
+
+def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
+    """The segment of a level that starts at ``frame``; ParameterError where none does."""
+    rows = segmentation.level(level)
+    at = int(np.searchsorted(rows.start_frame, frame))
+    if at == len(rows) or rows.start_frame[at] != frame:
+        raise ParameterError(f"no segment of level {level!r} starts at frame {frame}")
+    return rows[at]
 
 
 def moved(rows: Rows, frame: int, to: int) -> Rows:

@@ -118,6 +118,7 @@ export interface Video {
  *
  * `levels` has the tables at all details, coarsest first, in a report; the studio's server is
  * asked for them.
+ * While `finding` its segments are still to be found, and the table is a single transition.
  */
 export interface Recording {
   id: string;
@@ -133,6 +134,7 @@ export interface Recording {
   can_undo: boolean;
   can_redo: boolean;
   saved: string;
+  finding?: boolean;
   warnings: string[];
 }
 

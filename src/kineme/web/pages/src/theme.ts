@@ -6,10 +6,14 @@ export type Theme = "dark" | "light";
 const media = matchMedia("(prefers-color-scheme: dark)");
 const system = signal<Theme>(media.matches ? "dark" : "light");
 const chosen = signal<Theme | null>(null);
+/** While the page is being printed. */
+export const onPaper = signal(false);
 
 media.addEventListener("change", () => (system.value = media.matches ? "dark" : "light"));
 
-export const theme = computed<Theme>(() => chosen.value ?? system.value);
+export const theme = computed<Theme>(() =>
+  onPaper.value ? "light" : (chosen.value ?? system.value),
+);
 
 // Canvases read the variables right after this, so it must not wait for the next picture.
 effect(() => document.documentElement.setAttribute("data-theme", theme.value));

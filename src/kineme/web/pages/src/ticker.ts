@@ -23,6 +23,12 @@ export class Ticker {
     if (this.pending === 0) this.pending = requestAnimationFrame((now) => this.run(now));
   }
 
+  /** Draws without waiting for the screen. */
+  drawNow(): void {
+    cancelAnimationFrame(this.pending);
+    this.run(performance.now());
+  }
+
   /** Pictures drawn within the last second. */
   rate(now: number = performance.now()): number {
     return this.times.filter((time) => now - time <= 1000).length;

@@ -15,6 +15,7 @@ import { Timeline } from "../timeline/Timeline";
 import { IconButton } from "../transport/icons";
 import { Transport } from "../transport/Transport";
 import { Viewer } from "../viewer/Viewer";
+import { Paper, Repetitions } from "./Repetitions";
 
 export function Report({ store }: { store: Store }): JSX.Element {
   const tabs = [
@@ -28,20 +29,28 @@ export function Report({ store }: { store: Store }): JSX.Element {
         </>
       ),
     },
+    { id: "repetitions", title: "Repetitions", panel: () => <Repetitions store={store} /> },
     { id: "keys", title: "Keys", panel: () => <Keys keys={PAGE_KEYS} /> },
     { id: "about", title: aboutTitle(store), panel: () => <About store={store} /> },
   ];
   return (
-    <Layout
-      header={<Header store={store} />}
-      viewer={
-        store.recording.value?.motion ? <Viewer store={store} /> : <Channels store={store} ruler />
-      }
-      matrix={<MatrixPlace store={store} />}
-      side={<Tabs label="About the recording" tabs={tabs} />}
-      transport={<Transport store={store} />}
-      timeline={<Timeline store={store} />}
-    />
+    <>
+      <Layout
+        header={<Header store={store} />}
+        viewer={
+          store.recording.value?.motion ? (
+            <Viewer store={store} />
+          ) : (
+            <Channels store={store} ruler />
+          )
+        }
+        matrix={<MatrixPlace store={store} />}
+        side={<Tabs label="About the recording" tabs={tabs} />}
+        transport={<Transport store={store} />}
+        timeline={<Timeline store={store} />}
+      />
+      <Paper store={store} />
+    </>
   );
 }
 

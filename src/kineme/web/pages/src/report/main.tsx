@@ -4,6 +4,7 @@ import { render } from "preact";
 import "../styles/index.css";
 import { startKeys } from "../keys";
 import { startPlayer } from "../player";
+import { startPrinting } from "./printing";
 import { exposeSnapshot } from "../snapshot";
 import { EmbeddedData } from "../recordingData";
 import { loadMotion, openRecording, type OpenRecording } from "../opened";
@@ -19,6 +20,7 @@ async function start(): Promise<void> {
   exposeSnapshot(store);
   startPlayer(store);
   startKeys(store);
+  startPrinting();
   render(<Report store={store} />, document.getElementById("page")!);
   await loadMotion(opened);
 }

@@ -108,18 +108,20 @@ function Opener(props: {
   );
 }
 
-/** "saved as …", or how many edits are not. */
+/** That segments are being found, "saved as …", or how many edits are not. */
 function SaveState({ session }: { session: Session }): JSX.Element {
-  const saved = session.edited.value?.confirmed.value.saved;
+  const { saved, finding } = session.edited.value?.confirmed.value ?? {};
   const waiting = session.unsent.value.length;
-  const text = waiting
-    ? `saving ${waiting} ${waiting === 1 ? "edit" : "edits"}…`
-    : saved
-      ? `saved as ${saved}`
-      : "not corrected yet";
+  const text = finding
+    ? "finding the segments…"
+    : waiting
+      ? `saving ${waiting} ${waiting === 1 ? "edit" : "edits"}…`
+      : saved
+        ? `saved as ${saved}`
+        : "not corrected yet";
   return (
     <span class="save-state quiet" role="status" data-unsent={waiting} title={text}>
-      {session.edited.value ? text : ""}
+      {finding && <span class="busy" />} {session.edited.value ? text : ""}
     </span>
   );
 }

@@ -15,7 +15,30 @@ it("shows first where the result is least sure, and says why", () => {
   const doubts = doubtsOf(table);
   expect(doubts.map(({ segment }) => segment.start_frame)).toEqual([10, 30, 0, 40]);
   expect(doubts[0]!.why).toBe("It is 30 % sure that a segment starts at 0:01.00.");
-  expect(doubts[1]!.why).toContain("score of 0.40");
+  expect(doubts[1]!.why).toBe("It is 40 % sure that this is cluster 1.");
+  expect(doubts[3]!.sure).toBeNull();
+});
+
+it("asks once for an activity what can be wrong with it and its repetitions", () => {
+  const activity = { level: "activity" as const, score: 0.9, border_confidence: 0.8 };
+  const found = tableOf([
+    segment(0, 20, { ...activity, activity: 0 }),
+    segment(20, 50, { ...activity, activity: 1 }),
+    segment(0, 20, { activity: 0, score: 0.95 }),
+    segment(20, 30, { activity: 1, score: 0.5, border_confidence: 0.8 }),
+    segment(30, 50, { activity: 1, score: 0.5, border_confidence: 0.7 }),
+  ]);
+  const doubts = doubtsOf(found);
+  expect(doubts.map(({ segment }) => [segment.level, segment.start_frame])).toEqual([
+    ["activity", 20],
+    ["primitive", 30],
+    ["activity", 0],
+    ["primitive", 0],
+    ["primitive", 20],
+  ]);
+  expect(doubts[0]!.sure).toBeCloseTo(0.8 * 0.9 * 0.5);
+  expect(doubts[0]!.why).toBe("It is 50 % sure that this is done 2 times.");
+  expect(doubts[1]!.sure).toBe(0.7);
   expect(doubts[3]!.sure).toBeNull();
 });
 

@@ -97,8 +97,12 @@ export class EditedRecording {
     this.announced = revision;
     if (this.sending || this.waiting.peek().length) return;
     if (revision === this.confirmed.peek().revision) return;
-    if (await this.reload())
-      this.around.tell("Another tab changed this table; this is how it is now.");
+    const { finding } = this.confirmed.peek();
+    if (!(await this.reload())) return;
+    const { segmentation } = this.confirmed.peek();
+    this.around.tell(
+      finding ? found(segmentation) : "Another tab changed this table; this is how it is now.",
+    );
   }
 
   /** Makes the held edits on the table as it is now. */

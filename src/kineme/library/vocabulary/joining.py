@@ -8,6 +8,9 @@ The distance of two words is the larger of what it costs to find the example of 
 of the other. Words of one recording were found to differ there: they are as far apart as can be,
 so that they are one only where those of many others lie between them. Words are joined by average
 linkage, as long as a search would find them by each other.
+
+That compares each with each. Of more words than that is worth, see
+`kineme.library.vocabulary.crowds`.
 """
 
 from __future__ import annotations
@@ -17,6 +20,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.cluster.hierarchy import fcluster, linkage
+from scipy.spatial.distance import squareform
 from threadpoolctl import threadpool_limits
 
 from kineme._threads import map_threads
@@ -90,9 +95,6 @@ def joined(words: Sequence[Word], constants: VocabularyConstants) -> Joined:
     if len(words) < 2:
         alone = np.zeros(len(words), np.int64)
         return Joined(alone, alone - 1, np.full(len(words), np.nan), np.zeros(len(words)))
-    from scipy.cluster.hierarchy import fcluster, linkage
-    from scipy.spatial.distance import squareform
-
     distances = np.minimum(two_way_distances(words), constants.farthest)
     recording = np.array([word.recording for word in words])
     distances[recording[:, None] == recording] = constants.farthest
@@ -107,22 +109,34 @@ def joined(words: Sequence[Word], constants: VocabularyConstants) -> Joined:
 
 def two_way_distances(words: Sequence[Word]) -> Floats:
     """``distances[a, b]``: the larger of a's example found in b's context, and b's in a's."""
-    gap = np.full((1, words[0].example.shape[1]), APART, np.float32)
-    contexts = np.concatenate([part for word in words for part in (word.context, gap)])
-    ends = np.cumsum([len(word.context) + 1 for word in words])
-    starts = np.concatenate([[0], ends[:-1]])
-
-    def found(word: Word) -> Float32s:
-        costs = warped(word.example, contexts)[0]
-        costs[ends - 1] = np.inf
-        least: Float32s = np.minimum.reduceat(costs, starts)
-        return least
-
+    contexts = Contexts(words)
     with threadpool_limits(1):  # sums do not depend on threads
-        one_way = np.array(map_threads(found, words), np.float64)
+        one_way = np.array(map_threads(contexts.costs_of, words), np.float64)
     both: Floats = np.maximum(one_way, one_way.T)
     np.fill_diagonal(both, 0.0)
     return both
+
+
+class Contexts:
+    """The contexts of several words, to look for examples in.
+
+    Parameters
+    ----------
+    words : sequence of Word
+    """
+
+    def __init__(self, words: Sequence[Word]):
+        gap = np.full((1, words[0].example.shape[1]), APART, np.float32)
+        self._laid = np.concatenate([part for word in words for part in (word.context, gap)])
+        self._ends = np.cumsum([len(word.context) + 1 for word in words])
+
+    def costs_of(self, word: Word) -> Float32s:
+        """What it costs to find the example of a word in each of the contexts."""
+        costs = warped(word.example, self._laid)[0]
+        costs[self._ends - 1] = np.inf
+        starts = np.concatenate([[0], self._ends[:-1]])
+        least: Float32s = np.minimum.reduceat(costs, starts)
+        return least
 
 
 def _fitted(distances: Floats, labels: Ints) -> Joined:

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.library.constants import VocabularyConstants
+from kineme.library.constants import VOCABULARY, VocabularyConstants
 from kineme.library.pieces import Piece, read_features
-from kineme.library.vocabulary import Word
+from kineme.library.vocabulary.crowds import Crowd
+from kineme.library.vocabulary.joining import Word
 from kineme.segments.table import SegmentTable
 
 Ints = NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Place:
     """Where a word comes from.
 
@@ -30,6 +33,8 @@ class Place:
         Its typical segment.
     seconds : float
         Of all its segments.
+    embedding : (32,) array
+        Of its typical segment.
     """
 
     recording: int
@@ -37,6 +42,7 @@ class Place:
     start_s: float
     stop_s: float
     seconds: float
+    embedding: NDArray[np.float32]
 
 
 def places_in(piece: Piece, recording: int) -> list[Place]:
@@ -48,15 +54,39 @@ def places_in(piece: Piece, recording: int) -> list[Place]:
     table = piece.table
     places = []
     for cluster in sorted(set(table.cluster[table.kind == "activity"].tolist()) - {-1}):
-        rows = table[(table.cluster == cluster) & (table.kind == "activity")]
-        repetitions = rows[rows.level == "primitive"]
-        chosen = repetitions if len(repetitions) else rows
-        order = np.argsort(chosen.duration_s, kind="stable")
-        typical = chosen[int(order[len(order) // 2])]
+        own = np.flatnonzero((table.cluster == cluster) & (table.kind == "activity"))
+        rows = table[own]
+        repeated = rows.level == "primitive"
+        chosen = own[repeated] if repeated.any() else own
+        order = np.argsort(table.duration_s[chosen], kind="stable")
+        row = int(chosen[order[len(order) // 2]])
+        typical = table[row]
         longest = rows[rows.level == rows.level[0]]  # one level: activities where there are any
         seconds = round(float(longest.duration_s.sum()), 6)
-        places.append(Place(recording, cluster, typical.start_s, typical.stop_s, seconds))
+        span, embedding = (typical.start_s, typical.stop_s), piece.embeddings[row]
+        places.append(Place(recording, cluster, *span, seconds, embedding))
     return places
+
+
+def crowd_of(
+    places: Sequence[Place], pieces: Sequence[Piece], folder: Path, keys: Sequence[str]
+) -> Crowd:
+    """The words at these places, drawn in an order that depends on each of them alone."""
+
+    def word(number: int) -> Word:
+        place = places[number]
+        at = place.recording
+        return word_at(place, pieces[at], folder, keys[at], VOCABULARY)
+
+    names = [f"{keys[place.recording]} {place.own_cluster}" for place in places]
+    drawn = [sha256(name.encode()).digest() for name in names]
+    return Crowd(
+        word,
+        np.array([place.recording for place in places]),
+        np.array([place.seconds for place in places]),
+        np.array([place.embedding for place in places]),
+        np.array(sorted(range(len(places)), key=drawn.__getitem__)),
+    )
 
 
 def word_at(

@@ -1,0 +1,82 @@
+"""Bytes, damaged in one to four ways: bytes, lines, numbers, headers, structure."""
+
+from __future__ import annotations
+
+import random
+import re
+
+WORDS = [b"nan", b"inf", b"-inf", b"1e300", b"-1.7e308", b"1e-320", b"0", b"-1", b"9" * 5000,
+         b"18446744073709551616", b"9223372036854775808", b"2147483648", b"", b"{}", b"[]", b"null",
+         b"true", b'""', b"\xff\xfe", b"\xef\xbb\xbf", b"\0", b"\n", b",", b"\t", b"x" * 140_000,
+         b"=1+1", b"\xed\xa0\x80", b"(", b"1/0", b"{" * 3000, b"[" * 3000]  # fmt: skip
+NUMBER = re.compile(rb"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
+
+
+def mutated(data: bytes, seed: int) -> bytes:
+    """The bytes, damaged as the seed says."""
+    chance = random.Random(seed)
+    for _ in range(chance.randint(1, 4)):
+        data = chance.choice((_bytes, _bytes, _lines, _numbers, _numbers, _head, _structure))(
+            data, chance
+        )
+    return data
+
+
+def _bytes(data: bytes, chance: random.Random) -> bytes:
+    """A few bytes or a stretch of them turned, doubled, cut or replaced."""
+    if not data:
+        return data
+    start = chance.randrange(len(data))
+    stop = min(len(data), start + chance.choice((1, 1, 2, 4, 8, 64, 512)))
+    new = chance.choice((
+        bytes(255 - byte for byte in data[start:stop]),
+        chance.randbytes(stop - start),
+        data[start:stop] * 2,
+        b"",
+        b"\xff" * (stop - start),
+        bytes(stop - start),
+        chance.choice(WORDS),
+    ))  # fmt: skip
+    return data[:start] + new + data[stop:]
+
+
+def _lines(data: bytes, chance: random.Random) -> bytes:
+    """A line left out, doubled, moved, cut off or many times there."""
+    lines = data.split(b"\n")
+    at, to = chance.randrange(len(lines)), chance.randrange(len(lines))
+    line = lines[at]
+    new = chance.choice(([], [line] * 2, [line] * 500, [line[: len(line) // 2]], [lines[to]]))
+    lines[at : at + 1] = new
+    return b"\n".join(lines)
+
+
+def _numbers(data: bytes, chance: random.Random) -> bytes:
+    """A number of a text replaced by an odd one."""
+    start = chance.randrange(max(1, len(data) - 2000)) if chance.random() < 0.5 else 0
+    found = list(NUMBER.finditer(data, start, start + 2000))
+    if not found:
+        return _bytes(data, chance)
+    where = chance.choice(found)
+    return data[: where.start()] + chance.choice(WORDS) + data[where.end() :]
+
+
+def _head(data: bytes, chance: random.Random) -> bytes:
+    """A byte of the first thousand, where formats keep their counts, or of the last."""
+    if not data:
+        return data
+    at = chance.randrange(min(len(data), 1000))
+    at = chance.choice((at, len(data) - 1 - at))
+    return data[:at] + bytes([chance.choice((0, 1, 127, 128, 255))]) + data[at + 1 :]
+
+
+def _structure(data: bytes, chance: random.Random) -> bytes:
+    """A file cut off, repeated, turned round, or two stretches of it exchanged."""
+    a, b = sorted(chance.randrange(len(data) + 1) for _ in range(2))
+    middle = (a + b) // 2
+    return chance.choice((
+        data[:a],
+        data[a:],
+        data + data[a:b],
+        data[:a] + data[middle:b] + data[a:middle] + data[b:],
+        data[:a] + chance.choice(WORDS) + data[a:],
+    ))  # fmt: skip

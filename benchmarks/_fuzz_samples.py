@@ -1,0 +1,173 @@
+"""Small sound files of every kind that the package reads, and what reads each of them.
+
+A file lies in a folder that is called after its kind; what lies beside it stays sound while
+it is damaged.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import kineme
+from kineme import formats, labels
+from kineme.datasets import bundled_recording, bundled_truth
+from kineme.formats.listing import recordings_in
+from kineme.labels import json_table
+from kineme.library import Library, build
+from kineme.recordings import Motion
+from kineme.segments.segmentation import Segmentation
+from kineme.studio.journal import Journal
+from kineme.studio.storage import SUFFIX, saved_table
+from kineme.synthesis import motion_graph
+from kineme.synthesis.graph_file import read_graph, write_graph
+
+LARGEST = 100_000
+"""Bytes of a sample from KINEME_DATA; of longer texts the beginning is taken."""
+
+TEXTS = (".bvh", ".amc", ".trc", ".mot", ".txt")
+
+Door = Callable[[Path], object]
+
+
+@dataclass(frozen=True)
+class Case:
+    """A file that is damaged, and what reads it, given the folder of all kinds."""
+
+    path: Path
+    sound: bytes
+    doors: tuple[Door, ...]
+
+
+def write_samples(root: Path) -> list[Case]:
+    """Small sound files in folders of their kinds; every one of them as a case."""
+    motion = formats.read_motion(bundled_recording())
+    truth = kineme.read_segments(bundled_truth())
+    for write in (_recordings, _labels, _pairs, _others, _library, _studio):
+        write(root, motion, truth)
+    paths = sorted(path.relative_to(root) for path in root.rglob("*") if path.is_file())
+    cases = [Case(path, (root / path).read_bytes(), doors_of(path)) for path in paths]
+    return [case for case in cases if case.sound]  # locks are empty
+
+
+def doors_of(path: Path) -> tuple[Door, ...]:
+    """What reads a file, by the folder that it lies in."""
+    table = "cuts.csv" if path.name.startswith("cuts") else "pair_events.tsv"
+    return {
+        "recordings": (
+            lambda root: kineme.read(root / path),
+            lambda root: kineme.read(root / path, fps=60),
+            lambda root: kineme.read(root / path, columns=[]),
+            lambda root: recordings_in((root / path).parent),
+        ),
+        "labels": (
+            lambda root: kineme.read_segments(root / path, format=path.stem, fps=60),
+            lambda root: kineme.read_segments(root / path),
+        ),
+        "pairs": (lambda root: kineme.read_segments(root / "pairs" / table),),
+        "knowledge": (lambda root: kineme.KnowledgeBase.load(root / path),),
+        "graphs": (lambda root: read_graph(root / path),),
+        "library": (_ask_library, _search_library, _export_library),
+        "studio": (_open_studio,),
+    }[path.parts[0]]
+
+
+def _recordings(root: Path, motion: Motion, _: Segmentation) -> None:
+    folder = _made(root / "recordings")
+    for known in formats.supported_formats():
+        for suffix in known.suffixes if known.write else ():
+            formats.write(motion[:40], folder / f"motion{suffix}")
+    rng = np.random.default_rng(0)
+    signals = kineme.Signals(rng.normal(size=(80, 3)), 50, ["a", "b", "c"])
+    for suffix in (".csv", ".parquet"):
+        formats.write(signals, folder / f"signals{suffix}")
+    np.save(folder / "array.npy", np.asarray(motion.positions[:20]))
+    data = Path(os.environ.get("KINEME_DATA", "/nowhere"))
+    for path in sorted(data.glob("*formats/*")) + sorted(data.glob("timeseries/*")):
+        if path.suffix in TEXTS:
+            start = path.read_bytes()[:LARGEST]
+            (folder / path.name).write_bytes(start[: start.rfind(b"\n") + 1])
+        elif path.stat().st_size < 2 * LARGEST:
+            (folder / path.name).write_bytes(path.read_bytes())
+
+
+def _labels(root: Path, _: Motion, truth: Segmentation) -> None:
+    folder = _made(root / "labels")
+    for known in labels.label_formats().values():
+        if known.write and not known.folder:
+            path = folder / f"{known.name}{known.written_suffix}"
+            labels.write_segments(truth, path, format=known.name)
+
+
+def _pairs(root: Path, _: Motion, truth: Segmentation) -> None:
+    folder = _made(root / "pairs")
+    kineme.write_segments(truth, folder / "cuts.csv")
+    kineme.write_segments(truth, folder / "pair_events.tsv")
+
+
+def _others(root: Path, motion: Motion, truth: Segmentation) -> None:
+    kineme.KnowledgeBase.from_recording(motion, truth).save(_made(root / "knowledge") / "base.npz")
+    graph = kineme.MotionGraph((), (), (), 60.0, 0.1, 0.3)
+    write_graph(graph, _made(root / "graphs") / "empty.json")
+    cut = motion[:900]
+    graph = motion_graph([cut], [kineme.segment(cut)])
+    write_graph(graph, root / "graphs" / "graph.json")
+
+
+def _library(root: Path, motion: Motion, _: Segmentation) -> None:
+    takes = _made(root.parent / "takes")
+    for name, part in (("walk.bvh", motion[:300]), ("jacks.bvh", motion[2400:2640])):
+        formats.write(part, takes / name)
+    folder = root / "library"
+    build(takes, folder)
+    Library(folder).name(0, "walk").merge(0, 1).split(0, ["walk.bvh"])
+
+
+def _studio(root: Path, _: Motion, truth: Segmentation) -> None:
+    folder = _made(root / "studio")
+    journal = Journal(folder / f"walk{SUFFIX}", truth)
+    for fps in (59.0, 60.0):
+        table = Segmentation.from_columns(truth.table.columns(), n_frames=truth.n_frames, fps=fps)
+        journal.write(
+            journal.changed(table, None, replaced=True),
+            lambda new: (folder / f"walk{SUFFIX}").write_text(json_table.dumps(new)) and None,
+            revision=1,
+        )
+
+
+def _ask_library(root: Path) -> object:
+    library = Library(root / "library")
+    tables = [library.table(name) for name in ("segments", "recordings", "words", "embeddings")]
+    return library.settings, library.failed, repr(library), library.clusters(), tables
+
+
+def _search_library(root: Path) -> object:
+    library = Library(root / "library")
+    number = next((cluster.cluster for cluster in library.clusters()), 0)
+    return library.unsure(), library.search(cluster=number, top=5)
+
+
+def _export_library(root: Path) -> object:
+    library = Library(root / "library")
+    library.export(root.parent / "exported.csv")
+    return library.query("select count(*) from segments join recordings using (recording)")
+
+
+def _open_studio(root: Path) -> object:
+    folder = root / "studio"
+    file, table, notes = saved_table(folder / "walk.bvh", lambda _: True, set())
+    if table is None:
+        return notes
+    journal = Journal(file.path, table)
+    kept = [journal.table(number) for number in journal.kept()]
+    before = journal.undone() if journal.can_undo else None
+    return kept, before, journal.knows("x")
+
+
+def _made(folder: Path) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder

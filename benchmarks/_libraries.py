@@ -1,0 +1,80 @@
+"""Libraries of recordings in hand, and of simulated ones, for the benchmarks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+from _recordings import DATA
+from kineme import Library, read
+from kineme._version import __version__
+from kineme.library import Settings
+from kineme.library.compiling import compiled
+from kineme.library.constants import VOCABULARY
+from kineme.library.index.kept import write_index
+from kineme.library.layout import HEAD, PIECES, SCHEMA, write_json
+from kineme.library.making import make_piece
+from kineme.library.pieces import Piece, has_piece, write_piece
+from kineme.library.tables import write_tables
+from kineme.recordings import Motion, Signals
+
+SHAKEN = 0.05
+"""Deviation of what is added to each feature of a copy."""
+LASTS_S = 360.0
+"""Of a simulated recording, seconds."""
+
+
+def library_of(folder: Path, recordings: Iterable[tuple[str, Motion | Signals]]) -> Library:
+    """A library of recordings in hand, by their names."""
+    (folder / PIECES).mkdir(parents=True, exist_ok=True)
+    keys = {}
+    for name, recording in recordings:
+        keys[name] = f"{len(keys):032x}"
+        if not has_piece(folder / PIECES, keys[name]):
+            write_piece(folder / PIECES, keys[name], *make_piece(recording, Settings()))
+    joined(folder, keys)
+    return Library(folder)
+
+
+def joined(folder: Path, keys: Mapping[str, str]) -> float:
+    """Leave head and tables of pieces by the names of their recordings; seconds that it took."""
+    start = perf_counter()
+    entries = [(name, folder / name, key) for name, key in sorted(keys.items())]
+    tables, following = compiled(folder, entries, None, 0)
+    head = {
+        "schema": SCHEMA,
+        "kineme": __version__,
+        "settings": Settings().to_json(),
+        "sources": [],
+        "recursive": False,
+        "vocabulary": dict(VOCABULARY.parameters()),
+        "failed": {},
+        "following": following,
+        "tables": write_tables(folder, tables),
+    }
+    write_index(folder, head["tables"], tables["recordings"].to_pydict())
+    write_json(folder / HEAD, head)
+    return perf_counter() - start
+
+
+def simulated(folder: Path, hours: float) -> float:
+    """A library of shaken pieces of subject 86; seconds that joining its clusters took."""
+    (folder / PIECES).mkdir(parents=True)
+    rng = np.random.default_rng(0)
+    made = [make_piece(read(path), Settings()) for path in sorted((DATA / "cmu86").glob("*.amc"))]
+    keys = {}
+    for number in range(round(hours * 3600 / LASTS_S)):
+        piece, own = made[number % len(made)]
+        n = round(LASTS_S * piece.facts["features_fps"])
+        parts = [features for _, features in made]
+        whole = np.concatenate([own, *parts, *parts])[:n]
+        shaken = whole + SHAKEN * rng.normal(size=whole.shape).astype(np.float32)
+        shaken /= np.linalg.norm(shaken, axis=1, keepdims=True)
+        frames = round(LASTS_S * piece.facts["fps"])
+        facts = {**piece.facts, "n_frames": frames, "samples": n}
+        key = keys[f"{number:05d}"] = f"{number:032x}"
+        write_piece(folder / PIECES, key, Piece(facts, piece.table, piece.embeddings), shaken)
+    return joined(folder, keys)

@@ -1,0 +1,212 @@
+"""Builds of a library that are killed at any moment, and on a full disk: nothing is torn.
+
+    python benchmarks/library_kills.py [--kills 200] [--seed 0] [--record]
+
+A build is killed at a random moment, again and again until it gets through; half of them bring a
+library up to date, the others make a new one. After each kill the library that a reader sees is
+whole: as it was before the build or as it is after it. When a build got through, every file is byte
+for byte that of a build that nothing disturbed. Then the same with files that may not grow over so
+many bytes, which fails as a full disk does. Needs a system that can fork.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import resource
+import shutil
+import signal
+import sys
+import tempfile
+import time
+import warnings
+from collections import Counter
+from collections.abc import Callable, Iterator
+from itertools import product
+from pathlib import Path
+
+import kineme
+from _figures import add_option, record
+from kineme.errors import KinemeError, WriteError
+from kineme.library import Library, build
+from kineme.library.pieces import read_features, read_piece
+
+SPANS = {"a": (0, 400), "b": (700, 1100), "c": (1300, 1700), "d": (2000, 2500)}
+"""Frames of the bundled recording."""
+BEFORE = ("a", "b")
+"""Those that a library has which is brought up to date."""
+LIMITS = (0, 100, 400, 3_000, 6_500, 12_000, 18_000)
+"""Bytes that a file may have on the full disk."""
+FAILED, REFUSED = 1, 3
+"""How a build ends: by a mistake of ours; with a sentence."""
+
+
+def write_takes(folder: Path) -> None:
+    """The recordings: motions, and the heights of one as channels."""
+    folder.mkdir()
+    whole = kineme.read(kineme.bundled_recording())
+    for name, (start, stop) in SPANS.items():
+        kineme.write(whole[start:stop], folder / f"{name}.bvh")
+    heights = whole.positions[:1200, 10:14, 1]
+    rows = "\n".join(
+        f"{i / 60:.4f}," + ",".join(f"{x:.4f}" for x in row) for i, row in enumerate(heights)
+    )
+    (folder / "heights.csv").write_text(f"time_s,p,q,r,s\n{rows}\n")
+
+
+def child(work: Callable[[], None]) -> int:
+    """The process in which this is done."""
+    process = os.fork()
+    if process == 0:
+        code = FAILED
+        try:
+            work()
+            code = 0
+        except WriteError:
+            code = REFUSED
+        except BaseException as error:
+            print(f"{type(error).__name__}: {error}", file=sys.stderr, flush=True)
+            raise
+        finally:
+            os._exit(code)
+    return process
+
+
+def ended(process: int) -> int:
+    """How a process ended: its code, or less than 0 where it was killed."""
+    return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Every file by its place."""
+    files = (path for path in folder.rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+
+
+def torn(folder: Path, counts: set[int]) -> Iterator[str]:
+    """What is wrong with what a reader sees."""
+    for path in (folder / "pieces").glob("[!.]*.parquet"):
+        try:
+            read_piece(path.parent, path.stem)
+            read_features(path.parent, path.stem)
+        except KinemeError as error:
+            yield f"a piece is torn: {error}"
+    if not (folder / "library.json").exists():
+        if 0 not in counts:
+            yield "the library is gone"
+        return
+    try:
+        library = Library(folder)
+        if len(library) not in counts:
+            yield f"a library of {len(library)}"
+        for name in ("segments", "words", "embeddings", "clusters"):
+            library.table(name)
+        for piece in library.recordings["piece"]:
+            read_features(folder / "pieces", piece)
+    except KinemeError as error:
+        yield f"the library is torn: {error}"
+
+
+class Trial:
+    """A library to be built from where it stands, and what it is to become."""
+
+    def __init__(self, home: Path, takes: Path, before: Path | None):
+        self.takes, self.before = takes, before
+        self.folder = home / "library"
+        self.counts = {len(Library(before)) if before else 0, len(SPANS) + 1}
+        self.reset()
+        started = time.perf_counter()
+        self.build()
+        self.lasts = time.perf_counter() - started
+        self.wanted = contents(self.folder)
+
+    def reset(self) -> None:
+        shutil.rmtree(self.folder, ignore_errors=True)
+        if self.before:
+            shutil.copytree(self.before, self.folder)
+
+    def with_pieces(self) -> None:
+        """Where it stands when all recordings are read, and nothing else is written."""
+        self.reset()
+        for name, content in self.wanted.items():
+            if name.startswith("pieces/"):
+                (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+                (self.folder / name).write_bytes(content)
+
+    def build(self) -> None:
+        build(self.takes, self.folder)
+
+    def limited(self, most: int) -> None:
+        """A build on a disk that takes no larger file."""
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
+        self.build()
+
+
+def killed(trial: Trial, moments: random.Random, kills: int, found: Counter[str]) -> int:
+    """Builds killed until one gets through, ``kills`` at most; how many were."""
+    trial.reset()
+    n = 0
+    while n < kills:
+        process = child(trial.build)
+        time.sleep(moments.uniform(0.0, trial.lasts))
+        os.kill(process, signal.SIGKILL)
+        code = ended(process)
+        if code >= 0:
+            found.update([f"a build ended with {code}"] * (code > 0))
+            break
+        n += 1
+        found.update(torn(trial.folder, trial.counts))
+    code = ended(child(trial.build))
+    found.update([f"the last build ended with {code}"] * (code != 0))
+    found.update(["other bytes"] * (contents(trial.folder) != trial.wanted))
+    return n
+
+
+def on_a_full_disk(trial: Trial, found: Counter[str]) -> int:
+    """How many builds were refused."""
+    refused = 0
+    for begin, most in product((trial.reset, trial.with_pieces), LIMITS):
+        begin()
+        code = ended(child(lambda most=most: trial.limited(most)))
+        refused += code == REFUSED
+        found.update([f"a build on a full disk ended with {code}"] * (code not in (0, REFUSED)))
+        found.update(torn(trial.folder, trial.counts))
+        code = ended(child(trial.build))
+        found.update([f"the next build ended with {code}"] * (code != 0))
+        found.update(["other bytes after a full disk"] * (contents(trial.folder) != trial.wanted))
+    return refused
+
+
+def main() -> None:
+    """Kill, look, count; exit code 1 where something is torn."""
+    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    parser.add_argument("--kills", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=0)
+    add_option(parser)
+    options = parser.parse_args()
+    os.environ["KINEME_THREADS"] = "1"  # threads do not outlive a fork
+    warnings.simplefilter("ignore")
+    moments = random.Random(options.seed)
+    found: Counter[str] = Counter()
+    with tempfile.TemporaryDirectory() as name:
+        home, takes = Path(name), Path(name) / "takes"
+        write_takes(takes)
+        build([takes / f"{each}.bvh" for each in BEFORE], home / "before")
+        trials = [Trial(home, takes, None), Trial(home, takes, home / "before")]
+        n = rounds = 0
+        while n < options.kills:
+            n += killed(trials[rounds % 2], moments, options.kills - n, found)
+            rounds += 1
+            if rounds % 5 == 0 or n >= options.kills:
+                print(f"{n} kills, {rounds} libraries: {dict(found) or 'nothing torn'}", flush=True)
+        refused = sum(on_a_full_disk(trial, found) for trial in trials)
+        print(f"{refused} builds on a full disk: {dict(found) or 'nothing torn'}")
+    record("library.kills", n)
+    record("library.kills.torn", sum(found.values()))
+    record("library.full_disk", refused)
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()

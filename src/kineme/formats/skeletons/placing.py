@@ -1,0 +1,102 @@
+"""From a skeleton's own rotations, units and axes to a motion in metres with y up.
+
+An hour of a whole body is a gigabyte, so what is made of it is made once, in its final
+arrays, in blocks of frames that stay in the processor's cache.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme import _rotations as rot
+from kineme.formats.units import (
+    BODIES,
+    blocks,
+    height_of,
+    infer_unit,
+    infer_up,
+    metres,
+    up_rotation,
+)
+from kineme.recordings import Motion, Provenance, Skeleton
+from kineme.recordings.kinematics import forward_kinematics
+
+Floats = NDArray[np.float64]
+
+BYTES_PER_JOINT = 2 * 8 * (4 + 3)
+"""What a joint takes in a frame: rotation, position, and as much again."""
+
+
+def place(
+    skeleton: Skeleton,
+    rotations: Floats,
+    slides: Mapping[int, Floats],
+    fps: float,
+    *,
+    unit: str | float | None,
+    up: str | None,
+    provenance: Provenance,
+) -> Motion:
+    """The motion in metres with y up, from one in a file's own units and axes.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        As for `forward_kinematics`, in file units.
+    rotations : ndarray, shape (frames, joints, 4)
+        Become the motion's; changed in place.
+    slides : mapping of int to ndarray of shape (frames, 3)
+        Where joints are in the frames of their parents, file units, in place of their offsets.
+    unit : str, float or None
+        Of the file; None to infer them.
+    up : str or None
+        See `unit`.
+    """
+    means = skeleton.offsets.copy()
+    for joint, places in slides.items():
+        means[joint] = places.mean(axis=0)
+    if unit is None:
+        unit, note = infer_unit(skeleton, means)
+        provenance = provenance.noted(note)
+    else:
+        height = height_of(skeleton, means) * metres(unit)
+        if not BODIES[0] <= height <= BODIES[1]:
+            provenance = provenance.noted(
+                f"with unit {unit} the skeleton is about {height:.4g} m tall: look whether it fits"
+            )
+    scale = metres(unit)
+    skeleton = replace(skeleton, offsets=scale * skeleton.offsets)
+    positions = _positions(skeleton, rotations, slides, scale)
+    if up is None:
+        up = infer_up(skeleton, positions)
+        if up != "y":
+            provenance = provenance.noted(
+                f"turned: head and feet lie along {up}, so that axis was taken to be up"
+            )
+    if up != "y":
+        turn = up_rotation(up)
+        skeleton = replace(skeleton, offsets=rot.rotate(turn, skeleton.offsets))
+        for span in blocks(len(rotations)):
+            rotations[span] = rot.multiply(rot.multiply(turn, rotations[span]), rot.conjugate(turn))
+            positions[span] = rot.rotate(turn, positions[span])
+    return Motion(skeleton, positions, fps, rotations, provenance)
+
+
+def _positions(
+    skeleton: Skeleton, rotations: Floats, slides: Mapping[int, Floats], scale: float
+) -> Floats:
+    """(frames, joints, 3), metres."""
+    positions = np.empty((*rotations.shape[:2], 3))
+    for span in blocks(len(rotations)):
+        n = span.stop - span.start
+        shift = np.repeat(skeleton.offsets[:, :, None], n, axis=2)  # a row per joint and axis
+        for joint, places in slides.items():
+            shift[joint] = scale * places[span].T
+        positions[span] = forward_kinematics(
+            skeleton, rotations[span], translations=shift.transpose(2, 0, 1)
+        )
+    return positions

@@ -1,0 +1,40 @@
+"""Where tasks are worked on: in this process, in several, or on a cluster.
+
+An executor takes a function and what it is to be called with, and gives back what came of each, as
+they come. `here.Here` is this process, `processes.Processes` are several of this machine,
+`cluster.Cluster` the workers of a `dask.distributed` scheduler; another kind is one file more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Protocol, TypeVar
+
+Task = TypeVar("Task")
+Outcome = TypeVar("Outcome")
+
+
+class Executor(Protocol):
+    """Where tasks are worked on."""
+
+    def completed(
+        self, work: Callable[[Task], Outcome], tasks: Sequence[Task]
+    ) -> Iterator[tuple[Task, Outcome | None]]:
+        """Each task and what came of it, as they come.
+
+        Parameters
+        ----------
+        work : callable
+            A function of a module, which raises nothing.
+        tasks : sequence
+            Each is pickled where it goes to another process.
+
+        Yields
+        ------
+        task
+            One of the given.
+        outcome
+            None where whatever process worked on it died. Others than this task lose nothing by
+            it. Who stops asking ends the work on what is left.
+        """
+        ...

@@ -1,0 +1,115 @@
+"""The windows of all recordings of a library, kept beside its tables.
+
+``windows.LENGTH.npy`` holds those of one length, recording after recording in the order of the
+table of recordings. Libraries of up to `FROM_HOURS` have none: they are searched as a whole.
+"""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from kineme.errors import ReadError
+from kineme.library.index.windows import LENGTHS, NUMBERS, Halves, Ints, by_length, count
+from kineme.library.layout import BODIES, PIECES, TABLES
+from kineme.library.pieces import read_windows
+from kineme.library.storage.places import near, written
+
+FROM_HOURS = 100.0
+"""Of recordings of bodies, from which a library has an index."""
+
+
+class Windows(NamedTuple):
+    """The windows of one length.
+
+    Attributes
+    ----------
+    length : int
+    embedded : (windows, 32) array of float16
+        In a file that is mapped.
+    firsts : (recordings + 1,) array
+        The first window of each recording, and the end.
+    samples : (recordings,) array
+        Samples of the features of each recording.
+    """
+
+    length: int
+    embedded: Halves
+    firsts: Ints
+    samples: Ints
+
+
+def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> None:
+    """Leave the index of a library beside its tables, where it is large enough to have one.
+
+    Parameters
+    ----------
+    folder : Path
+    named : str
+        The tables.
+    recordings : dict of str to list
+        The table of recordings by column.
+    """
+    told = recordings
+    samples = _indexed(told)
+    rates = zip(samples.tolist(), told["features_fps"], strict=True)
+    if sum(n / fps for n, fps in rates if n) < FROM_HOURS * 3600:
+        return
+    home = folder / TABLES / named
+    if all(_place(home, length).is_file() for length in LENGTHS):
+        return
+    with ExitStack() as stack:
+        drafts = {
+            length: np.lib.format.open_memmap(
+                stack.enter_context(written(_place(home, length))),
+                mode="w+",
+                dtype=np.float16,
+                shape=(int(count(samples, length).sum()), NUMBERS),
+            )
+            for length in LENGTHS
+        }
+        firsts = dict.fromkeys(LENGTHS, 0)
+        for row in np.flatnonzero(samples):
+            own = read_windows(folder / PIECES, told["piece"][row])
+            for length, part in by_length(own, int(samples[row])):
+                drafts[length][firsts[length] : firsts[length] + len(part)] = part
+                firsts[length] += len(part)
+        for draft in drafts.values():
+            draft.flush()
+
+
+def open_index(
+    folder: Path, named: str, recordings: dict[str, list[Any]], length: int
+) -> Windows | None:
+    """The windows of one length, or None where the library has no index.
+
+    Raises
+    ------
+    ReadError
+        It is damaged.
+    """
+    path = _place(folder / TABLES / named, length)
+    try:
+        embedded: Halves = np.load(near(path), mmap_mode="r", allow_pickle=False)
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError) as error:
+        raise ReadError(path, "is damaged: remove it and build the library again") from error
+    samples = _indexed(recordings)
+    firsts = np.concatenate([[0], np.cumsum(count(samples, length))])
+    if len(embedded) != firsts[-1]:
+        raise ReadError(path, "is damaged: remove it and build the library again")
+    return Windows(length, embedded, firsts, samples)
+
+
+def _indexed(recordings: dict[str, list[Any]]) -> Ints:
+    """The samples of each recording, 0 of those that are no bodies."""
+    bodies = np.array(recordings["vocabulary"], object) == BODIES
+    return np.where(bodies, np.array(recordings["samples"], np.int64), 0)
+
+
+def _place(home: Path, length: int) -> Path:
+    return home / f"windows.{length}.npy"

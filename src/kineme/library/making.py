@@ -1,0 +1,54 @@
+"""From a recording to its piece: segmented and described."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.library.descriptions import describe
+from kineme.library.layout import EMBEDDED
+from kineme.library.pieces import Piece
+from kineme.library.settings import Settings
+from kineme.recordings import Motion, Signals
+from kineme.segmentation.segmenter import segment
+
+
+def make_piece(
+    recording: Motion | Signals, settings: Settings
+) -> tuple[Piece, NDArray[np.float32]]:
+    """What is kept of a recording, and its features.
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+    settings : Settings
+
+    Returns
+    -------
+    piece : Piece
+    features : (samples, dims) array
+    """
+    emg = settings.options().emg
+    found = segment(
+        recording,
+        preset=settings.preset,
+        effectors=settings.effectors,
+        emg=emg,
+        **settings.constants,
+    )
+    described = describe(recording, effectors=settings.effectors, emg=emg)
+    embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
+    for row, each in enumerate(found.table):
+        if each.kind == "activity":
+            embeddings[row] = described.embedding(each.start_s, each.stop_s)
+    reason = f"not searched: {described.reason}" if described.reason else ""
+    facts = {
+        "format": recording.provenance.format or "",
+        "n_frames": recording.n_frames,
+        "fps": recording.fps,
+        "vocabulary": described.vocabulary,
+        "features_fps": described.fps,
+        "samples": len(described.features),
+        "notes": [*found.provenance["notes"], *filter(None, [reason])],
+    }
+    return Piece(facts, found.table, embeddings), described.features

@@ -1,0 +1,142 @@
+"""Paths and URLs: told apart, written whole, and kept near."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from hashlib import sha256
+from os import PathLike
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, cast
+from urllib.parse import urlparse
+from urllib.request import url2pathname
+
+from kineme._checks import check_path
+from kineme._files import atomic_write
+from kineme.errors import (
+    KinemeError,
+    MissingDependencyError,
+    ParameterError,
+    ReadError,
+    WriteError,
+)
+
+EXTRA = "remote"
+"""The extra that installs what URLs need."""
+_URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
+
+
+def place(given: str | PathLike[str], door: str = "place") -> Path:
+    """A path, or what behaves like one where a URL is given.
+
+    Parameters
+    ----------
+    given : path-like
+    door : str
+        The public function that was given it.
+
+    Raises
+    ------
+    MissingDependencyError
+        universal_pathlib is not installed.
+    ParameterError
+        It is no path, or nothing that is installed reaches such a URL.
+
+    Examples
+    --------
+    >>> place("file:///tmp/takes").name
+    'takes'
+    """
+    if is_remote(given):
+        return cast("Path", given)
+    check_path(given, door)
+    if not isinstance(given, str) or not _URL.match(given):
+        return Path(given)
+    if given.lower().startswith("file://"):
+        return Path(url2pathname(urlparse(given).path))
+    try:
+        from upath import UPath
+    except ImportError as error:
+        raise MissingDependencyError("universal_pathlib", EXTRA) from error
+    try:
+        found = UPath(given)
+        _ = found.fs
+    except (ImportError, ValueError) as error:  # such as: Install s3fs to access S3
+        raise ParameterError(f"{given:.200} cannot be reached: {error}") from error
+    return cast("Path", found)
+
+
+def is_remote(path: str | PathLike[str]) -> bool:
+    """Whether a place is elsewhere."""
+    return hasattr(path, "protocol")
+
+
+@contextmanager
+def reaching(path: Path) -> Iterator[None]:
+    """A block that uses a place: what goes wrong on the way there is a ReadError."""
+    try:
+        yield
+    except KinemeError:
+        raise
+    except Exception as error:
+        if not is_remote(path):
+            raise
+        said = " ".join(str(error).split())[:200] or type(error).__name__
+        raise ReadError(path, f"cannot be reached: {said}") from error
+
+
+@contextmanager
+def written(path: Path) -> Iterator[Path]:
+    """A path of this machine to write to; what is there when the block ends becomes ``path``.
+
+    Whole or not at all: as `kineme._files.atomic_write` here, and as one object elsewhere.
+
+    Raises
+    ------
+    WriteError
+        It cannot be written.
+    """
+    if not is_remote(path):
+        with atomic_write(path) as draft:
+            yield draft
+        return
+    with TemporaryDirectory(prefix="kineme-") as home:
+        draft = Path(home) / path.name
+        yield draft
+        there: Any = path
+        try:
+            there.fs.put_file(str(draft), there.path)
+        except Exception as error:
+            said = " ".join(str(error).split())[:200]
+            raise WriteError(path, f"cannot be written: {said}") from error
+
+
+def near(path: Path) -> Path:
+    """A file that never changes under its name, on this machine: its copy, where it is elsewhere.
+
+    Copies are in ``KINEME_CACHE``, else in ``~/.cache/kineme``, and may be deleted.
+    """
+    if not is_remote(path):
+        return path
+    home = Path(os.environ.get("KINEME_CACHE") or Path.home() / ".cache" / "kineme") / "library"
+    copy = home / f"{sha256(str(path).encode()).hexdigest()[:32]}{path.suffix}"
+    if not copy.is_file():
+        content = path.read_bytes()
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        with atomic_write(copy) as draft:
+            draft.write_bytes(content)
+    return copy
+
+
+def remove_folder(folder: Path) -> None:
+    """Remove a folder with all that is in it, as far as that can be done."""
+    import shutil
+
+    if is_remote(folder):
+        there: Any = folder
+        there.fs.rm(there.path, recursive=True)
+    else:
+        shutil.rmtree(folder, ignore_errors=True)

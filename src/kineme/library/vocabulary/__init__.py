@@ -1,0 +1,1 @@
+"""One vocabulary of a library: words, the clusters they are joined to, numbers that last."""

@@ -1,0 +1,167 @@
+"""The constants of the baselines, by method.
+
+All of them see a body by the rotations of 14 joints, where it has these, and at
+120 Hz, as their authors did; any other recording as every method sees it.
+ACA, HACA and GMM have to be told how many actions there are (``n_classes``).
+Values are those of the papers, lengths that they give in frames at 120 Hz in seconds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from kineme.errors import ParameterError
+from kineme.methods.base import RATE, Preset, Unit, View
+from kineme.methods.constants import (
+    COUNT,
+    FACTOR,
+    SHARE,
+    SOME,
+    SOME_SHARE,
+    SOME_TIME,
+    constant,
+)
+
+Lengths = tuple[int, int]
+VARIANCE_KEPT = "share of the variance that the leading directions keep"
+
+
+@dataclass(frozen=True, kw_only=True)
+class BaselineConstants(Preset):
+    """What the baselines share: how they see a recording."""
+
+    method: ClassVar[str] = "baselines"
+    units: ClassVar[tuple[Unit, ...]] = ("any",)
+    view: ClassVar[View] = "quaternions"
+
+    unit: Unit = "any"
+    working_fps: float = constant(
+        "samples per second at which the recording is looked at", unit="Hz", limits=RATE,
+        default=120.0,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class ToldConstants(BaselineConstants):
+    """A baseline that has to be told the number of actions."""
+
+    n_classes: int | None = constant(
+        "number of actions, which the method has to be told", limits=SOME, default=None
+    )
+    seed: int = constant("of all random starts", limits=COUNT, default=0, fine=True)
+
+    def told(self) -> int:
+        """The number of actions; ParameterError if nobody said."""
+        if self.n_classes is None:
+            raise ParameterError(
+                f"{self.name} has to be told the number of actions: give n_classes (--n-classes)"
+            )
+        return self.n_classes
+
+
+@dataclass(frozen=True, kw_only=True)
+class AlignedConstants(ToldConstants):
+    """What ACA and HACA share."""
+
+    view: ClassVar[View] = "rotation vectors"
+
+    centres: int = constant("k-means centres of the reduction to blocks", limits=SOME, default=20)
+    longest_block: int = constant(
+        "longest block that stands for like samples", unit="samples", limits=SOME, default=5,
+        fine=True,
+    )  # fmt: skip
+    nearest_share: float = constant(
+        "share of the blocks that are nearest to one, whose mean distance is the kernel's width",
+        limits=SOME_SHARE, default=0.02, fine=True,
+    )  # fmt: skip
+    kmeans_starts: int = constant(
+        "random starts of each k-means, of which the tightest is kept", limits=SOME, default=50,
+        fine=True,
+    )  # fmt: skip
+    searches: int = constant(
+        "searches for better segments, unless these repeat before", limits=SOME, default=20,
+        fine=True,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class AcaConstants(AlignedConstants):
+    """Of aligned cluster analysis."""
+
+    shortest: int = constant("shortest segment", unit="blocks", limits=SOME, default=32)
+    longest: int = constant("longest segment", unit="blocks", limits=SOME, default=60)
+    starts: int = constant("initialisations, of which the best is kept", limits=SOME, default=1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HacaConstants(AlignedConstants):
+    """Of hierarchical aligned cluster analysis."""
+
+    fine_lengths: Lengths = constant(
+        "shortest and longest segment of the first level", unit="blocks", limits=SOME,
+        default=(8, 10),
+    )  # fmt: skip
+    coarse_lengths: Lengths = constant(
+        "shortest and longest segment of the second level, segments of the first", limits=SOME,
+        default=(4, 6),
+    )  # fmt: skip
+    fine_classes: int = constant("clusters of the first level", limits=SOME, default=12)
+    fine_starts: int = constant(
+        "initialisations of the first level, of which the best second level is kept",
+        limits=SOME, default=5,
+    )  # fmt: skip
+    coarse_starts: int = constant(
+        "initialisations of the second level, of which the best is kept", limits=SOME, default=10
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class GmmConstants(ToldConstants):
+    """Of the Gaussian mixture."""
+
+    variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.9)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PcaConstants(BaselineConstants):
+    """Of the cuts where principal components cease to fit."""
+
+    first: float = constant(
+        "first part of a segment, which fixes the number of components", unit="s",
+        limits=SOME_TIME, default=2.0,
+    )  # fmt: skip
+    rise_span: float = constant(
+        "time over which the rise of the error is taken", unit="s", limits=SOME_TIME, default=0.5
+    )
+    variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.9)
+    deviations: float = constant(
+        "standard deviations by which the rise exceeds its mean at a cut", limits=FACTOR,
+        default=3.0,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class PpcaConstants(BaselineConstants):
+    """Of the cuts where a Gaussian ceases to fit."""
+
+    ahead: float = constant(
+        "time ahead that is held against the Gaussian, and the first that it is fitted to",
+        unit="s", limits=SOME_TIME, default=1.25,
+    )  # fmt: skip
+    growth_step: float = constant(
+        "steps in which the time grows that the Gaussian is fitted to", unit="s",
+        limits=SOME_TIME, default=1 / 12,
+    )  # fmt: skip
+    variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.95)
+    rise: float = constant(
+        "share of the distance's range by which a peak rises above the valley before it",
+        limits=SHARE, default=0.1,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class UniformConstants(BaselineConstants):
+    """Of cuts at equal distances."""
+
+    interval: float = constant("time between two cuts", unit="s", limits=SOME_TIME, default=0.5)

@@ -1,0 +1,129 @@
+"""Primitives of the ``kineme`` method: repetitions of the activities, occurrences elsewhere.
+
+All in frames of the features.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import compress
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._threads import map_threads
+from kineme.methods.confidence import probability
+from kineme.methods.recurrence.ends import fitted_ends
+from kineme.methods.recurrence.evidence import counted
+from kineme.methods.recurrence.occurrences import occurrences
+from kineme.methods.recurrence.parts import clusters_of_repetitions
+from kineme.methods.recurrence.placing import Segments, of_actions, placed
+from kineme.methods.recurrence.recurrence import Recurrence
+from kineme.methods.recurrence.repetitions import Repetitions, repetitions
+from kineme.methods.samples import single_poses
+
+if TYPE_CHECKING:
+    from kineme.methods.recurrence.constants import RecurrenceConstants
+
+Frames = NDArray[np.int64]
+
+
+def count_repetitions(
+    recurring: Recurrence,
+    borders: Frames,
+    labels: Frames,
+    limits: Frames,
+    preset: RecurrenceConstants,
+) -> list[Repetitions]:
+    """Repetitions of each activity; none in transitions.
+
+    An activity's first and last repetition reach into its transitions, so it
+    is counted from half-way to the limit of its action; cuts lie within it.
+    """
+    limits = np.append(limits[:-1], len(recurring.features))
+
+    def count(segment: int) -> Repetitions:
+        start, stop = int(borders[segment]), int(borders[segment + 1])
+        if labels[segment] < 0:
+            return Repetitions(np.empty(0, np.int64))
+        action = int(np.searchsorted(limits, (start + stop) // 2, side="right")) - 1
+        first = (start + min(start, int(limits[action]))) // 2
+        last = (stop + max(stop, int(limits[action + 1]))) // 2
+        found = repetitions(recurring.features, first, last, preset)
+        inside = (start < found.cuts) & (found.cuts < stop)
+        return replace(found, cuts=found.cuts[inside])
+
+    return map_threads(count, range(len(labels)))
+
+
+def with_repetitions(
+    recurring: Recurrence,
+    borders: Frames,
+    labels: Frames,
+    own: NDArray[np.float64],
+    repeating: Sequence[Repetitions],
+    preset: RecurrenceConstants,
+) -> Segments:
+    """Activities and their repetitions, with fitted ends."""
+    n, known = len(recurring.features), labels >= 0
+    ends = fitted_ends(
+        recurring.features,
+        borders[:-1][known],
+        borders[1:][known],
+        labels[known],
+        [each.cuts for each in compress(repeating, known)],
+        preset,
+    )
+    borders, activity = _tiled(n, ends.starts, ends.stops)
+    primitives, repeated = _tiled(
+        n, ends.firsts, ends.lasts, [borders, *(each.cuts for each in repeating)]
+    )
+    labels, own = np.append(labels[known], -1), np.append(own[known], np.nan)
+    clusters = clusters_of_repetitions(
+        single_poses(recurring.features, preset.offsets),
+        primitives,
+        labels[repeated],
+        repeated,
+        preset,
+    )
+    none = np.empty(0, np.int64)
+    return Segments(borders, labels[activity], own[activity], primitives, clusters, none)
+
+
+def with_occurrences(
+    recurring: Recurrence, segments: Segments, preset: RecurrenceConstants
+) -> Segments:
+    """Occurrences for primitives in transitions, and in actions whose counts are not probable.
+
+    An action gives its repetitions up where occurrences explain more of it than these are
+    probable. Transitions that are no more than the ends of two activities are left alone.
+    """
+    borders, labels = segments.borders, segments.labels
+    parents, repeats, lengths = segments.parents, segments.repeats, np.diff(borders)
+    counts, _ = counted(
+        recurring.features, segments.primitives, parents, repeats, segments.own, preset
+    )
+    several = np.bincount(parents[repeats], minlength=len(labels)) > 1
+    sure = of_actions(probability(counts, preset.count_weights), lengths * several, labels)
+    ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
+    weak = (sure < preset.unsure_count) & ~ends
+    looked_at = np.repeat(weak, lengths)
+    found = occurrences(single_poses(recurring.features, preset.offsets), looked_at, preset)
+    explained = of_actions(found.explained(borders), lengths, labels)
+    free = weak & ((labels < 0) | (explained > sure))
+    return placed(segments, found.within(borders, free), free)
+
+
+def _tiled(
+    n: int, starts: Frames, stops: Frames, cuts: Sequence[Frames] = ()
+) -> tuple[Frames, Frames]:
+    """Borders from 0 to n with these spans and cuts among them, and the span of each segment.
+
+    What lies in no span is in span -1.
+    """
+    borders: Frames = np.unique(np.concatenate([[0, n], starts, stops, *cuts]))
+    spans = np.searchsorted(starts, borders[:-1], side="right") - 1
+    inside = (spans >= 0) & (borders[:-1] < np.append(stops, 0)[spans])
+    return borders, np.where(inside, spans, -1)

@@ -1,0 +1,67 @@
+/** The table of repetitions; on paper it follows the pictures. */
+import type { JSX } from "preact";
+import { NO_COLOR } from "../colors";
+import { durationOf, nameOf } from "../segments";
+import type { Store } from "../store";
+import { clock } from "../view";
+import { repetitionsOf } from "./repetitions";
+
+export function Repetitions({ store }: { store: Store }): JSX.Element | null {
+  const table = store.recording.value?.segmentation;
+  const rows = table ? repetitionsOf(table) : [];
+  if (!rows.length) return <p class="empty quiet">Nothing repeats itself here.</p>;
+  return (
+    <table class="repetitions">
+      <thead>
+        <tr>
+          <th scope="col">Activity</th>
+          <th scope="col">Start</th>
+          <th scope="col">Length</th>
+          <th scope="col">Times</th>
+          <th scope="col" title="Mean and standard deviation">
+            Mean ± sd
+          </th>
+          <th scope="col">Each, in seconds</th>
+        </tr>
+      </thead>
+      <tbody>
+        {rows.map(({ activity, durations, mean_s, deviation_s }) => (
+          <tr key={activity.start_frame}>
+            <th scope="row">
+              <button type="button" class="plain" onClick={() => store.select(activity)}>
+                <span class="swatch" style={{ background: store.colorOf(activity) ?? NO_COLOR }} />
+                {nameOf(activity)}
+              </button>
+            </th>
+            <td class="number">{clock(activity.start_s, 1)}</td>
+            <td class="number">{durationOf(activity).toFixed(1)} s</td>
+            <td class="number">{durations.length}</td>
+            <td class="number">
+              {mean_s.toFixed(2)}
+              {deviation_s !== null && ` ± ${deviation_s.toFixed(2)}`}
+            </td>
+            <td class="each">{durations.map((each) => each.toFixed(2)).join("  ")}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+/** What is printed below the pictures: what was found in what, and the repetitions. */
+export function Paper({ store }: { store: Store }): JSX.Element | null {
+  const recording = store.recording.value;
+  if (!recording) return null;
+  const { provenance } = recording.segmentation;
+  return (
+    <section class="paper" aria-hidden="true">
+      <p>
+        {clock(store.duration.value, 1)}, {recording.n_frames} frames at{" "}
+        {Number(recording.fps.toPrecision(5))} Hz
+        {typeof provenance.preset === "string" && `, segmented by ${provenance.preset}`}
+      </p>
+      <h2>Repetitions</h2>
+      <Repetitions store={store} />
+    </section>
+  );
+}

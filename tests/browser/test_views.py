@@ -1,0 +1,129 @@
+"""Each view of studio and report: reachable by everybody, and whole at every size."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from screen import Screen
+
+import kineme
+
+AXE = Path(kineme.__file__).parent / "web/pages/node_modules/axe-core/axe.min.js"
+RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
+FAULTS = Path(__file__).with_name("faults.js").read_text(encoding="utf-8")
+TABS = ("segment", "table", "review", "clusters", "compare", "about")
+DIALOGS = "htce?"
+SIZES = {390: 844, 768: 1024, 1024: 768, 1440: 900, 2560: 1440}
+
+
+def violations(page: Any, *, colors_only: bool) -> list[str]:
+    """What axe-core objects to, level A or AA."""
+    rules = {"type": "rule", "values": ["color-contrast"]} if colors_only else RULES
+    found = page.evaluate(
+        "(only) => axe.run(document, { runOnly: only, resultTypes: ['violations'] })", rules
+    )
+    return [
+        f"{each['id']}: {node['target']}, {node['failureSummary']}"
+        for each in found["violations"]
+        for node in each["nodes"]
+    ]
+
+
+def views(page: Any, screen: Screen) -> Iterator[str]:
+    """Every view of a recording in the studio, one after the other."""
+    for tab in TABS:
+        page.locator(f"#tab-{tab}").click()
+        if tab == "review":
+            page.keyboard.press("j")
+        if tab == "clusters":
+            page.locator(".cluster-name").first.click()
+        yield tab
+    page.get_by_label("Preset", exact=True).select_option("voegele2014")
+    screen.wait("k.other === 'Preview'")
+    yield "preview"
+    page.get_by_role("button", name="Discard").click()
+    screen.wait("k.other === null")
+    for key in DIALOGS:
+        page.keyboard.press(key)
+        page.locator("dialog[open]").wait_for()
+        yield f"dialog {key}"
+        page.keyboard.press("Escape")
+        page.locator("dialog[open]").wait_for(state="detached")
+
+
+@pytest.fixture
+def sensors(server) -> Path:
+    """A recording without a body."""
+    times = np.arange(900) / 60
+    values = np.sin(2 * np.pi * times * np.where(times < 7, 1, 2))
+    path = server.folder / "sensors.csv"
+    table = np.column_stack([times, values, np.roll(values, 5)])
+    np.savetxt(path, table, delimiter=",", header="time,a,b", comments="")
+    return path
+
+
+@pytest.fixture
+def report(take, tmp_path) -> Path:
+    motion = kineme.read(take)
+    kineme.write_report(motion, kineme.segment(motion), tmp_path / "report.html")
+    return tmp_path / "report.html"
+
+
+def test_nobody_is_kept_out_of_any_view(page, server, sensors, report):
+    if not AXE.exists():
+        pytest.skip("no axe-core: npm ci in src/kineme/web/pages")
+    screen, found = Screen(page), []
+
+    def look(view: str, *, colors_only: bool = False) -> None:
+        found.extend(f"{view}, {each}" for each in violations(page, colors_only=colors_only))
+
+    def load() -> None:
+        page.evaluate(f"{AXE.read_text(encoding='utf-8')}; 0")
+
+    load()
+    for scheme in ("dark", "light"):
+        page.emulate_media(color_scheme=scheme)
+        for view in views(page, screen):
+            look(f"{scheme}, {view}", colors_only=scheme == "light")
+    page.goto(server.address_of(sensors))
+    screen.wait("k?.segments?.length")
+    load()
+    look("sensors")
+    page.goto(report.as_uri())
+    screen.opened()
+    load()
+    for tab in page.get_by_role("tab").all():
+        tab.click()
+        look(f"report, {tab.inner_text()}")
+    assert found == []
+
+
+def test_nothing_is_cut_off_covered_or_empty_at_any_size(page, server, sensors, report):
+    screen, found = Screen(page), []
+
+    def look(view: str) -> None:
+        found.extend(f"{view}: {each}" for each in dict.fromkeys(page.evaluate(FAULTS)))
+
+    for width, height in SIZES.items():
+        page.set_viewport_size({"width": width, "height": height})
+        for scheme in ("dark", "light"):
+            for motion in ("no-preference", "reduce"):
+                page.emulate_media(color_scheme=scheme, reduced_motion=motion)
+                screen.opened()
+                look(f"{width}, {scheme}, {motion}")
+                figure = page.locator(".viewer canvas").bounding_box()
+                assert figure["height"] > 200
+        for view in views(page, screen):
+            look(f"{width}, {view}")
+    for address in (server.address_of(sensors), report.as_uri()):
+        page.goto(address)
+        screen.wait("k?.n_segments")
+        for width, height in SIZES.items():
+            page.set_viewport_size({"width": width, "height": height})
+            screen.page.wait_for_timeout(50)
+            look(f"{width}, {address[-20:]}")
+    assert found == []
