@@ -79,3 +79,16 @@ def test_a_comment_outlives_borders_and_new_segmentations(studio: Studio) -> Non
     (comment,) = made["segmentation"]["comments"]
     assert comment["text"] == "slips"
     assert row["start_frame"] <= comment["frame"] < row["stop_frame"]
+
+
+def test_a_recording_can_be_read_otherwise(studio: Studio) -> None:
+    message = studio.recording()
+    studio.done(message["revision"], "split", level="activity", frame=90)
+    address = f"/api/recordings/{studio.id}/reading"
+    assert studio.client.post(address, json={"unit": "parsec"}).status_code == 400
+    assert studio.recording()["fps"] == message["fps"]
+    assert studio.client.post(address, json={"fps": 30.0}).status_code == 200
+    after = studio.recording()
+    assert (after["fps"], after["reading"]) == (30.0, {"fps": 30.0})
+    assert after["segmentation"]["fps"] == 30.0
+    assert after["can_undo"] is False or after["saved"]

@@ -23,6 +23,7 @@ from kineme.studio.journal import Change, Journal
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.looks import preview_of, versions_of
 from kineme.studio.reading import RecordingCache
+from kineme.studio.reading_of_one import said_of
 from kineme.studio.storage import ChangedOnDiskError, saved_table
 from kineme.studio.videos import video_message
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
@@ -129,6 +130,7 @@ class OpenRecording:
                 can_redo=self._journal.can_redo,
                 saved=self._saved,
                 video=video_message(self.path),
+                reading=said_of(self.path),
                 finding=self._finding,
                 warnings=[*shown.warnings, *self._notes],
             )

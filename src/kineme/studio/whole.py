@@ -26,7 +26,13 @@ from kineme.studio.videos import set_offset, video_of
 from kineme.studio.vocabulary import share_labels
 from kineme.web.encoding import from_json
 from kineme.web.folder_messages import FileChoice
-from kineme.web.requests import ClipsRequest, KnowledgeRequest, LabelsRequest, VideoRequest
+from kineme.web.requests import (
+    ClipsRequest,
+    KnowledgeRequest,
+    LabelsRequest,
+    ReadingRequest,
+    VideoRequest,
+)
 
 
 class Whole:
@@ -90,6 +96,13 @@ class Whole:
         await run_in_threadpool(set_offset, path, sent.offset_s)
         return MessageResponse({"offset_s": sent.offset_s})
 
+    async def reading(self, request: Request) -> Response:
+        sent = from_json(await body(request), ReadingRequest)
+        name = request.path_params["id"]
+        said = {field: getattr(sent, field) for field in sent.__struct_fields__}
+        await run_in_threadpool(self._recordings.read_as, name, said)
+        return MessageResponse({field: value for field, value in said.items() if value})
+
     def routes(self, one: str) -> list[Route]:
         """These, and those of a recording, whose address begins with ``one``."""
         sent: list[tuple[str, Callable[..., object]]] = [
@@ -97,6 +110,7 @@ class Whole:
             ("/api/knowledge", self.knowledge),
             (f"{one}/clips", self.clips),
             (f"{one}/video", self.offset),
+            (f"{one}/reading", self.reading),
         ]
         return [
             Route("/api/export/{format}", self.export),

@@ -115,7 +115,8 @@ class Video(Struct, frozen=True, kw_only=True):
 class Recording(Struct, frozen=True, kw_only=True):
     """Everything a page needs of one recording but the binary parts.
 
-    ``levels`` has the tables at all details, coarsest first, in a report; the studio's server is
+    ``reading`` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+    ``levels`` the tables at all details, coarsest first, in a report; the studio's server is
     asked for them.
     While ``finding`` its segments are still to be found, and the table is a single transition.
     """
@@ -129,6 +130,7 @@ class Recording(Struct, frozen=True, kw_only=True):
     segmentation: Segments
     levels: list[TableAtDetail]
     video: Video | None
+    reading: dict[str, Any]
     revision: int
     can_undo: bool
     can_redo: bool

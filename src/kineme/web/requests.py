@@ -240,6 +240,15 @@ class VideoRequest(Request, frozen=True, kw_only=True):
     offset_s: Number
 
 
+class ReadingRequest(Request, frozen=True, kw_only=True):
+    """How a recording is read; empty: as the file says."""
+
+    person: Text = ""
+    fps: Number = 0
+    unit: Text = ""
+    up: Text = ""
+
+
 class CompareRequest(Request, frozen=True, kw_only=True):
     """Another result to lay beside the shown one: a preset's, or a file's of the folder."""
 

@@ -116,7 +116,8 @@ export interface Video {
 /**
  * Everything a page needs of one recording but the binary parts.
  *
- * `levels` has the tables at all details, coarsest first, in a report; the studio's server is
+ * `reading` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+ * `levels` the tables at all details, coarsest first, in a report; the studio's server is
  * asked for them.
  * While `finding` its segments are still to be found, and the table is a single transition.
  */
@@ -130,6 +131,7 @@ export interface Recording {
   segmentation: Segments;
   levels: TableAtDetail[];
   video: Video | null;
+  reading: Record<string, unknown>;
   revision: number;
   can_undo: boolean;
   can_redo: boolean;
@@ -469,6 +471,14 @@ export interface ClipsRequest {
 /** Where the recording starts in its reference video, seconds. */
 export interface VideoRequest {
   offset_s: number;
+}
+
+/** How a recording is read; empty: as the file says. */
+export interface ReadingRequest {
+  person?: string;
+  fps?: number;
+  unit?: string;
+  up?: string;
 }
 
 /** Another result to lay beside the shown one: a preset's, or a file's of the folder. */

@@ -23,6 +23,7 @@ import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
 import { Video } from "./panels/Video";
 import { PresetPanel } from "./panels/PresetPanel";
+import { ReadingPanel } from "./panels/ReadingPanel";
 import { SegmentPanel } from "./panels/SegmentPanel";
 import type { Review } from "./review/review";
 import { ReviewPanel } from "./review/ReviewPanel";
@@ -87,6 +88,7 @@ export function Studio({ session, editor, review, uploads, front }: Props): JSX.
           <>
             <FolderPanel session={session} uploads={uploads} />
             <PresetPanel session={session} />
+            <ReadingPanel session={session} />
           </>
         }
         viewer={<Stage session={session} />}

@@ -53,6 +53,7 @@ export function recording(segmentation = table(), revision = 0): Recording {
     segmentation,
     levels: [],
     video: null,
+    reading: {},
     revision,
     can_undo: false,
     can_redo: false,

@@ -20,6 +20,7 @@ import type {
   Level,
   Listing,
   Preview,
+  ReadingRequest,
   PreviewRequest,
   Recording,
   State,
@@ -121,6 +122,11 @@ export class Api {
 
   makeKnowledge(request: KnowledgeRequest): Promise<FileChoice> {
     return this.json("/api/knowledge", request);
+  }
+
+  /** How a recording is read from now on. */
+  readAs(id: string, request: ReadingRequest): Promise<unknown> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}/reading`, request);
   }
 
   /** Where the video of a recording comes from. */
