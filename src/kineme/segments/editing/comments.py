@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from kineme.segments.editing.naming import starting
+from kineme.segments.editing.rows import starting
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
