@@ -20,12 +20,12 @@ from kineme.errors import KinemeError, ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.journal import Change, Journal
+from kineme.studio.kept.reading_of_one import said_of
+from kineme.studio.kept.videos import video_message
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.looks import preview_of, versions_of
 from kineme.studio.reading import RecordingCache
-from kineme.studio.reading_of_one import said_of
 from kineme.studio.storage import ChangedOnDiskError, saved_table
-from kineme.studio.videos import video_message
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
 from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 

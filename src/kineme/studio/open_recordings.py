@@ -13,9 +13,9 @@ from msgspec import UNSET
 from kineme.errors import KinemeError
 from kineme.methods.presets import DEFAULT
 from kineme.studio.folder import Folder
+from kineme.studio.kept.reading_of_one import keep_options, said_of
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.reading import ReadingOptions, RecordingCache
-from kineme.studio.reading_of_one import keep_options, said_of
 from kineme.web.messages import Edited, Recording
 from kineme.web.requests import EditRequest, SegmentAgain
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError
 from kineme.formats import ReadOptions, read_quietly
-from kineme.studio.reading_of_one import read_options
+from kineme.studio.kept.reading_of_one import read_options
 
 if TYPE_CHECKING:
     from kineme.features import Names

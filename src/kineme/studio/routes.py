@@ -25,6 +25,7 @@ from kineme.studio.answers import MessageResponse, file_response, number_in
 from kineme.studio.bodies import body, chunks
 from kineme.studio.events import Hub
 from kineme.studio.folder import file_id
+from kineme.studio.kept.vocabulary import shared_labels
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.pictures import Pictures
 from kineme.studio.progress import progress
@@ -33,7 +34,6 @@ from kineme.studio.uploads import (
     Upload,
     recording_suffixes,
 )
-from kineme.studio.vocabulary import shared_labels
 from kineme.studio.whole import Whole
 from kineme.web.encoding import from_json
 from kineme.web.folder_messages import FileChoice, Listing, State
