@@ -1,6 +1,6 @@
 """What a library of many hours costs, and whether its index finds what an exact search finds.
 
-    python benchmarks/scale.py [costs] [search] [--hours 1000] [--library DIR] [--record]
+    python benchmarks/scale.py [costs] [search] [larger] [--hours 1000] [--library DIR] [--record]
 
 ``costs``: processor seconds for an hour of recording (subject 86, AMC, 120 frames a second): read,
 segmented, described and kept; the bytes of it, and how many clusters it has, which
@@ -8,22 +8,25 @@ segmented, described and kept; the bytes of it, and how many clusters it has, wh
 of six laboratories one after the other, each made slower or faster by up to 1.4, half of them
 mirrored, all with noise of their own (the size of a body makes no difference to matching features);
 six movements of 0.8 to 4 s searched in it, with the index, exactly, and as a command. It needs
-10 MB of disk an hour.
+10 MB of disk an hour. ``larger``: what follows from the recorded figures for more hours.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 from collections.abc import Iterator
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 from time import perf_counter, process_time
+from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 
 from _corpora import corpora
+from _figures import FILE as FIGURES
 from _figures import add_option, record
 from _libraries import joined
 from _measure import kineme, verdict
@@ -43,6 +46,9 @@ LASTS_S = 1200.0
 """Of a simulated recording, seconds."""
 FASTEST, NOISE = 1.4, (0.01, 0.05)
 TOP = 50
+LARGER = (10_000, 100_000)
+GROWTH = (400, 800)
+"""Words whose joining ``vocabulary.py --growth 400 800 --record`` measured."""
 EXAMPLES_S = (0.8, 1.2, 1.6, 2.2, 3.0, 4.0)
 Features = NDArray[np.float32]
 
@@ -115,7 +121,8 @@ def searched(library: Library, hours: float) -> None:
         clock.append(perf_counter() - start)
         used.append(process_time() - begun)
         begun = process_time()
-        exact = library.search(example, top=None)[:TOP]
+        with patch("kineme.library.finding.open_index", return_value=None):
+            exact = library.search(example, top=TOP)
         exact_used.append(process_time() - begun)
         recalls.append(recall(found, exact))
     most = 2.0 if hours > 10 else 0.2
@@ -189,6 +196,29 @@ def simulated(folder: Path, hours: float) -> None:
     joined(folder, keys)
 
 
+def larger() -> None:
+    """What many hours take, from the figures that were recorded."""
+    figures = json.loads(FIGURES.read_text(encoding="utf-8"))
+    told = {name: entry["value"] for name, entry in figures.items()}
+    few, many = (told[f"vocabulary.growth.{size}.seconds"] for size in GROWTH)
+    a_word = (many - few) / (GROWTH[1] - GROWTH[0])
+    record("scale.join.word", round(1000 * a_word), unit="ms")
+    for hours in LARGER:
+        build = told["scale.total"] * hours / 3600
+        values = {
+            "build": build,
+            "16_cores": build / 16,
+            "128_cores": build / 128,
+            "kept": told["scale.kept"] * hours / 1e6,
+            "index": told["scale.search.index"] * hours / 1000,
+            "join": a_word * told["scale.words"] * hours / 3600,
+            "search": told["scale.search.processor"] * hours / told["scale.search.hours"],
+        }
+        print(f"{hours} h:", {name: float(f"{value:.2g}") for name, value in values.items()})
+        for name, value in values.items():
+            record(f"scale.{hours}.{name}", float(f"{value:.2g}"))
+
+
 def nameless(table: SegmentTable) -> SegmentTable:
     """The segments in no cluster: their joining is measured by itself."""
     columns = dict(table.columns())
@@ -215,7 +245,7 @@ def shaken(features: Features, rng: np.random.Generator) -> Features:
 
 def main() -> None:
     options = argparse.ArgumentParser()
-    options.add_argument("parts", nargs="*", default=["costs", "search"])
+    options.add_argument("parts", nargs="*", default=["costs", "search", "larger"])
     options.add_argument("--hours", type=float, default=1000.0)
     options.add_argument("--library", type=Path, help="keep it here, or take it from here")
     add_option(options)
@@ -224,6 +254,8 @@ def main() -> None:
         costs()
     if "search" in given.parts:
         search(given.hours, given.library)
+    if "larger" in given.parts:
+        larger()
 
 
 if __name__ == "__main__":

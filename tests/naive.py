@@ -729,13 +729,13 @@ def divisions(n, shortest, longest):
     return found or [[0, n]]
 
 
-def class_affinities(similarity, width, labels, classes, gap, min_count):
+def class_affinities(similarity, width, labels, classes, gap):
     affinity = np.zeros((len(labels), classes))
     for i in range(len(labels)):
         for c in range(classes):
             others = [j for j, label in enumerate(labels) if label == c]
             values = [similarity[i, j] for j in others if gap < abs(i - j) <= width]
-            if len(values) >= min_count:
+            if values:
                 affinity[i, c] = sum(values) / len(values)
     return affinity
 

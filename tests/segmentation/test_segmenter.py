@@ -161,7 +161,7 @@ def test_provenance_says_how_it_was_made() -> None:
     assert found.provenance["preset"] == "kineme"
     assert found.provenance["parameters"]["link_similarity"] == 0.4
     assert any("end effectors" in note for note in found.provenance["notes"])
-    stages = ["recurrence", "actions", "repetitions", "occurrences", "confidence"]
+    stages = ["recurrence", "activities", "paces", "occurrences", "confidence"]
     assert [*found.timings] == ["features", *stages, "levels"]
     published = segment(cut(recording(0), 0, 90), preset="voegele2014", radius=0.5)
     assert published.provenance["preset"] == "voegele2014"

@@ -279,5 +279,5 @@ def test_a_gap_in_the_features_is_named() -> None:
 def test_progress_and_timings_name_the_stages() -> None:
     names: list[str] = []
     found = analyze_actions(np.zeros((40, 2)), KINEME, progress=names.append)
-    stages = ["recurrence", "actions", "repetitions", "occurrences", "confidence"]
+    stages = ["recurrence", "activities", "paces", "occurrences", "confidence"]
     assert names == [*found.timings] == stages

@@ -47,17 +47,15 @@ def test_no_division_is_cheaper(similarity, width, shortest, penalty) -> None:
     assert naive.division_cost(similarity, found, penalty) == pytest.approx(min(costs), abs=1e-4)
 
 
-@given(
-    similarities(max_bins=12), st.integers(0, 12), st.integers(0, 5), st.integers(1, 4), st.data()
-)
+@given(similarities(max_bins=12), st.integers(0, 12), st.integers(0, 5), st.data())
 @seconds
-def test_affinities_are_those_of_the_naive_version(similarity, width, gap, min_count, data) -> None:
+def test_affinities_are_those_of_the_naive_version(similarity, width, gap, data) -> None:
     n = len(similarity)
     labels = np.array(data.draw(st.lists(st.integers(0, 2), min_size=n, max_size=n)), np.int64)
     found = np.full((n, 3), np.nan)
     band = one_sided(similarity, width)
-    kernels.class_affinities(band, labels, gap, min_count, 0, n, found)
-    expected = naive.class_affinities(similarity, width, labels, 3, gap, min_count)
+    kernels.class_affinities(band, labels, gap, 0, n, found)
+    expected = naive.class_affinities(similarity, width, labels, 3, gap)
     np.testing.assert_allclose(found, expected, atol=1e-6)
 
 

@@ -47,11 +47,11 @@ def change_points(similarity, penalty, min_length):
     return np.array(borders[::-1], dtype=np.int64)
 
 
-@njit("void(float32[:, ::1], int64[::1], int64, int64, int64, int64, float64[:, ::1])", **SUMS)
-def class_affinities(similarity, labels, gap, min_count, start, stop, affinity):
+@njit("void(float32[:, ::1], int64[::1], int64, int64, int64, float64[:, ::1])", **SUMS)
+def class_affinities(similarity, labels, gap, start, stop, affinity):
     """Mean similarity of each sample to the samples of each class, within the band and off the gap.
 
-    Zero where fewer than ``min_count`` samples, at least one, of the class are within reach.
+    Zero where none of the class is within reach.
     """
     samples, width = similarity.shape
     counts = np.empty(affinity.shape[1], np.int64)
@@ -64,7 +64,7 @@ def class_affinities(similarity, labels, gap, min_count, start, stop, affinity):
                 affinity[i, labels[j]] += similarity[min(i, j), lag]
                 counts[labels[j]] += 1
         for c in range(len(counts)):
-            affinity[i, c] = affinity[i, c] / counts[c] if counts[c] >= min_count else 0.0
+            affinity[i, c] /= max(counts[c], 1)
 
 
 @njit("int64[::1](float64[:, ::1], float64)", **OPTIONS)

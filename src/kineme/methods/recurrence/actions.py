@@ -78,7 +78,7 @@ def refine(
     """
     per_sample = by_first_appearance(np.repeat(labels, np.diff(borders)))
     for _ in range(rounds):
-        relative, actions = _relative_affinity(recurrence, per_sample, min_length, least_own)
+        relative, actions = _relative_affinity(recurrence, per_sample, least_own)
         none = np.full(len(per_sample), no_action_cost)
         costs = np.column_stack([_dissimilarity(relative, least_similarity), none])
         columns = kernels.cheapest_labels(costs, switch_cost)
@@ -87,7 +87,7 @@ def refine(
         rare = np.bincount(per_sample + 1)[per_sample + 1] < min_length
         per_sample = by_first_appearance(np.where(rare, -1, per_sample))
     found = np.concatenate([[0], np.flatnonzero(np.diff(per_sample)) + 1, [len(per_sample)]])
-    confidence = _confidence(recurrence, per_sample, found, min_length, least_own)
+    confidence = _confidence(recurrence, per_sample, found, least_own)
     return Actions(found, per_sample[found[:-1]], confidence)
 
 
@@ -99,10 +99,10 @@ def _dissimilarity(affinity: NDArray[np.float64], least: float) -> NDArray[np.fl
 
 
 def _confidence(
-    recurrence: Recurrence, per_sample: Samples, borders: Samples, min_count: int, least: float
+    recurrence: Recurrence, per_sample: Samples, borders: Samples, least: float
 ) -> NDArray[np.float64]:
     """How much more similar the samples of each segment are to their own action than to others."""
-    relative, actions = _relative_affinity(recurrence, per_sample, min_count, least)
+    relative, actions = _relative_affinity(recurrence, per_sample, least)
     is_own = (actions == per_sample[:, None]) & (per_sample[:, None] >= 0)
     own = np.where(is_own, relative, 0).sum(axis=1)
     other = np.where(is_own, 0, relative).max(axis=1, initial=0)
@@ -110,7 +110,7 @@ def _confidence(
 
 
 def _relative_affinity(
-    recurrence: Recurrence, per_sample: Samples, min_count: int, least: float
+    recurrence: Recurrence, per_sample: Samples, least: float
 ) -> tuple[NDArray[np.float64], Samples]:
     """Mean similarity of each sample to the actions in reach, relative to their medians, to 1.
 
@@ -123,19 +123,22 @@ def _relative_affinity(
 
     def fill(part: slice) -> None:
         kernels.class_affinities(
-            recurrence.similarity, columns, recurrence.phase, min_count, part.start, part.stop,
-            affinity,
-        )  # fmt: skip
+            recurrence.similarity, columns, recurrence.phase, part.start, part.stop, affinity
+        )
 
     map_threads(fill, even_slices(len(per_sample)))
     by_action = np.split(
         np.argsort(per_sample, kind="stable"), np.cumsum(np.bincount(per_sample + 1))
     )
-    own = [
-        np.median(affinity[own_samples, columns[own_samples]]) for own_samples in by_action[1:-1]
-    ]
+    own = [_usual(affinity[samples, columns[samples]]) for samples in by_action[1:-1]]
     scale = np.append(np.maximum(own, least), 1.0)[actions]
     return np.minimum(affinity[:, :none] / scale, 1), actions
+
+
+def _usual(affinities: NDArray[np.float64]) -> float:
+    """Their median; samples of a short action may have none of it in reach, and say nothing."""
+    known = affinities[affinities > 0]
+    return float(np.median(known)) if len(known) else 0.0
 
 
 def _columns(per_sample: Samples, reach: int) -> tuple[Samples, Samples]:

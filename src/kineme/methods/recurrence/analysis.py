@@ -11,20 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_features
-from kineme.methods.recurrence.activities import activities, find_actions
 from kineme.methods.recurrence.evidence import evidence
 from kineme.methods.recurrence.found import RecurrenceFound
-from kineme.methods.recurrence.primitives import (
-    count_repetitions,
-    with_occurrences,
-    with_repetitions,
-)
-from kineme.methods.recurrence.recurrence import (
-    Recurrence,
-    narrower,
-    phase_windows,
-    recurrence,
-)
+from kineme.methods.recurrence.paces import surest
+from kineme.methods.recurrence.primitives import with_occurrences
+from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
@@ -63,31 +54,22 @@ def analyze_actions(
     stage = stopwatch(timings, progress)
     with stage("recurrence"):
         recurring = _recurrence(rows, preset, preset.min_scale, preset.max_scale)
-        narrow = _narrower(recurring, preset)
-    with stage("actions"):
-        found = find_actions(recurring, narrow, preset)
-        borders, labels, own = activities(found, narrow, preset, len(rows))
-    with stage("repetitions"):
-        limits = found.borders * recurring.step
-        repeating = count_repetitions(recurring, borders, labels, limits, preset)
-        segments = with_repetitions(recurring, borders, labels, own, repeating, preset)
+    division = surest(recurring, preset, stage)
     with stage("occurrences"):
-        segments = with_occurrences(recurring, segments, preset)
-    borders, labels, primitives = segments.borders, segments.labels, segments.primitives
+        found = with_occurrences(division.recurring, division.segments, division.preset)
     with stage("confidence"):
-        repeats = segments.repeats
-        shown = evidence(recurring, preset, borders, labels, segments.own, primitives, repeats)
+        shown = evidence(division.recurring, division.preset, found)
     return RecurrenceFound(
         rows,
-        recurring,
-        preset,
-        borders,
-        labels,
-        primitives,
-        segments.clusters,
-        segments.not_periodic,
+        division.recurring,
+        division.preset,
+        found.borders,
+        found.labels,
+        found.primitives,
+        found.clusters,
+        found.not_periodic,
         shown,
-        narrow,
+        division.narrow,
         timings,
     )
 
@@ -117,16 +99,4 @@ def _recurrence(
         low=low,
         high=high,
         softness=preset.softness,
-    )
-
-
-def _narrower(wide: Recurrence, preset: RecurrenceConstants) -> Recurrence:
-    """The recurrence by which short actions are told apart."""
-    short = preset.narrowed()
-    return narrower(
-        wide,
-        phases=phase_windows(short.samples(short.phase), short.phase_shares),
-        rank=short.samples(short.recurrence_time),
-        low=short.min_scale,
-        high=short.max_scale,
     )

@@ -85,6 +85,10 @@ class RecurrenceConstants(CountingPreset):
         "a part that recurs in the rest of its segment by no more than this share of how it "
         "recurs in itself is an activity of its own", limits=FACTOR,
     )  # fmt: skip
+    sure_pace: float = constant(
+        "where counts and borders are less probable than this in the mean, all times are tried at "
+        "that share, too", limits=SHARE, fine=True,
+    )  # fmt: skip
     link_similarity: float = constant(
         "similarity, relative to that within, from which segments are one action",
         limits=SOME_SHARE, slider=(0.1, 1.0, 0.05),
@@ -150,6 +154,10 @@ class RecurrenceConstants(CountingPreset):
         "them", limits=Limits(1.0, 1000.0),
     )  # fmt: skip
     # Occurrences: what recurs anywhere.
+    min_periodic: float = constant(
+        "actions whose counts are less probable than this, in the mean over their time, may be "
+        "occurrences instead of repetitions", limits=SHARE, fine=True,
+    )  # fmt: skip
     event_scale: float = constant(
         "distance from which two moments of an event are not similar", unit="body sizes",
         limits=SOME_LENGTH, slider=(0.2, 0.8, 0.05),
@@ -211,6 +219,17 @@ class RecurrenceConstants(CountingPreset):
             border_cost=share * self.border_cost,
             min_segment=share * self.min_segment,
             merge_gap=share * self.merge_gap,
+        )
+
+    def hurried(self) -> Self:
+        """The preset for recordings in which all actions are short."""
+        share = self.narrow_share
+        return replace(
+            self.narrowed(),
+            phase_shares=self.phase_shares,
+            switch_cost=share * self.switch_cost,
+            min_action=share * self.min_action,
+            max_transition=share * self.max_transition,
         )
 
     @property

@@ -20,6 +20,7 @@ from kineme.methods.evidence import (
     mean,
 )
 from kineme.methods.recurrence import _candidate_kernels as kernels
+from kineme.methods.recurrence.placing import Segments
 from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.repetitions import movement
 from kineme.methods.samples import spread
@@ -34,30 +35,16 @@ NEAR = 0.5
 """Seconds on either side of a border that are compared with both segments."""
 
 
-def evidence(
-    recurring: Recurrence,
-    preset: CountingPreset,
-    borders: Frames,
-    labels: Frames,
-    own: Floats,
-    primitives: Frames,
-    repeats: NDArray[np.bool_],
-) -> Evidence:
+def evidence(recurring: Recurrence, preset: CountingPreset, segments: Segments) -> Evidence:
     """Statistics of activities, their borders and their repetitions.
 
     Parameters
     ----------
     recurring : Recurrence
     preset : CountingPreset
-    borders, labels : array of int
-        Of activities and transitions, frames, and actions.
-    own : (segments,) array
-        How much more similar the samples of each are to their own action than to others.
-    primitives : array of int
-        Borders of primitives, frames.
-    repeats : (primitives,) array of bool
-        Which of them are repetitions.
+    segments : Segments
     """
+    borders, labels, own = segments.borders, segments.labels, segments.own
     samples, width = recurring.similarity.shape
 
     def similar(rows: Frames, columns: Frames) -> Floats:
@@ -74,11 +61,11 @@ def evidence(
         for h in range(g, within_reach[g]):
             alike[g, h] = alike[h, g] = mean(similar(spans[g], spans[h]))
     near = round(NEAR * preset.working_fps / recurring.step)
-    parents = np.searchsorted(borders, primitives[:-1], side="right") - 1
+    parents = segments.parents
     return Evidence(
         link_statistics(labels, alike, own),
         border_statistics(at, labels, alike, similar, near),
-        *counted(recurring.features, primitives, parents, repeats, own, preset),
+        *counted(recurring.features, segments.primitives, parents, segments.repeats, own, preset),
         parents,
     )
 

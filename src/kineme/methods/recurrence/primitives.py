@@ -97,21 +97,24 @@ def with_occurrences(
 ) -> Segments:
     """Occurrences for primitives in transitions, and in actions whose counts are not probable.
 
-    An action gives its repetitions up where occurrences explain more of it than these are
-    probable. Transitions that are no more than the ends of two activities are left alone.
+    An activity with a single repetition has no count that could be. An action gives its
+    repetitions up where occurrences explain more of it than these are probable. Transitions
+    that are no more than the ends of two activities are left alone.
     """
     borders, labels = segments.borders, segments.labels
     parents, repeats, lengths = segments.parents, segments.repeats, np.diff(borders)
+    ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
     counts, _ = counted(
         recurring.features, segments.primitives, parents, repeats, segments.own, preset
     )
     several = np.bincount(parents[repeats], minlength=len(labels)) > 1
-    sure = of_actions(probability(counts, preset.count_weights), lengths * several, labels)
-    ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
-    weak = (sure < preset.unsure_count) & ~ends
-    looked_at = np.repeat(weak, lengths)
-    found = occurrences(single_poses(recurring.features, preset.offsets), looked_at, preset)
-    explained = of_actions(found.explained(borders), lengths, labels)
+    sure = of_actions(probability(counts, preset.count_weights) * several, lengths, labels)
+    weak = (sure < preset.min_periodic) & ~ends
+    if not weak.any():
+        return segments
+    everywhere = np.ones(len(recurring.features), np.bool_)
+    found = occurrences(single_poses(recurring.features, preset.offsets), everywhere, preset)
+    explained = of_actions(found.within(borders, weak).explained(borders), lengths, labels)
     free = weak & ((labels < 0) | (explained > sure))
     return placed(segments, found.within(borders, free), free)
 

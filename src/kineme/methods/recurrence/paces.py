@@ -1,0 +1,97 @@
+"""Paces: a recording divided twice, with all times as they are and with shorter ones.
+
+Exercises of 2 to 4 s want shorter times than those of 10 s, and no one set of them does
+for both. The division of which one can be surer is taken: by the probabilities
+that counts and borders are right, which are learnt from recordings with a known truth
+(see `kineme.methods.confidence`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from kineme.methods.confidence import confidence
+from kineme.methods.recurrence.activities import activities, find_actions
+from kineme.methods.recurrence.evidence import evidence
+from kineme.methods.recurrence.placing import Segments
+from kineme.methods.recurrence.primitives import count_repetitions, with_repetitions
+from kineme.methods.recurrence.recurrence import Recurrence, narrower, phase_windows
+
+if TYPE_CHECKING:
+    from kineme.methods.recurrence.constants import RecurrenceConstants
+
+Stage = Callable[[str], AbstractContextManager[None]]
+
+
+@dataclass(frozen=True, eq=False)
+class Division:
+    """Activities and repetitions of a recording, found with one preset.
+
+    Attributes
+    ----------
+    preset : RecurrenceConstants
+    recurring, narrow : Recurrence
+        How similar the samples are, and how similar for short actions.
+    segments : Segments
+    """
+
+    preset: RecurrenceConstants
+    recurring: Recurrence
+    narrow: Recurrence
+    segments: Segments
+
+    def sureness(self) -> float:
+        """How probably the counts are right, over the whole time, and the borders: their mean."""
+        found = self.segments
+        sure = confidence(evidence(self.recurring, self.preset, found), self.preset)
+        counts = np.average(np.nan_to_num(sure.counts), weights=np.diff(found.borders))
+        borders = sure.borders[np.isfinite(sure.borders)]
+        return float(counts + (borders.mean() if len(borders) else 1.0)) / 2
+
+
+def surest(recurring: Recurrence, preset: RecurrenceConstants, stage: Stage) -> Division:
+    """The division with the preset as it is or hurried, whichever is surer.
+
+    Parameters
+    ----------
+    recurring : Recurrence
+        Measured with the windows of the preset.
+    preset : RecurrenceConstants
+    stage : callable
+        See `kineme.methods.stages.stopwatch`.
+    """
+    with stage("activities"):
+        usual = _divided(recurring, preset)
+        sureness = usual.sureness()
+    with stage("paces"):
+        if sureness >= preset.sure_pace:
+            return usual
+        short = preset.hurried()
+        other = _divided(_windowed(recurring, short), short)
+        return other if other.sureness() > sureness else usual
+
+
+def _divided(recurring: Recurrence, preset: RecurrenceConstants) -> Division:
+    narrow = _windowed(recurring, preset.narrowed())
+    found = find_actions(recurring, narrow, preset)
+    borders, labels, own = activities(found, narrow, preset, len(recurring.features))
+    limits = found.borders * recurring.step
+    repeating = count_repetitions(recurring, borders, labels, limits, preset)
+    segments = with_repetitions(recurring, borders, labels, own, repeating, preset)
+    return Division(preset, recurring, narrow, segments)
+
+
+def _windowed(recurring: Recurrence, preset: RecurrenceConstants) -> Recurrence:
+    """The recurrence of the same samples with the windows of a preset."""
+    return narrower(
+        recurring,
+        phases=phase_windows(preset.samples(preset.phase), preset.phase_shares),
+        rank=preset.samples(preset.recurrence_time),
+        low=preset.min_scale,
+        high=preset.max_scale,
+    )
