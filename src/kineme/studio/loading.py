@@ -189,7 +189,7 @@ class LoadedRecording:
     def _one_segment(self, kind: Kind) -> Segmentation:
         columns: dict[str, list[str] | list[int]] = {
             "level": ["activity"],
-            "kind": [kind],
+            "kind": [str(kind)],
             "start_frame": [0],
             "stop_frame": [self.n_frames],
         }
