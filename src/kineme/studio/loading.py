@@ -189,7 +189,7 @@ class LoadedRecording:
     def _one_segment(self, kind: Kind) -> Segmentation:
         columns: dict[str, Sequence[str] | Sequence[int]] = {
             "level": ["activity"],
-            "kind": [kind],
+            "kind": [str(kind)],
             "start_frame": [0],
             "stop_frame": [self.n_frames],
         }
