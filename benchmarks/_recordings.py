@@ -50,9 +50,11 @@ def subject_86() -> list[Case]:
     return [Case(trial.name, trial.motion, trial.truth) for trial in trials]
 
 
-def hdm05(seeds: int, *, runs: int = 8, repeats: tuple[int, int] = (3, 6)) -> Iterator[Case]:
+def hdm05(
+    seeds: int, *, first: int = 0, runs: int = 8, repeats: tuple[int, int] = (3, 6)
+) -> Iterator[Case]:
     """Sequences of HDM05 exercises, actors in turn."""
-    for seed in range(seeds):
+    for seed in range(first, first + seeds):
         actor = ACTORS[seed % len(ACTORS)]
         made = exercise_sequence(exercises(actor), seed, runs=runs, repeats=repeats)
         yield Case(f"{actor} {seed}", made.motion, annotation(made.truth), made.truth)

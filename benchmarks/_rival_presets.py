@@ -15,7 +15,8 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.baselines.presets import BaselinePreset, ToldPreset
+from kineme.methods.baselines.constants import ToldConstants
+from kineme.methods.baselines.presets import BaselinePreset
 from kineme.methods.baselines.segments import Segments, unclustered
 from kineme.methods.presets import register
 from kineme.methods.segments import by_first_appearance
@@ -61,7 +62,7 @@ class KernelChangePreset(RivalPreset):
 
 
 @dataclass(frozen=True, kw_only=True)
-class HiddenMarkovPreset(RivalPreset, ToldPreset):
+class HiddenMarkovPreset(ToldConstants, RivalPreset):
     """A hidden Markov model with a Gaussian for each state, told how many there are."""
 
     package: ClassVar[str] = "tsseg"

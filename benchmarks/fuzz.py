@@ -158,6 +158,7 @@ def watched(
         if ended and ended != "time is over":
             yield last, ended, "", 0.0
         first = last + (ended != "time is over")
+        print(f"# {first - numbers.start} files", file=sys.stderr, flush=True)
     yield first, "", "", 0.0
 
 

@@ -20,13 +20,14 @@ import signal
 import sys
 import tempfile
 import time
+import traceback
 import warnings
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
 import kineme
-from kineme.clips import split
+from kineme.clips.split import split
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import KinemeError
 from kineme.recordings import Motion
@@ -60,11 +61,15 @@ def kill_after(seconds: float, folder: Path, motion: Motion, truth: Segmentation
     if child == 0:
         try:
             write_for_ever(folder, motion, truth)
+        except Exception:  # noqa: BLE001 (which would otherwise pass for a kill)
+            traceback.print_exc()
         finally:
             os._exit(1)
     time.sleep(seconds)
     os.kill(child, signal.SIGKILL)
-    os.waitpid(child, 0)
+    _, status = os.waitpid(child, 0)
+    if not os.WIFSIGNALED(status):
+        sys.exit("the writer ended by itself: what it says is above")
 
 
 def torn(folder: Path, motion: Motion, truth: Segmentation) -> Iterator[str]:

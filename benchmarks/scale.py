@@ -1,6 +1,8 @@
 """What a library of many hours costs, and whether its index finds what an exact search finds.
 
-    python benchmarks/scale.py [costs] [search] [--hours 1000] [--library DIR] [--record]
+    python benchmarks/scale.py [costs] [search] [larger] [--hours 1000] [--examples 6] [--record]
+
+``--library DIR`` keeps the simulated library there, or takes it from there.
 
 ``costs``: processor seconds for an hour of recording (subject 86, AMC, 120 frames a second): read,
 segmented, described and kept; the bytes of it, and how many clusters it has, which
@@ -8,22 +10,26 @@ segmented, described and kept; the bytes of it, and how many clusters it has, wh
 of six laboratories one after the other, each made slower or faster by up to 1.4, half of them
 mirrored, all with noise of their own (the size of a body makes no difference to matching features);
 six movements of 0.8 to 4 s searched in it, with the index, exactly, and as a command. It needs
-10 MB of disk an hour.
+10 MB of disk an hour. ``larger``: what follows from the recorded figures for more hours.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 from time import perf_counter, process_time
+from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 
 from _corpora import corpora
+from _figures import FILE as FIGURES
 from _figures import add_option, record
 from _libraries import joined
 from _measure import kineme, verdict
@@ -43,6 +49,9 @@ LASTS_S = 1200.0
 """Of a simulated recording, seconds."""
 FASTEST, NOISE = 1.4, (0.01, 0.05)
 TOP = 50
+LARGER = (10_000, 100_000)
+GROWTH = (100, 1000)
+"""Words whose joining ``vocabulary.py --growth 100 1000 --record`` measured."""
 EXAMPLES_S = (0.8, 1.2, 1.6, 2.2, 3.0, 4.0)
 Features = NDArray[np.float32]
 
@@ -84,7 +93,7 @@ def costs() -> None:
     record("scale.windows", round(parts["windows"] / hours, 2), unit="MB")
 
 
-def search(hours: float, kept: Path | None) -> None:
+def search(hours: float, kept: Path | None, most: int) -> None:
     """A library of so many hours, searched with its index and exactly."""
     with TemporaryDirectory() as home:
         folder = kept or Path(home) / "lib"
@@ -94,7 +103,7 @@ def search(hours: float, kept: Path | None) -> None:
         named = folder / TABLES / library.head["tables"]
         index = sum(path.stat().st_size for path in named.glob("windows.*.npy"))
         print(f"{library.hours:.0f} h, {len(library)} recordings, index {index / 1e6:.0f} MB")
-        searched(library, hours)
+        searched(library, hours, most)
         like = ("--like", DATA / "cmu86" / "86_01.amc", "--start", 2.0, "--stop", 3.2)
         taken = [kineme("library", "search", folder, *like, "--quiet") for _ in range(3)]
         clock, used, memory = min(taken)
@@ -105,19 +114,21 @@ def search(hours: float, kept: Path | None) -> None:
         record("scale.search.index", round(index / 1e6 / hours, 2), unit="MB")
 
 
-def searched(library: Library, hours: float) -> None:
+def searched(library: Library, hours: float, most: int) -> None:
     """How long it takes, and what the index misses."""
     clock, used, exact_used, recalls = [], [], [], []
-    for example in examples():
+    for example in islice(examples(), most):
         library.search(example, top=TOP)  # what the machine has read already counts as warm
         start, begun = perf_counter(), process_time()
         found = library.search(example, top=TOP)
         clock.append(perf_counter() - start)
         used.append(process_time() - begun)
         begun = process_time()
-        exact = library.search(example, top=None)[:TOP]
+        with patch("kineme.library.finding.open_index", return_value=None):
+            exact = library.search(example, top=TOP)
         exact_used.append(process_time() - begun)
         recalls.append(recall(found, exact))
+        print(f"{used[-1]:.1f} s, exactly {exact_used[-1]:.1f} s, {recalls[-1]:.2f}", flush=True)
     most = 2.0 if hours > 10 else 0.2
     print(
         f"search: {median(clock):.2f} s ({max(clock):.2f} at most), {verdict(median(clock), most)}"
@@ -189,6 +200,29 @@ def simulated(folder: Path, hours: float) -> None:
     joined(folder, keys)
 
 
+def larger() -> None:
+    """What many hours take, from the figures that were recorded."""
+    figures = json.loads(FIGURES.read_text(encoding="utf-8"))
+    told = {name: entry["value"] for name, entry in figures.items()}
+    few, many = (told[f"vocabulary.growth.{size}.seconds"] for size in GROWTH)
+    a_word = (many - few) / (GROWTH[1] - GROWTH[0])
+    record("scale.join.word", round(1000 * a_word), unit="ms")
+    for hours in LARGER:
+        build = told["scale.total"] * hours / 3600
+        values = {
+            "build": build,
+            "16_cores": build / 16,
+            "128_cores": build / 128,
+            "kept": told["scale.kept"] * hours / 1e6,
+            "index": told["scale.search.index"] * hours / 1000,
+            "join": a_word * told["scale.words"] * hours / 3600,
+            "search": told["scale.search.processor"] * hours / told["scale.search.hours"],
+        }
+        print(f"{hours} h:", {name: float(f"{value:.2g}") for name, value in values.items()})
+        for name, value in values.items():
+            record(f"scale.{hours}.{name}", float(f"{value:.2g}"))
+
+
 def nameless(table: SegmentTable) -> SegmentTable:
     """The segments in no cluster: their joining is measured by itself."""
     columns = dict(table.columns())
@@ -215,15 +249,18 @@ def shaken(features: Features, rng: np.random.Generator) -> Features:
 
 def main() -> None:
     options = argparse.ArgumentParser()
-    options.add_argument("parts", nargs="*", default=["costs", "search"])
+    options.add_argument("parts", nargs="*", default=["costs", "search", "larger"])
     options.add_argument("--hours", type=float, default=1000.0)
+    options.add_argument("--examples", type=int, default=len(EXAMPLES_S))
     options.add_argument("--library", type=Path, help="keep it here, or take it from here")
     add_option(options)
     given = options.parse_args()
     if "costs" in given.parts:
         costs()
     if "search" in given.parts:
-        search(given.hours, given.library)
+        search(given.hours, given.library, given.examples)
+    if "larger" in given.parts:
+        larger()
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Segments from body-worn sensors instead of a skeleton, scored against the annotations.
 
-    python benchmarks/sensors.py [--data ../shared/data]
+    python benchmarks/sensors.py [--data ../shared/data] [--presets kineme …] [--record]
 
 The sensors are made from the five trials of subject 86: an accelerometer (with
 gravity and noise of 0.3 m/s²) and a gyroscope (noise of 0.05 rad/s) at the
@@ -22,6 +22,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from _figures import add_option, record
 from kineme import Signals, read, segment
 from kineme import _rotations as rot
 from kineme.datasets import random_recording
@@ -82,14 +83,16 @@ KINDS: dict[str, Callable[[Motion], Signals]] = {
 OWN = ("kineme", "voegele2014", "krueger2017")
 
 
-def scores(recordings: Iterable[Recording], preset: str, **constants: float) -> str:
-    """Border F1 within 0.25 s / frames in the right class, means over the recordings."""
+def scores(recordings: Iterable[Recording], preset: str, **constants: float) -> tuple[str, str]:
+    """Border F1 within 0.25 s, and frames in the right class, means over the recordings."""
     found = [
         evaluate_segmentation(truth, segment(signals, preset=preset, **constants))
         for truth, signals in recordings
     ]
-    means = (np.mean([f[key] for f in found]) for key in ("border_f1", "one_to_one"))
-    return " / ".join(shown(float(mean)) for mean in means)
+    border, right = (
+        shown(float(np.mean([f[key] for f in found]))) for key in ("border_f1", "one_to_one")
+    )
+    return border, right
 
 
 def synthetic(make: Callable[[Motion], Signals]) -> list[Recording]:
@@ -104,6 +107,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Segments from body-worn sensors.")
     default = os.environ.get("KINEME_DATA", "../shared/data")
     parser.add_argument("--data", type=Path, default=default)
+    parser.add_argument("--presets", nargs="+", default=OWN)
+    add_option(parser)
     parser.add_argument("--units", action="store_true", help="other values of recurs_at")
     options = parser.parse_args()
     trials = load_trials(find_folder(options.data))
@@ -114,22 +119,32 @@ def main() -> None:
         ),
         ("synthetic", {kind: synthetic(f) for kind, f in KINDS.items()}),
     ):
-        print(table(title, sets, units=options.units))
+        print(units_table(title, sets) if options.units else table(title, sets, options.presets))
     for path in sorted((options.data / "timeseries").glob("WalkJogRun*.txt")):
         found = segment(read(path, fps=FPS))
         borders = ", ".join(map(str, found.cuts().tolist()))
+        record(f"sensors.{path.stem}.borders", borders)
         print(f"{path.stem}: {borders} of {found.n_frames} frames")
 
 
-def table(title: str, sets: dict[str, list[Recording]], *, units: bool) -> str:
-    """A row per set of sensors, a column per preset or per value of the unit."""
-    if not units:
-        rows = [[kind, *(scores(found, name) for name in OWN)] for kind, found in sets.items()]
-        return markdown([title, *OWN], rows)
+def table(title: str, sets: dict[str, list[Recording]], presets: Iterable[str]) -> str:
+    """A row per set of sensors, a column per preset."""
     rows = []
-    for kind, found in sets.items():
-        cells = [scores(found, "kineme", recurs_at=unit) for unit in UNITS]
-        rows.append([kind, *cells])
+    for kind, recordings in sets.items():
+        rows.append([kind])
+        for preset in presets:
+            found = " / ".join(scores(recordings, preset))
+            record(f"sensors.{title}.{kind}.{preset}".replace(" ", "_").replace(",", ""), found)
+            rows[-1].append(found)
+    return markdown([title, *presets], rows)
+
+
+def units_table(title: str, sets: dict[str, list[Recording]]) -> str:
+    """A row per set of sensors, a column per value of the unit."""
+    rows = [
+        [kind, *(" / ".join(scores(found, "kineme", recurs_at=unit)) for unit in UNITS)]
+        for kind, found in sets.items()
+    ]
     return markdown([title, *map(str, UNITS)], rows)
 
 

@@ -34,6 +34,12 @@ def is_number(value: object) -> bool:
         return False
 
 
+def check_flag(value: object, name: str) -> None:
+    """ParameterError unless the value is True or False."""
+    if not isinstance(value, bool | np.bool_):
+        raise ParameterError(f"{name} must be True or False, not {value!r:.60}")
+
+
 def is_one_of(value: object, known: Collection[str]) -> bool:
     """Whether it is one of the known texts; anything at all may be asked about."""
     return isinstance(value, str) and value in known
@@ -96,7 +102,7 @@ def as_floats(
     """The values as a float64 array, of any shape; ``error`` where they are not numbers."""
     try:
         return np.asarray(values, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         shown = repr(values) if isinstance(values, str) else type(values).__name__
         raise error(f"{name} must be an array of numbers, not {shown:.60}") from None
 

@@ -158,7 +158,7 @@ def test_neighbourhood_is_mutual_and_contains_oneself(points, share) -> None:
 @pytest.mark.parametrize("shape", [(3000, 3), (1, 5), (700, 1)])
 @pytest.mark.parametrize("lag", [1, 40, 2000])
 def test_blocks_of_the_search_join_without_seams(monkeypatch, shape, lag) -> None:
-    monkeypatch.setattr("kineme.graph.neighbors.BLOCK_ENTRIES", 5000)
+    monkeypatch.setattr("kineme.graph.search.BLOCK_ENTRIES", 5000)
     points = np.random.default_rng(2).random(shape)
     near = neighbor_graph(points, points[::-1][:650], radius=0.1, max_lag=lag)
     tree = KDTree(points[::-1][:650])

@@ -27,7 +27,9 @@ from collections.abc import Callable, Iterable, Sequence
 from math import degrees
 from os import PathLike
 from pathlib import Path
+from typing import get_args
 
+from kineme._checks import check_flag, is_number, is_one_of
 from kineme._files import atomic_folder
 from kineme.clips.loops import loop
 from kineme.errors import MotionError, ParameterError
@@ -88,6 +90,11 @@ def split(
             f"the segments are of a recording of {segmentation.n_frames} frames, "
             f"this one has {recording.n_frames}"
         )
+    if not is_one_of(level, get_args(Level)):
+        raise ParameterError(f"level must be {' or '.join(get_args(Level))}, not {level!r:.60}")
+    if cluster is not None and not is_number(cluster):
+        raise ParameterError(f"a cluster is a number, not {cluster!r:.60}")
+    check_flag(loops, "loops")
     rows = [row for row in segmentation.level(level) if cluster in (None, row.cluster)]
     if not rows:
         found = sorted({row.cluster for row in segmentation.level(level)} - {-1})

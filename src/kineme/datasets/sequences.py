@@ -1,12 +1,8 @@
 """Sequences of recorded exercises, of which every border and repetition is known.
 
 Many collections hold single exercises, each cut out by people. Joined end to
-end they make recordings as long and as varied as wanted, of real movement and
-with a known truth. At a join the second exercise is turned about the vertical
-and moved along the floor to where the first one ended. What differs then is
-made up on both sides: over the join, every rotation goes from the one to the
-other along the sphere while both movements go on, so that no frame is lost
-and nobody stops.
+end (see ``joining``) they make recordings as long and as varied as wanted, of
+real movement and with a known truth.
 
 The truth is a segmentation like any other (see ``synthetic``). Between two
 repetitions of one action the border is the join's middle; between two actions
@@ -22,15 +18,11 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme import _rotations as rot
+from kineme.datasets.joining import check_fit, joined
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Provenance
-from kineme.recordings.kinematics import local_translations
-from kineme.recordings.operations import move, turn
 from kineme.segments.segmentation import Segmentation
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +90,7 @@ def exercise_sequence(
             f"runs must be at least 1, repeats rise from at least 1 and join not be negative, "
             f"not {runs}, {repeats} and {join}"
         )
-    _check_fit([exercise.motion for takes in of_name.values() for exercise in takes])
+    check_fit([exercise.motion for takes in of_name.values() for exercise in takes])
     rng = np.random.default_rng(seed)
     names = rng.permutation(sorted(of_name))[:actions].tolist()
     order = _run_order(names, runs, rng)
@@ -136,60 +128,6 @@ def join_exercises(
     return SyntheticRecording(replace(motion, provenance=provenance), truth)
 
 
-def joined(
-    motions: Sequence[Motion], join: float = 0.4
-) -> tuple[Motion, NDArray[np.int64], list[int]]:
-    """One motion of all, the first frame of each and the end, and half of each join in frames.
-
-    Parameters
-    ----------
-    motions : sequence of Motion
-        Of one skeleton and one frame rate, with rotations.
-    join : float, optional
-        Seconds over which a join is blended; at most a third of the shorter motion.
-
-    Raises
-    ------
-    ParameterError
-        Motions that do not fit together, or one without rotations.
-    """
-    _check_fit(motions)
-    fps = motions[0].fps
-    placed = [motions[0]]
-    for motion in motions[1:]:
-        placed.append(_placed_after(placed[-1], motion))
-    rotations = [np.array(motion.rotations) for motion in placed]
-    translations = [
-        local_translations(motion.skeleton, motion.positions, motion.rotations) for motion in placed
-    ]
-    halves = []
-    for before, after in pairwise(range(len(placed))):
-        shorter = min(len(rotations[before]), len(rotations[after]))
-        half = min(round(join * fps / 2), shorter // 6)
-        _blend(rotations[before], rotations[after], translations[before], translations[after], half)
-        halves.append(half)
-    motion = Motion.from_rotations(
-        placed[0].skeleton,
-        np.concatenate(rotations),
-        fps,
-        translations=np.concatenate(translations),
-    )
-    return motion, np.cumsum([0, *map(len, rotations)]), halves
-
-
-def _check_fit(motions: Sequence[Motion]) -> None:
-    first = motions[0]
-    for motion in motions:
-        same = motion.skeleton.names == first.skeleton.names and np.allclose(
-            motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3
-        )
-        if not same or motion.fps != first.fps or motion.rotations is None:
-            raise ParameterError(
-                "exercises are joined if they have one skeleton, one frame rate and rotations; "
-                f"{motion.provenance.path or 'one of them'} does not fit the first"
-            )
-
-
 def _run_order(names: list[str], runs: int, rng: np.random.Generator) -> list[str]:
     """Every name once in random order, and again, without equal neighbours."""
     order: list[str] = []
@@ -205,35 +143,6 @@ def _draw(takes: list[Exercise], count: int, rng: np.random.Generator) -> list[E
     """So many of the takes, none twice before each came once."""
     order = rng.permutation(len(takes))
     return [takes[order[i % len(takes)]] for i in range(count)]
-
-
-def _placed_after(before: Motion, motion: Motion) -> Motion:
-    """The motion turned and moved so that its root goes on where the one before ends."""
-    ended, begins = np.array(before.rotations)[-1, 0], np.array(motion.rotations)[0, 0]
-    q = rot.multiply(ended, rot.conjugate(begins))
-    turned = turn(motion, 2 * float(np.arctan2(q[2], q[0])))
-    step = before.positions[-1, 0] - turned.positions[0, 0]
-    return move(turned, step * [1, 0, 1])
-
-
-def _blend(a: Floats, b: Floats, a_shift: Floats, b_shift: Floats, half: int) -> None:
-    """Bends the end of a and the start of b towards each other, in place."""
-    from scipy.spatial.transform import Rotation
-
-    if half == 0:
-        return
-    x = (np.arange(2 * half) + 0.5) / (2 * half)
-    share = (x * x * (3 - 2 * x))[:, None, None]
-    share[half:] -= 1
-    vectors = Rotation.from_quat(np.roll(rot.multiply(rot.conjugate(a[-1]), b[0]), -1, -1))
-    angles = share * vectors.as_rotvec()
-    bends = np.roll(Rotation.from_rotvec(angles.reshape(-1, 3)).as_quat(), 1, -1)
-    bends = bends.reshape(*angles.shape[:2], 4)
-    shift = share * (b_shift[0] - a_shift[-1])
-    a[-half:] = rot.multiply(a[-half:], bends[:half])
-    b[:half] = rot.multiply(b[:half], bends[half:])
-    a_shift[-half:] += shift[:half]
-    b_shift[:half] += shift[half:]
 
 
 def _truth(

@@ -213,37 +213,18 @@ def choose_ends(roots, wanted, last_rows, costs, origins, node, separation):
     **OPTIONS,
 )
 def paths_in_box(
-    indptr,
-    indices,
-    distances,
-    row_start,
-    row_stop,
-    column_start,
-    column_stop,
-    steps,
-    penalties,
-    zero_cost,
-    min_nodes,
-    separation,
-):
+    indptr, indices, distances, row_start, row_stop, column_start, column_stop, steps, penalties,
+    zero_cost, min_nodes, separation,
+):  # fmt: skip
     """Cheapest paths through the components of a box: pointers, rows, columns, costs."""
     first, node = box_rows(indptr, indices, row_start, row_stop, column_start, column_stop)
     column_start, width = used_columns(indices, first, node)
     roots = component_roots(indices, first, node, steps, column_start, width)
     wanted, last_rows = survey_components(roots, node, min_nodes)
     costs, before, origins = cheapest_arrivals(
-        indices,
-        distances,
-        first,
-        node,
-        steps,
-        penalties,
-        column_start,
-        width,
-        roots,
-        wanted,
+        indices, distances, first, node, steps, penalties, column_start, width, roots, wanted,
         zero_cost,
-    )
+    )  # fmt: skip
     ends = choose_ends(roots, wanted, last_rows, costs, origins, node, separation)
     ptr = np.zeros(len(ends) + 1, np.int64)
     for p in range(len(ends)):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from kineme._checks import is_number
+from kineme._checks import check_type, is_number
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.library.constants import VOCABULARY
@@ -140,6 +140,8 @@ def build(
     arrow()
     if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
+    check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
+    check_type(settings, (Settings, type(None)), "build", "kineme.library.Settings() makes one")
     with nullcontext(int(jobs)) if client is None else connected(client) as executor:
         folder = opened(into)
         with held(folder, "build"), reaching(folder):

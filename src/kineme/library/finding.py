@@ -23,6 +23,9 @@ TYPICAL = 5
 """Words that stand for a cluster in a search, the most typical ones."""
 
 
+LARGEST, MOST_HITS = 1e6, 1 << 31
+
+
 def hits_like(
     tables: OpenTables,
     examples: Sequence[Example],
@@ -63,6 +66,12 @@ def hits_like(
     for name, value in (("top", top), ("max_per_recording", max_per_recording)):
         if value is not None and not (is_number(value) and value >= 1):
             raise ParameterError(f"{name} must be a whole number above 0, not {value!r:.60}")
+    if not (is_number(threshold) and threshold > 0):
+        raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
+    threshold = min(float(threshold), LARGEST)  # all that is below is found with either
+    top = None if top is None else int(min(top, MOST_HITS))
+    if max_per_recording is not None:
+        max_per_recording = int(min(max_per_recording, MOST_HITS))
     wanted = features_of(tables, examples, mirror=mirror)
     vocabulary = one_vocabulary(wanted)
     refused = [part for kind, part in features_of(tables, counterexamples) if kind == vocabulary]

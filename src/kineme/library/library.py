@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Self
 
-from kineme._checks import check_path
+from kineme._checks import check_flag, check_path
 from kineme.errors import ParameterError
 from kineme.library.clusters import Cluster, Word, clusters_of, numbers_of, unsure_words
 from kineme.library.editing import merge_clusters, name_cluster, split_cluster
@@ -160,6 +160,7 @@ class Library:
         ReadError
             The example cannot be read, or has no body.
         """
+        check_flag(mirror, "mirror")
         examples = as_examples(like, start_s, stop_s)
         if cluster is not None:
             examples += typical_examples(self._tables, cluster)
@@ -167,8 +168,8 @@ class Library:
             raise ParameterError("nothing to search for: give an example or a cluster")
         with nullcontext() if client is None else connected(client) as executor:
             return hits_like(
-                self._tables, examples, unlike, threshold=threshold, top=top, mirror=mirror,
-                max_per_recording=max_per_recording, executor=executor,
+                self._tables, examples, as_examples(unlike, 0.0, None), threshold=threshold,
+                top=top, mirror=mirror, max_per_recording=max_per_recording, executor=executor,
             )  # fmt: skip
 
     def pictures(self, folder: AnyPath) -> list[Path]:

@@ -110,6 +110,8 @@ def as_paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
     """One path or several as a list; ParameterError where one is none."""
     if isinstance(given, str | PathLike):
         return [place(given)]
+    if not isinstance(given, Iterable):
+        raise ParameterError(f"build needs paths of recordings or folders, not {given!r:.60}")
     return [place(path, "build") for path in given]
 
 

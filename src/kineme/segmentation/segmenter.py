@@ -23,6 +23,7 @@ from kineme.methods.stages import Progress, stopwatch
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.bodies import view_of_motion
 from kineme.segmentation.channels import view_of_signals
+from kineme.segmentation.outside import as_channels, on_recording
 from kineme.segmentation.spans import gaps_between, in_frames
 from kineme.segmentation.views import View
 from kineme.segments.columns import segment_table
@@ -143,7 +144,7 @@ def segment_and_found(
             raise ParameterError(f"{name} must be a number above 0, not {value!r:.60}")
     if progress is not None:
         progress("features")
-    seen = recording if features is None else _outside(recording, features, feature_fps)
+    seen = recording if features is None else as_channels(recording, features, feature_fps)
     if features is not None:
         constants = {"smoothing": 0.0, **constants}
     chosen = resolve_preset(preset, signals=isinstance(seen, Signals), **constants)
@@ -159,7 +160,7 @@ def segment_and_found(
     else:
         view = view_of_motion(seen, chosen, effectors)
     if features is not None:
-        view = _on_recording(view, recording, seen.fps)
+        view = on_recording(view, recording, seen.fps)
     timings = {"features": time.perf_counter() - start}
     found = chosen.analyze(np.concatenate(view.features), mirror=view.mirror, progress=progress)
     return _result(recording, chosen, view, found, timings), found
@@ -246,36 +247,3 @@ def _result(
         columns, n_frames=n_frames, fps=fps, provenance=provenance, timings=spent
     )
     return replace(result, hierarchy=hierarchy)
-
-
-def _outside(recording: Motion | Signals, features: ArrayLike, fps: float | None) -> Signals:
-    """Features from outside as channels, with the gaps of the recording at their rate."""
-    rows = as_features(features)
-    rate = recording.fps if fps is None else fps
-    expected = recording.n_frames * rate / recording.fps
-    if abs(len(rows) - expected) > 1 + rate / recording.fps:
-        raise ParameterError(
-            f"features have {len(rows)} rows, the recording lasts {recording.duration:.2f} s: "
-            f"{expected:.0f} rows at {rate:g} a second; give feature_fps"
-        )
-    share = rate / recording.fps
-    gaps = [
-        (start, stop)
-        for start, stop in (
-            (int(a * share), min(int(np.ceil(b * share)), len(rows))) for a, b in recording.gaps
-        )
-        if start < stop
-    ]
-    return Signals(rows, rate, gaps=gaps)
-
-
-def _on_recording(view: View, recording: Motion | Signals, fps: float) -> View:
-    """The view with its spans, so far in rows at `fps`, in frames of the recording."""
-    per_row, n = recording.fps / fps, recording.n_frames
-    seen = [
-        replace(span, start=round(span.start * per_row), stop=min(round(span.stop * per_row), n))
-        for span in view.seen
-    ]
-    if not recording.gaps or recording.gaps[-1][1] < n:
-        seen[-1] = replace(seen[-1], stop=n)
-    return replace(view, seen=seen)

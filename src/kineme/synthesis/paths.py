@@ -17,30 +17,23 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
-from math import isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
 from kineme.synthesis.blending import Placement
 from kineme.synthesis.graph import MotionGraph
-
-Complex = NDArray[np.complex128]
+from kineme.synthesis.lines import FAR, SPACING, Complex, spaced
 
 TOLERANCE = 0.5
 """Metres that the root may get away from the line."""
-SPACING = 0.05
-"""Metres between the points that stand for the line."""
 AHEAD = 0.6
 """Metres of the line in which the next nearest point is looked for."""
 STEP = 0.1
 """Seconds from one compared pose to the next."""
 TIME = 0.1
 """Cost of a second, m² s: as much as being 32 cm off for that long."""
-FAR = 0.25
-"""Metres of the line that count as equally far."""
 TURN = np.pi / 12
 """Radians that count as the same direction."""
 WIDTH = 400
@@ -73,40 +66,6 @@ class _Candidate:
             last = last.before
             route.append(last.node)
         return route[::-1]
-
-
-def parse_line(text: str) -> list[tuple[float, float]]:
-    """Points (x, z) on the floor in metres, as people type them.
-
-    Parameters
-    ----------
-    text : str
-
-    Returns
-    -------
-    list of (float, float)
-
-    Raises
-    ------
-    ParameterError
-        It is something else.
-
-    Examples
-    --------
-    >>> from kineme.synthesis import parse_line
-    >>> parse_line("0,0;2,0;2,3")
-    [(0.0, 0.0), (2.0, 0.0), (2.0, 3.0)]
-    """
-    try:
-        points = [tuple(float(number) for number in point.split(",")) for point in text.split(";")]
-    except ValueError:
-        points = []
-    if len(points) < 2 or any(len(p) != 2 or not all(map(isfinite, p)) for p in points):
-        raise ParameterError(
-            f"{text!r} is not a line on the floor: give two or more points x,z in metres, "
-            "as in 0,0;2,0;2,3"
-        )
-    return [(x, z) for x, z in points]
 
 
 def line_route(
@@ -156,7 +115,7 @@ def line_route(
     """
     if not tolerance > 0:
         raise ParameterError(f"the tolerance must be metres above 0, not {tolerance}")
-    points = _spaced(line)
+    points = spaced(line)
     floors = [m.positions[:, 0, 0] + 1j * m.positions[:, 0, 2] for m in motions]
     found = _search(graph, floors, points, _allowed(graph, actions))
     if found is None:
@@ -256,21 +215,6 @@ def _played(
             )
         reached.append(now)
     return reached
-
-
-def _spaced(line: Sequence[tuple[float, float]]) -> Complex:
-    """Points of the line, equally far from each other."""
-    corners = np.array([complex(x, z) for x, z in line])
-    lengths = np.abs(np.diff(corners))
-    total = lengths.sum()
-    if len(corners) < 2 or not FAR < total < 1e4:
-        raise ParameterError(
-            f"the line is {total:g} m long: it must have a length from {FAR} m to 10 km"
-        )
-    at = np.concatenate([[0], np.cumsum(lengths)])
-    wanted = np.linspace(0, total, round(total / SPACING) + 1)
-    x, z = (np.interp(wanted, at, part) for part in (corners.real, corners.imag))
-    return np.asarray(x + 1j * z, np.complex128)
 
 
 def _allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:

@@ -19,20 +19,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import as_floats, check_type, is_number
+from kineme._checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.matching import THRESHOLD
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable
+from kineme.transfer.choosing import (
+    ALIKE,
+    REACH,
+    activity_labels,
+    another_movement,
+    cheapest,
+    costs_of,
+    spread_in_clusters,
+)
 from kineme.transfer.features import FPS, working_frames
 from kineme.transfer.knowledge import KnowledgeBase
-from kineme.transfer.matching import Floats, Primitives, label_costs, same_movements
+from kineme.transfer.matching import Floats, Primitives, same_movements
 from kineme.transfer.unsegmented import found_by_search, segmented_as_found
 
-REACH = 2.0
-"""Thresholds up to which a match with the next label is looked for."""
-ALIKE = 0.6
-"""Cost up to which the repetitions of one person are the same movement."""
+LARGEST = 1e6
+"""Threshold above which nothing more is found; no cost comes near it."""
 
 
 def transfer_labels(
@@ -91,6 +98,8 @@ def transfer_labels(
     check_type(knowledge, KnowledgeBase, "transfer_labels", "KnowledgeBase.load(path) gives one")
     if not (is_number(threshold) and threshold > 0):
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
+    check_flag(spread, "spread")
+    threshold = min(float(threshold), LARGEST)
     features = _checked(features, segmentation)
     table = segmentation.table
     if not ((table.kind == "activity") | (table.label != "")).any():
@@ -102,19 +111,19 @@ def transfer_labels(
     todo = np.flatnonzero((rows.kind == "activity") & (rows.label == ""))
     if len(todo) and len(knowledge):
         unknown = _primitives(rows.select(todo), features, segmentation.fps)
-        found, names = _costs(unknown, knowledge, REACH * threshold)
-        named = _cheapest(found, names, threshold)
-        other = _another_movement(named[0], named[2], same_movements(unknown, ALIKE))
+        found, names = costs_of(unknown, knowledge, REACH * threshold)
+        named = cheapest(found, names, threshold)
+        other = another_movement(named[0], named[2], same_movements(unknown, ALIKE))
         named[0][other], named[1][other], named[2][other] = "", np.nan, np.nan
         labels[todo], scores[todo], costs[todo] = named
     if spread:
-        _spread(labels, scores, rows.cluster, todo)
+        spread_in_clusters(labels, scores, rows.cluster, todo)
     own = table.level == level
     all_labels, all_scores = table.label.astype(object), table.score.copy()
     all_labels[own], all_scores[own] = labels, scores
     if level == "primitive":
         activities = table.level == "activity"
-        all_labels[activities] = _activity_labels(segmentation, labels)
+        all_labels[activities] = activity_labels(segmentation, labels)
     return Segmentation(
         replace(table, label=all_labels.astype(np.str_), score=all_scores),
         segmentation.n_frames,
@@ -201,79 +210,6 @@ def _primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
     )
     frames = np.concatenate([features[a:b] for a, b in zip(starts, stops, strict=True)])
     return Primitives(frames, stops - starts, np.concatenate([[0], np.cumsum(~follows)]))
-
-
-def _costs(
-    unknown: Primitives, knowledge: KnowledgeBase, radius: float
-) -> tuple[Floats, NDArray[np.str_]]:
-    """Costs (primitives, names), and the names; what has no valid path costs the radius."""
-    names, codes = np.unique(knowledge.labels, return_inverse=True)
-    costs = label_costs(unknown, knowledge.primitives(), codes, len(names), radius=radius)
-    return np.minimum(costs, radius), names
-
-
-def _cheapest(
-    costs: Floats, names: NDArray[np.str_], threshold: float
-) -> tuple[NDArray[Any], Floats, Floats]:
-    """Label, margin and cost of each row; empty and nan where nothing is within the threshold."""
-    best = costs.argmin(axis=1)
-    cost = costs[np.arange(len(costs)), best]
-    others = costs.copy()
-    others[np.arange(len(costs)), best] = np.inf
-    # With one label alone the radius stands for the next: nothing dearer was looked at.
-    following = np.minimum(others.min(axis=1), REACH * threshold)
-    margin = 1 - cost / np.maximum(following, 1e-12)
-    valid = cost <= threshold
-    return (
-        np.where(valid, names[best].astype(object), ""),
-        np.where(valid, margin, np.nan),
-        np.where(valid, cost, np.nan),
-    )
-
-
-def _another_movement(
-    labels: NDArray[Any], costs: Floats, movements: NDArray[np.int64]
-) -> NDArray[np.bool_]:
-    """Which rows are not, by their person's own standard, what bears their name in the recording.
-
-    That is the movement of the cheapest match; another one keeps the name only where it is as near
-    to the knowledge as one person's repetitions are to each other.
-    """
-    other = np.zeros(len(labels), np.bool_)
-    for label in set(labels.tolist()) - {""}:
-        named = np.flatnonzero(labels == label)
-        first = named[costs[named].argmin()]
-        other[named] = (movements[named] != movements[first]) & (costs[named] > ALIKE)
-    return other
-
-
-def _spread(
-    labels: NDArray[Any], scores: Floats, clusters: NDArray[np.int64], todo: NDArray[np.intp]
-) -> None:
-    """Give every cluster's members the label that most of them have; a person's label stays."""
-    for cluster in set(clusters[todo].tolist()) - {-1}:
-        named = Counter(label for label in labels[clusters == cluster] if label)
-        if not named:
-            continue
-        winner, votes = named.most_common(1)[0]
-        others = [row for row in todo if clusters[row] == cluster and labels[row] != winner]
-        labels[others] = winner
-        scores[others] = votes / named.total()
-
-
-def _activity_labels(segmentation: Segmentation, labels: NDArray[Any]) -> list[str]:
-    """The label of each activity: its own, else that of more than half of its frames."""
-    primitives = segmentation.primitives
-    names = []
-    for row in segmentation.activities:
-        inside = np.flatnonzero(primitives.activity == row.activity)
-        frames: Counter[str] = Counter()
-        for p in inside:
-            frames[labels[p]] += int(primitives.stop_frame[p] - primitives.start_frame[p])
-        name, most = frames.most_common(1)[0] if frames else ("", 0)
-        wide = most > (row.stop_frame - row.start_frame) / 2
-        names.append(row.label or (name if wide and row.kind == "activity" else ""))
-    return names
 
 
 def _provenance(

@@ -23,16 +23,14 @@ Source: Motion Lab Systems, "The C3D file format: a technical user guide" (2021)
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import count
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.formats.files import FileContent
+from kineme.formats.markers.c3d_layout import Layout, Stored, read_header
 from kineme.formats.markers.c3d_parameters import (
-    BLOCK,
     Parameters,
     as_float32,
     number_type,
@@ -41,24 +39,7 @@ from kineme.formats.markers.c3d_parameters import (
 )
 
 Floats = NDArray[np.float64]
-Stored = NDArray[Any]
-"""Float32 or int16."""
-
 _HEADER_EVENTS = 12345  # marks a header whose events have labels of four letters
-
-
-@dataclass(frozen=True)
-class Header:
-    """The first block, as far as it is used."""
-
-    points: int
-    analog_per_frame: int
-    first_frame: int
-    last_frame: int
-    scale: float
-    data_block: int
-    samples_per_frame: int
-    rate: float
 
 
 @dataclass(frozen=True)
@@ -108,12 +89,12 @@ def parse_c3d(content: FileContent) -> C3D:
         It is no C3D file, or holds less than one frame.
     """
     parameters = read_parameters(content)
-    file = _File(content, parameters, _header(content, parameters))
+    file = Layout(content, parameters, read_header(content, parameters))
     raw = file.frames()
     n = file.n_points
     points, seen = _points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
     points[~seen] = np.nan
-    analog = file.analog(raw[:, 4 * n :])
+    analog = _analog(file, raw[:, 4 * n :])
     return C3D(
         labels=_labels(parameters, "POINT", n, "point"),
         points=points,
@@ -123,172 +104,60 @@ def parse_c3d(content: FileContent) -> C3D:
         analog_labels=_labels(parameters, "ANALOG", analog.shape[1], "channel"),
         analog_units=_padded(parameters.strings("ANALOG", "UNITS"), analog.shape[1]),
         analog_rate=file.rate * len(analog) / len(raw),
-        events=file.events(),
+        events=_events(file),
         parameters=parameters,
     )
 
 
-@dataclass(frozen=True)
-class _File:
-    content: FileContent
-    parameters: Parameters
-    header: Header
-
-    @cached_property
-    def n_points(self) -> int:
-        return self.counts[0]
-
-    @cached_property
-    def counts(self) -> tuple[int, int]:
-        """Points and analog samples of a frame.
-
-        The header and the parameters count both. Where they differ, the counts hold with
-        which the declared frames fill the file, whose last block may be padded.
-        """
-        header = (self.header.points, self.header.analog_per_frame)
-        used = int(self.parameters.number("POINT", "USED", header[0]))
-        per_frame = max(self.header.samples_per_frame, 1)
-        channels = int(self.parameters.number("ANALOG", "USED", -1))
-        samples = channels * per_frame if channels >= 0 else header[1]
-        if used == header[0] and samples == header[1]:
-            return header
-        pairs = dict.fromkeys((n, m) for n in (used, header[0]) for m in (header[1], samples))
-        fitting = [pair for pair in pairs if any(pair) and self._fills(*pair)]
-        said = (
-            f"the header counts {header[0]} points and {header[1]} analog samples in a frame, "
-            f"the parameters {used} and {samples}"
-        )
-        widths = {4 * n + m for n, m in fitting}
-        if len(fitting) == 1 or (fitting and used == header[0] and len(widths) == 1):
-            n, m = fitting[0]
-            self.content.warn(f"{said}: {n} and {m} are taken, which fit the length of the file")
-            return fitting[0]
-        if used == header[0] and not fitting:  # as header and length of a cut file would
-            self.content.warn(f"{said}: those of the header are taken")
-            return header
-        which = "either fits" if fitting else "neither fits"
-        raise self.content.error(f"{said}, and {which} the length of the file: it is damaged")
-
-    def _fills(self, n_points: int, per_frame: int) -> bool:
-        """Whether a declared number of frames, so wide, ends in the last block of the file."""
-        width = (4 * n_points + per_frame) * self._kind.itemsize
-        size = len(self.content.data) - self._start
-        ends = (frames * width for frames in self._declared_frames())
-        return any(end <= size < (end // BLOCK + 2) * BLOCK for end in ends if end)
-
-    @cached_property
-    def _kind(self) -> np.dtype[Any]:
-        return number_type(self.parameters.processor, real=self.scale < 0)
-
-    @cached_property
-    def _start(self) -> int:
-        """Where the data begin, in bytes."""
-        block = self.header.data_block or int(self.parameters.number("POINT", "DATA_START", 0))
-        if block < 2:
-            raise self.content.error("the header names no place for the data, or no points in it")
-        return (block - 1) * BLOCK
-
-    @cached_property
-    def scale(self) -> float:
-        return self.parameters.number("POINT", "SCALE", self.header.scale) or self.header.scale
-
-    @cached_property
-    def rate(self) -> float:
-        rate = self.parameters.number("POINT", "RATE", self.header.rate) or self.header.rate
-        return rate if np.isfinite(rate) and rate > 0 else 0.0
-
-    @cached_property
-    def first_frame(self) -> int:
-        return self._long("ACTUAL_START_FIELD") or self.header.first_frame
-
-    def frames(self) -> Stored:
-        """(frames, numbers): the data section as stored."""
-        start, kind = self._start, self._kind
-        width = 4 * self.n_points + self.counts[1]
-        if width == 0:
-            raise self.content.error("the header names no place for the data, or no points in it")
-        room = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
-        declared = self._declared_frames()
-        n = max((frames for frames in declared if 0 < frames <= room), default=room)
-        if n == 0:
-            raise self.content.error(
-                f"less than one frame of {self.n_points} points: the file is truncated"
-            )
-        if n not in declared:
-            self.content.warn(f"{max(declared)} frames declared, {n} found and kept")
-        raw = np.frombuffer(self.content.data, kind, n * width, start).reshape(n, width)
-        return as_float32(raw, self.parameters.processor) if self.scale < 0 else raw
-
-    def _declared_frames(self) -> set[int]:
-        start, stop = self._long("ACTUAL_START_FIELD"), self._long("ACTUAL_END_FIELD")
-        counts = {
-            self.header.last_frame - self.header.first_frame + 1,
-            int(self.parameters.number("POINT", "FRAMES", 0)),
-            int(self.parameters.number("POINT", "LONG_FRAMES", 0)),
-            stop - start + 1 if start and stop else 0,
-        }
-        return {frames for frames in counts if frames > 0} or {0}
-
-    def _long(self, name: str) -> int:
-        """A count in two words, the low one first; 0 if there is none."""
-        low, *high = self.parameters.numbers("TRIAL", name)[:2] or [0.0]
-        return int(low) + (int(high[0]) << 16 if high else 0)
-
-    def analog(self, raw: Stored) -> Floats:
-        """(samples, channels): what follows the points in each frame, scaled."""
-        total = raw.shape[1]
-        per_frame = self.header.samples_per_frame or 1
-        channels = int(self.parameters.number("ANALOG", "USED", total // per_frame))
-        if channels <= 0 or total % channels:
-            return np.empty((0, 0))
-        values = raw.reshape(-1, channels)
-        if "UNSIGNED" in self.parameters.strings("ANALOG", "FORMAT") and values.dtype.kind == "i":
-            values = values.view(values.dtype.str.replace("i", "u"))
-        scale = self._per_channel("SCALE", channels, 1.0)
-        scale *= self.parameters.number("ANALOG", "GEN_SCALE", 1.0)
-        scaled = (values - self._per_channel("OFFSET", channels, 0.0)) * scale
-        return np.asarray(scaled, np.float64)
-
-    def _per_channel(self, name: str, channels: int, usual: float) -> Floats:
-        given = self.parameters.numbers("ANALOG", name, signed=True)[:channels]
-        return np.array(given + [usual] * (channels - len(given)))
-
-    def events(self) -> tuple[tuple[float, str], ...]:
-        """Those of the EVENT group, else those of the header; times count from frame 1."""
-        if self.rate == 0:
-            return ()
-        skipped = (self.first_frame - 1) / self.rate
-        found = self._group_events() or self._header_events()
-        return tuple(sorted((round(t - skipped, 6), label) for t, label in found if np.isfinite(t)))
-
-    def _group_events(self) -> list[tuple[float, str]]:
-        used = int(self.parameters.number("EVENT", "USED", 0))
-        times = self.parameters.numbers("EVENT", "TIMES")
-        labels = self.parameters.strings("EVENT", "LABELS")
-        contexts = _padded(self.parameters.strings("EVENT", "CONTEXTS"), len(labels))
-        names = [f"{who} {label}".strip() for who, label in zip(contexts, labels, strict=False)]
-        minutes = zip(times[::2], times[1::2], strict=False)
-        return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
-
-    def _header_events(self) -> list[tuple[float, str]]:
-        data, kind = self.content.data, self.parameters.processor
-        marker, n = np.frombuffer(data, number_type(kind, real=False), 2, 2 * 149).tolist()
-        if marker != _HEADER_EVENTS:
-            return []
-        words = np.frombuffer(data, number_type(kind, real=True), 18, 2 * 152)
-        times = as_float32(words, kind).tolist()
-        labels = [string(data[at : at + 4]) for at in range(2 * 198, 2 * 198 + 72, 4)]
-        return list(zip(times, labels, strict=True))[: max(n, 0)]
+def _analog(file: Layout, raw: Stored) -> Floats:
+    """(samples, channels): what follows the points in each frame, scaled."""
+    total = raw.shape[1]
+    per_frame = file.header.samples_per_frame or 1
+    channels = int(file.parameters.number("ANALOG", "USED", total // per_frame))
+    if channels <= 0 or total % channels:
+        return np.empty((0, 0))
+    values = raw.reshape(-1, channels)
+    if "UNSIGNED" in file.parameters.strings("ANALOG", "FORMAT") and values.dtype.kind == "i":
+        values = values.view(values.dtype.str.replace("i", "u"))
+    scale = _per_channel(file.parameters, "SCALE", channels, 1.0)
+    scale *= file.parameters.number("ANALOG", "GEN_SCALE", 1.0)
+    scaled = (values - _per_channel(file.parameters, "OFFSET", channels, 0.0)) * scale
+    return np.asarray(scaled, np.float64)
 
 
-def _header(content: FileContent, parameters: Parameters) -> Header:
-    kind = parameters.processor
-    words = np.frombuffer(content.data, number_type(kind, real=False), 12)
-    words = words.view(words.dtype.str.replace("i", "u"))
-    reals = np.frombuffer(content.data, number_type(kind, real=True), 6)
-    scale, rate = as_float32(reals, kind)[[3, 5]].tolist()
-    _, points, analog, first, last, _, _, _, block, per_frame, _, _ = words.tolist()
-    return Header(points, analog, first, last, scale, block, per_frame, rate)
+def _per_channel(parameters: Parameters, name: str, channels: int, usual: float) -> Floats:
+    given = parameters.numbers("ANALOG", name, signed=True)[:channels]
+    return np.array(given + [usual] * (channels - len(given)))
+
+
+def _events(file: Layout) -> tuple[tuple[float, str], ...]:
+    """Those of the EVENT group, else those of the header; times count from frame 1."""
+    if file.rate == 0:
+        return ()
+    skipped = (file.first_frame - 1) / file.rate
+    found = _group_events(file.parameters) or _header_events(file)
+    return tuple(sorted((round(t - skipped, 6), label) for t, label in found if np.isfinite(t)))
+
+
+def _group_events(parameters: Parameters) -> list[tuple[float, str]]:
+    used = int(parameters.number("EVENT", "USED", 0))
+    times = parameters.numbers("EVENT", "TIMES")
+    labels = parameters.strings("EVENT", "LABELS")
+    contexts = _padded(parameters.strings("EVENT", "CONTEXTS"), len(labels))
+    names = [f"{who} {label}".strip() for who, label in zip(contexts, labels, strict=False)]
+    minutes = zip(times[::2], times[1::2], strict=False)
+    return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
+
+
+def _header_events(file: Layout) -> list[tuple[float, str]]:
+    data, kind = file.content.data, file.parameters.processor
+    marker, n = np.frombuffer(data, number_type(kind, real=False), 2, 2 * 149).tolist()
+    if marker != _HEADER_EVENTS:
+        return []
+    words = np.frombuffer(data, number_type(kind, real=True), 18, 2 * 152)
+    times = as_float32(words, kind).tolist()
+    labels = [string(data[at : at + 4]) for at in range(2 * 198, 2 * 198 + 72, 4)]
+    return list(zip(times, labels, strict=True))[: max(n, 0)]
 
 
 def _points(quads: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:

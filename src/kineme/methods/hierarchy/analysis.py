@@ -11,6 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from threadpoolctl import threadpool_limits
 
 from kineme._checks import as_features
 from kineme._threads import map_threads
@@ -53,7 +54,13 @@ def analyze_channels(
     ParameterError
         Channels of another shape, empty, or not finite.
     """
-    rows = as_features(channels)
+    with threadpool_limits(1):  # segments run side by side; sums do not hang on threads
+        return _analyze(as_features(channels), preset, progress)
+
+
+def _analyze(
+    rows: NDArray[np.float64], preset: HierarchyConstants, progress: Progress | None
+) -> HierarchyFound:
     bare = unstacked(rows, preset.offsets)
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)

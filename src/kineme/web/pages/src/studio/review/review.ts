@@ -61,8 +61,9 @@ export class Review {
   }
 }
 
-function keyOf({ level, start_frame, stop_frame }: Segment): string {
-  return `${level} ${start_frame} ${stop_frame}`;
+/** Where it starts; an edit of its end makes it no other. */
+function keyOf({ level, start_frame }: Segment): string {
+  return `${level} ${start_frame}`;
 }
 
 function same(a: Segment, b: Segment | undefined): boolean {

@@ -1,0 +1,23 @@
+import { expect, it } from "vitest";
+import { repetitionsOf } from "../src/report/repetitions";
+import { segment, tableOf } from "./recordings";
+
+it("lists each activity with the durations of its repetitions", () => {
+  const found = repetitionsOf(
+    tableOf([
+      segment(0, 40, { level: "activity", activity: 0 }),
+      segment(40, 50, { level: "activity", activity: 1, kind: "transition" }),
+      segment(50, 70, { level: "activity", activity: 2 }),
+      segment(0, 5, { activity: 0, kind: "transition" }),
+      segment(5, 20, { activity: 0 }),
+      segment(20, 40, { activity: 0 }),
+      segment(40, 50, { activity: 1, kind: "transition" }),
+      segment(50, 70, { activity: 2 }),
+    ]),
+  );
+  expect(found.map(({ activity }) => activity.start_frame)).toEqual([0, 50]);
+  expect(found[0]!.durations).toEqual([1.5, 2]);
+  expect(found[0]!.mean_s).toBe(1.75);
+  expect(found[0]!.deviation_s).toBeCloseTo(0.3536, 4);
+  expect(found[1]!.deviation_s).toBeNull();
+});

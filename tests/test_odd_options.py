@@ -1,0 +1,96 @@
+"""Options of levels, transfer, clips, libraries: odd values give a result or a sentence."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme.clips.split import split
+from kineme.datasets import bundled_truth
+from kineme.errors import KinemeError, KinemeWarning
+from kineme.library import Library, build
+from kineme.library.settings import Settings
+from kineme.transfer import transfer_features
+
+ODD = (
+    0, -1, 1, 2, 7, 1000, 2**31, 2**63, -(2**63), 10**400, -0.0, 1e-300, 1e-9, 0.5, 1e9, 1e300,
+    float("nan"), float("inf"), -float("inf"), True, None, "", "odd", (), (1e9,), [1, 2], {},
+    object(), b"x", np.float64(1e300), np.zeros(3), 1j,
+)  # fmt: skip
+
+
+def surprises(door: Callable[..., object], *names: str) -> list[str]:
+    """What a door raises but errors of the package, for every option and every value."""
+    found = []
+    for name in names:
+        for value in ODD:
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("error")
+                    warnings.simplefilter("ignore", KinemeWarning)
+                    door(**{name: value})
+            except KinemeError as error:
+                if "\n" in str(error):
+                    found.append(f"{name}={value!r:.20}: several lines")
+            except Exception as error:  # noqa: BLE001 (which is what is looked for)
+                found.append(f"{name}={value!r:.20}: {type(error).__name__}: {error}")
+    return found
+
+
+@pytest.fixture(scope="module")
+def walk() -> kineme.Motion:
+    motion = kineme.read(kineme.bundled_recording())
+    assert isinstance(motion, kineme.Motion)
+    return motion[:360]
+
+
+def test_levels(walk: kineme.Motion) -> None:
+    assert not surprises(kineme.segment(walk).level, "level")
+
+
+def test_transfer(walk: kineme.Motion) -> None:
+    found, features = kineme.segment(walk), transfer_features(walk)
+    truth = kineme.read_segments(bundled_truth())
+    whole = kineme.read(kineme.bundled_recording())
+    base = kineme.KnowledgeBase.from_recording(whole, truth)
+
+    def transfer(**more: Any) -> object:
+        return kineme.transfer_labels(**{"segmentation": found, "features": features} | more,
+                                      knowledge=base)  # fmt: skip
+
+    assert not surprises(transfer, "threshold", "spread", "features")
+
+
+def test_clips(walk: kineme.Motion, tmp_path: Path) -> None:
+    found, names = kineme.segment(walk), count()
+
+    def cut(**more: Any) -> object:
+        return split(walk, found, tmp_path / str(next(names)), **more)
+
+    assert not surprises(cut, "level", "cluster", "loops")
+
+
+def test_libraries(walk: kineme.Motion, tmp_path: Path) -> None:
+    kineme.write(walk, tmp_path / "walk.bvh")
+    build(tmp_path / "walk.bvh", tmp_path / "library")
+    library = Library(tmp_path / "library")
+
+    def search(**more: Any) -> object:
+        return library.search(**{"like": walk[:60]} | more)
+
+    assert not surprises(search, "like", "start_s", "stop_s", "cluster", "unlike", "mirror")
+    assert not surprises(search, "threshold", "top", "max_per_recording")
+    assert not surprises(Settings, "preset", "constants", "reading", "effectors")
+
+    def again(**more: Any) -> object:
+        return build(**{"sources": (), "into": tmp_path / "library"} | more)
+
+    assert not surprises(again, "sources", "remove", "jobs", "settings", "recursive")
+    assert not surprises(library.numbers, "cluster")
