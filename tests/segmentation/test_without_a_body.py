@@ -118,7 +118,7 @@ def test_a_single_point_is_refused() -> None:
     ("name", "repetitions"),
     [
         ("sample_propulsion.c3d", {0: 18}),  # pushes of a wheelchair: peaks of a glove's path
-        ("walkingOptiTrack.c3d", {1: 11}),  # swings of the one foot, between standing and standing
+        ("walkingOptiTrack.c3d", {1: 11}),  # swings of the one foot, between standing
         ("Eb015pi.c3d", {0: 3}),  # swings of the right foot
         ("Dec_real.c3d", {}),  # a single cycle
     ],

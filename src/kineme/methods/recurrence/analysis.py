@@ -56,9 +56,13 @@ def analyze_actions(
         recurring = _recurrence(rows, preset, preset.min_scale, preset.max_scale)
     division = surest(recurring, preset, stage)
     with stage("occurrences"):
-        found = with_occurrences(division.recurring, division.segments, division.preset)
+        found = with_occurrences(
+            division.recurring, division.segments, division.evidence.counts, division.preset
+        )
     with stage("confidence"):
-        shown = evidence(division.recurring, division.preset, found)
+        shown = division.evidence
+        if found is not division.segments:
+            shown = evidence(division.recurring, division.preset, found)
     return RecurrenceFound(
         rows,
         division.recurring,

@@ -86,8 +86,8 @@ class RecurrenceConstants(CountingPreset):
         "recurs in itself is an activity of its own", limits=FACTOR,
     )  # fmt: skip
     sure_pace: float = constant(
-        "where counts and borders are less probable than this in the mean, all times are tried at "
-        "that share, too", limits=SHARE, fine=True,
+        "where counts and borders are less probable than this, in the mean, a recording is divided "
+        "again with all times shortened by narrow_share", limits=SHARE, fine=True,
     )  # fmt: skip
     link_similarity: float = constant(
         "similarity, relative to that within, from which segments are one action",

@@ -11,11 +11,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from kineme.methods.confidence import confidence
+from kineme.methods.evidence import Evidence
 from kineme.methods.recurrence.activities import activities, find_actions
 from kineme.methods.recurrence.evidence import evidence
 from kineme.methods.recurrence.placing import Segments
@@ -45,11 +47,16 @@ class Division:
     narrow: Recurrence
     segments: Segments
 
+    @cached_property
+    def evidence(self) -> Evidence:
+        """By which it is told how sure the division is."""
+        return evidence(self.recurring, self.preset, self.segments)
+
+    @cached_property
     def sureness(self) -> float:
         """How probably the counts are right, over the whole time, and the borders: their mean."""
-        found = self.segments
-        sure = confidence(evidence(self.recurring, self.preset, found), self.preset)
-        counts = np.average(np.nan_to_num(sure.counts), weights=np.diff(found.borders))
+        sure = confidence(self.evidence, self.preset)
+        counts = np.average(np.nan_to_num(sure.counts), weights=np.diff(self.segments.borders))
         borders = sure.borders[np.isfinite(sure.borders)]
         return float(counts + (borders.mean() if len(borders) else 1.0)) / 2
 
@@ -67,13 +74,12 @@ def surest(recurring: Recurrence, preset: RecurrenceConstants, stage: Stage) -> 
     """
     with stage("activities"):
         usual = _divided(recurring, preset)
-        sureness = usual.sureness()
     with stage("paces"):
-        if sureness >= preset.sure_pace:
+        if usual.sureness >= preset.sure_pace:
             return usual
         short = preset.hurried()
         other = _divided(_windowed(recurring, short), short)
-        return other if other.sureness() > sureness else usual
+        return other if other.sureness > usual.sureness else usual
 
 
 def _divided(recurring: Recurrence, preset: RecurrenceConstants) -> Division:

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from kineme._threads import map_threads
 from kineme.methods.confidence import probability
 from kineme.methods.recurrence.ends import fitted_ends
-from kineme.methods.recurrence.evidence import counted
 from kineme.methods.recurrence.occurrences import occurrences
 from kineme.methods.recurrence.parts import clusters_of_repetitions
 from kineme.methods.recurrence.placing import Segments, of_actions, placed
@@ -27,6 +26,7 @@ from kineme.methods.samples import single_poses
 if TYPE_CHECKING:
     from kineme.methods.recurrence.constants import RecurrenceConstants
 
+Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
 
 
@@ -93,30 +93,36 @@ def with_repetitions(
 
 
 def with_occurrences(
-    recurring: Recurrence, segments: Segments, preset: RecurrenceConstants
+    recurring: Recurrence, segments: Segments, counts: Floats, preset: RecurrenceConstants
 ) -> Segments:
     """Occurrences for primitives in transitions, and in actions whose counts are not probable.
 
     An activity with a single repetition has no count that could be. An action gives its
     repetitions up where occurrences explain more of it than these are probable. Transitions
     that are no more than the ends of two activities are left alone.
+
+    Parameters
+    ----------
+    recurring : Recurrence
+    segments : Segments
+        With repetitions for primitives.
+    counts : (segments, 4) array
+        Statistics of the count of each.
+    preset : RecurrenceConstants
     """
     borders, labels = segments.borders, segments.labels
     parents, repeats, lengths = segments.parents, segments.repeats, np.diff(borders)
     ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
-    counts, _ = counted(
-        recurring.features, segments.primitives, parents, repeats, segments.own, preset
-    )
     several = np.bincount(parents[repeats], minlength=len(labels)) > 1
     sure = of_actions(probability(counts, preset.count_weights) * several, lengths, labels)
     weak = (sure < preset.min_periodic) & ~ends
-    if not weak.any():
-        return segments
-    everywhere = np.ones(len(recurring.features), np.bool_)
-    found = occurrences(single_poses(recurring.features, preset.offsets), everywhere, preset)
+    # Where an activity is in question, what recurs is told by the whole recording.
+    looked_at = np.repeat(weak | (weak & (labels >= 0)).any(), lengths)
+    found = occurrences(single_poses(recurring.features, preset.offsets), looked_at, preset)
     explained = of_actions(found.within(borders, weak).explained(borders), lengths, labels)
     free = weak & ((labels < 0) | (explained > sure))
-    return placed(segments, found.within(borders, free), free)
+    found = found.within(borders, free)
+    return placed(segments, found, free) if len(found) else segments
 
 
 def _tiled(

@@ -1,0 +1,85 @@
+"""Constants of short exercises, chosen with each source of recordings left out.
+
+    python benchmarks/left_out.py [--quick]
+
+`narrow_share`, `distinct_share`, `link_gap`, `sure_pace` and `min_periodic` one by one: mean of
+one-to-one accuracy and border F1 (and of the share of counts that are exact, where
+counts are known) of each value on subject 86, HDM05 sequences, synthetic recordings at
+different speeds, and short exercises back to back and with somebody standing between
+them. Then, for each source, the value that is best on all others, and what the source
+loses with it. The values shown as chosen are in the middle of those within 0.005 of the best.
+"""
+
+from __future__ import annotations
+
+import argparse
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+
+import short_exercises
+from _recordings import Case, hdm05, subject_86, synthetic
+from kineme.evaluation import evaluate_segmentation
+from kineme.methods.recurrence.preset import KINEME, RecurrencePreset
+from kineme.segmentation.segmenter import segment
+from sensitivity import at_working_rate
+
+VALUES = {
+    "narrow_share": (0.45, 0.5, 0.55, 0.6, 0.65),
+    "distinct_share": (0.5, 0.6, 0.65, 0.7, 0.8),
+    "link_gap": (0.15, 0.2, 0.25, 0.3, 0.4),
+    "sure_pace": (0.0, 0.75, 0.8, 0.9, 1.0),
+    "min_periodic": (0.0, 0.2, 0.25, 0.3, 0.5),
+}
+JUDGED = ("one_to_one", "border_f1", "count_exact")
+PLATEAU = 0.005
+
+
+def goodness(cases: Sequence[Case], preset: RecurrencePreset) -> float:
+    """Mean of what is judged, where it is known."""
+    rows = [
+        evaluate_segmentation(case.truth, segment(case.motion, preset=preset)) for case in cases
+    ]
+    return float(np.mean([[row[name] for name in JUDGED if name in row] for row in rows]))
+
+
+def middle_of_best(scores: Sequence[float]) -> int:
+    """The middle one of the values that are about as good as the best."""
+    near = np.flatnonzero(np.array(scores) >= max(scores) - PLATEAU)
+    return int(near[len(near) // 2])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="a quarter of the seeds")
+    few = 4 if parser.parse_args().quick else 1
+    back_to_back, standing = short_exercises.CONDITIONS
+    sources = {
+        "subject 86": subject_86(),
+        "HDM05": hdm05(24 // few),
+        "synthetic": synthetic("speed", 24 // few),
+        back_to_back: short_exercises.cases(back_to_back, 24 // few),
+        standing: short_exercises.cases(standing, 24 // few),
+    }
+    recordings = {name: at_working_rate(cases) for name, cases in sources.items()}
+    for constant, values in VALUES.items():
+        table = np.array(
+            [
+                [goodness(cases, KINEME.replace(**{constant: value})) for value in values]
+                for cases in recordings.values()
+            ]
+        )
+        print(f"\n{constant:18}" + "".join(f"{value:8g}" for value in values) + "  left out: loss")
+        for row, name in enumerate(recordings):
+            others = np.delete(table, row, axis=0).mean(axis=0)
+            chosen = middle_of_best(others.tolist())
+            loss = table[row, values.index(getattr(KINEME, constant))] - table[row, chosen]
+            cells = "".join(f"{score:8.3f}" for score in table[row])
+            print(f"{name:18}{cells}  {values[chosen]:g}: {loss:+.3f}")
+        print(f"{'mean':18}" + "".join(f"{score:8.3f}" for score in table.mean(axis=0)), flush=True)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    main()
