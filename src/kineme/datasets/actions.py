@@ -2,9 +2,7 @@
 
 A cycle is what a person counts as one: a double step, a jump, a squat, a kick,
 a full circle of the arms, a punch, a wave to and fro. Angles of ``figure`` are
-given at a few phases (shares of the cycle) and joined by monotone cubics. A
-limb's angle without a side holds for both; in a gait the right side follows
-half a cycle later. Angles not given are those of standing.
+given at a few phases (shares of the cycle); see ``cycles``.
 
 Hip, knee and foot angles of walking and running follow the curves of gait
 analysis (Winter 1991; Novacheck, Gait and Posture 7, 1998), read off at every
@@ -13,103 +11,9 @@ tenth of the cycle from the strike of the left heel.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
-from kineme.datasets.figure import ANGLES, LIMBS, SIDES
-
-Floats = NDArray[np.float64]
-
-STANDING = dict.fromkeys(ANGLES, 0.0) | {
-    f"{side} {limb}": angle
-    for side in SIDES
-    for limb, angle in (("spread", 3.0), ("raise", 9.0), ("elbow", 14.0), ("roll", 15.0))
-}
-
-_SIDEWAYS = frozenset({"list", "yaw", "lean", "twist", "look"})
-
-
-@dataclass(frozen=True)
-class Cycle:
-    """One repetition of an action.
-
-    Parameters
-    ----------
-    seconds : float
-        How long it takes at speed 1.
-    at : sequence of float
-        Phases, shares of the cycle from 0 to 1.
-    angles : mapping of str to sequence of float
-        Degrees at these phases, by name; an angle whose last value is not its first goes on
-        turning from cycle to cycle.
-    gait : bool, optional
-        The right side follows half a cycle later.
-    flights : tuple of (float, float), optional
-        (from, to) shares of the cycle spent in the air, at amplitude 1.
-    travels : bool, optional
-        The figure walks on and may turn.
-    """
-
-    seconds: float
-    at: Sequence[float]
-    angles: Mapping[str, Sequence[float]]
-    gait: bool = False
-    flights: tuple[tuple[float, float], ...] = ()
-    travels: bool = False
-
-    @property
-    def one_sided(self) -> bool:
-        """Left and right do different things, and not in turn."""
-        return not self.gait and any(name.startswith(SIDES) for name in self.angles)
-
-    def angles_at(self, phase: Floats, amplitude: Floats) -> dict[str, Floats]:
-        """Every angle of the figure at the phases (cycles from 0), scaled about standing."""
-        found = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}
-        for name, values in self.angles.items():
-            curve = _cyclic(self.at, values)
-            for whole in _whole_names(name):
-                late = 0.5 if self.gait and whole.startswith("right") else 0.0
-                angle = curve(phase - late)
-                turns = values[0] != values[-1]
-                rest = STANDING[whole]
-                found[whole] = angle if turns else rest + amplitude * (angle - rest)
-        return found
-
-
-def mirrored(angles: Mapping[str, Floats]) -> dict[str, Floats]:
-    """The same posture with left and right exchanged."""
-    found = {}
-    for name, values in angles.items():
-        side, _, limb = name.rpartition(" ")
-        if side:
-            found[f"{'right' if side == 'left' else 'left'} {limb}"] = values
-        else:
-            found[name] = -values if name in _SIDEWAYS else values
-    return found
-
-
-def _whole_names(name: str) -> list[str]:
-    return [f"{side} {name}" for side in SIDES] if name in LIMBS else [name]
-
-
-def _cyclic(at: Sequence[float], values: Sequence[float]) -> Callable[[Floats], Floats]:
-    """The cyclic curve through values at the given shares of a cycle."""
-    gain = values[-1] - values[0]
-    phases, heights = np.asarray(at, float), np.asarray(values, float)
-    curve = PchipInterpolator(
-        np.concatenate([phases[:-1] - 1, phases, phases[1:] + 1]),
-        np.concatenate([heights[:-1] - gain, heights, heights[1:] + gain]),
-    )
-
-    def at_phase(phase: Floats) -> Floats:
-        whole = np.floor(phase)
-        return np.asarray(curve(phase - whole) + whole * gain)
-
-    return at_phase
+from kineme.datasets.cycles import Cycle
 
 
 def _beats(middle: float, amplitude: float, *, times: int = 1, at: float = 0.0) -> list[float]:

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from kineme import _rotations as rot
-from kineme.datasets.actions import ACTIONS, mirrored
+from kineme.datasets.actions import ACTIONS
+from kineme.datasets.cycles import mirrored
 from kineme.datasets.figure import ANGLES, joint_rotations
 from kineme.datasets.timeline import Part, phase_of, weight_of
 from kineme.recordings import Skeleton

@@ -22,19 +22,14 @@ from numpy.typing import NDArray
 from kineme.errors import ReadError
 from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
+from kineme.formats.inferred import scale_of, up_axis
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
-from kineme.formats.units import UNITS, metres, upright
+from kineme.formats.units import upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 
 Floats = NDArray[np.float64]
 Body = dict[str, tuple[int, ...]]
 Spans = tuple[tuple[int, int], ...]
-
-SPREADS = (0.3, 3.0)
-"""Metres over which markers on a person spread, in the middle of the recording:
-a factor of ten, as between two of m, cm and mm."""
-
-_HEIGHT = 1.7  # metres, given to a body measured in pixels
 
 
 @dataclass(frozen=True)
@@ -95,10 +90,12 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     notes = _said_of_gaps(names, gaps, kept, len(positions))
     notes += _said_of_splits(names, gaps, used, missing, points.fps)
     visible = positions if seen.all() else positions[seen]
-    scale, note = _scale(points.unit, visible if len(kept) == len(names) else visible[:, kept])
+    scale, note = scale_of(points.unit, visible if len(kept) == len(names) else visible[:, kept])
     notes += note
-    up, note = _up(points, visible, body)
-    notes += note
+    up = points.up
+    if up is None:
+        up, note = up_axis(points.usual_up, visible, body)
+        notes += note
     del visible
     positions *= scale
     skeleton, positions = _tree(names, upright(positions, up), body, kept, seen)
@@ -185,48 +182,6 @@ def _said_of_gaps(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) 
         left_out = f"left out for gaps above {LONGEST_S} s: {_listed(said)}"
         notes.append(Note(left_out, "warning"))
     return notes
-
-
-def _scale(unit: str | float | None, positions: Floats) -> tuple[float, list[str]]:
-    """Metres in one unit of the positions, and what was inferred."""
-    if unit is not None and unit != "pixel":
-        return metres(unit), []
-    spread = float(np.median(np.ptp(positions, axis=1).max(axis=1)))
-    if unit == "pixel":
-        return _HEIGHT / (spread or 1.0), [
-            f"no unit: {spread:.3g}, the larger side of the body, taken as {_HEIGHT} m"
-        ]
-    sizes = {name: UNITS[name] for name in ("m", "cm", "mm")}
-    fits = [name for name, size in sizes.items() if SPREADS[0] <= spread * size < SPREADS[1]]
-    if fits:
-        found = fits[0]
-    else:
-        found = "m" if spread < 1 else "mm"
-        said = (
-            f"markers {spread:.3g} units apart are in no unit those of a person: "
-            f"{found} assumed; give unit= (--unit)"
-        )
-        return sizes[found], [Note(said, "warning")]
-    return sizes[found], [
-        f"unit {found} inferred: the points then spread over {spread * sizes[found]:.2f} m"
-    ]
-
-
-def _up(points: Points, positions: Floats, body: Body) -> tuple[str, list[str]]:
-    """The axis that points up, and what was inferred."""
-    if points.up is not None:
-        return points.up, []
-    head = list(body.get("head", ()))
-    feet = [i for joint in ("left_ankle", "right_ankle") for i in body.get(joint, ())]
-    if head and feet:
-        trunk = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
-        length = np.linalg.norm(trunk, axis=1, keepdims=True)
-        along = np.median(trunk / np.where(length > 0, length, 1), axis=0)
-        axis = int(np.abs(along).argmax())
-        if abs(along[axis]) > 0.7:
-            up = ("-" if along[axis] < 0 else "") + "xyz"[axis]
-            return up, [f"up axis {up} inferred: head and feet lie along it"]
-    return points.usual_up, [f"up axis {points.usual_up} assumed; give up= if it is another"]
 
 
 def _tree(

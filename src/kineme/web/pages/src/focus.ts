@@ -51,7 +51,7 @@ export function watchFocus(): () => void {
 /** Whether a key is the player's, if it has a use for it. */
 export function isForPlayer(event: KeyboardEvent): boolean {
   const target = event.target instanceof HTMLElement ? event.target : null;
-  if (event.defaultPrevented || target?.closest("dialog")) return false;
+  if (event.defaultPrevented || target?.closest("dialog[open]")) return false;
   if (!target || target === document.body) return true;
   if (isTyped(target)) return false;
   return target === clicked || !keysOf(target).includes(event.key);
