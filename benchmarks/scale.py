@@ -50,8 +50,8 @@ LASTS_S = 1200.0
 FASTEST, NOISE = 1.4, (0.01, 0.05)
 TOP = 50
 LARGER = (10_000, 100_000)
-GROWTH = (100, 1000)
-"""Words whose joining ``vocabulary.py --growth 100 1000 --record`` measured."""
+GROWTH = (1000, 10_000)
+"""Words whose joining ``vocabulary.py --growth 1000 10000 --record`` measured."""
 EXAMPLES_S = (0.8, 1.2, 1.6, 2.2, 3.0, 4.0)
 Features = NDArray[np.float32]
 
@@ -214,9 +214,7 @@ def larger() -> None:
             "16_cores": build / 16,
             "128_cores": build / 128,
             "kept": told["scale.kept"] * hours / 1e6,
-            "index": told["scale.search.index"] * hours / 1000,
             "join": a_word * told["scale.words"] * hours / 3600,
-            "search": told["scale.search.processor"] * hours / told["scale.search.hours"],
         }
         print(f"{hours} h:", {name: float(f"{value:.2g}") for name, value in values.items()})
         for name, value in values.items():

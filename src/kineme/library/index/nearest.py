@@ -10,7 +10,7 @@ from kineme.library.index.kept import Windows
 from kineme.library.index.parts import Parts
 from kineme.library.index.windows import Float32s, Ints, step, wanted
 
-SHARE = 0.03
+SHARE = 0.01
 """Of the windows, that are searched sample by sample."""
 MORE = 20
 """Windows for each hit that is wanted, at least."""
