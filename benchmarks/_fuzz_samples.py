@@ -130,13 +130,13 @@ def _library(root: Path, motion: Motion, _: Segmentation) -> None:
 def _studio(root: Path, _: Motion, truth: Segmentation) -> None:
     folder = _made(root / "studio")
     journal = Journal(folder / f"walk{SUFFIX}", truth)
+
+    def save(new: Segmentation) -> None:
+        (folder / f"walk{SUFFIX}").write_text(json_table.dumps(new))
+
     for fps in (59.0, 60.0):
         table = Segmentation.from_columns(truth.table.columns(), n_frames=truth.n_frames, fps=fps)
-        journal.write(
-            journal.changed(table, None, replaced=True),
-            lambda new: (folder / f"walk{SUFFIX}").write_text(json_table.dumps(new)) and None,
-            revision=1,
-        )
+        journal.write(journal.changed(table, None, replaced=True), save, revision=1)
 
 
 def _ask_library(root: Path) -> object:

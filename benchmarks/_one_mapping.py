@@ -38,12 +38,13 @@ class Described:
 def described(recording: Signals, found: Segmentation) -> Described:
     """Mean statistics of the clusters of a recording."""
     preset = SENSORS.at_most(recording.fps)
-    rows = at_rate(recording.values, recording.fps, preset.working_fps, smoothing=0.0)
+    values = at_rate(recording.values, recording.fps, preset.working_fps, smoothing=0.0)
     seen = channel_statistics(
-        rows, preset.working_fps, rate=preset.rate, window=preset.averaging, bands=preset.bands
+        values, preset.working_fps, rate=preset.rate, window=preset.averaging, bands=preset.bands
     )
     at = np.minimum(np.arange(len(seen)) / preset.rate * recording.fps, recording.n_frames - 1)
-    labels = found.per_frame("cluster")[at.astype(np.int64)]
+    rows = found.activities
+    labels = rows.cluster[np.searchsorted(rows.stop_frame, at.astype(np.int64), "right")]
     clusters = np.unique(labels).tolist()
     groups = [seen[labels == cluster] for cluster in clusters]
     return Described(

@@ -1,9 +1,10 @@
 """What a library costs: building it, building it again, and searching it.
 
-    python benchmarks/library.py [--files 1000] [--hours 10]
+    python benchmarks/library.py [build] [again] [search] [--copies 40] [--files 1000] [--hours 10]
+                                 [--record]
 
 1. Forty copies of trial 86_10 as AMC, each with a comment of its own so that no two are equal:
-   ``library build`` beside ``segment FOLDER``, as commands, on all cores.
+   ``library build`` beside ``segment FOLDER``, as commands, on all cores; and forty equal ones.
 2. A library of so many short recordings, built again with nothing changed.
 3. A walk searched in so many hours of recording: pieces of subject 86, shaken anew for each
    recording; in a library that is open, and as a command.
@@ -18,41 +19,47 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
+from _figures import add_option, record
 from _libraries import simulated
 from _measure import kineme, verdict
 from _recordings import DATA
 from kineme import Library, read
 
-COPIES = 40
+PARTS = ("build", "again", "search")
 WALK = ("86_01.amc", 2.0, 3.2)
 
 
-def copies(folder: Path, n: int, *, frames: int | None = None) -> None:
-    """Copies of trial 86_10 that differ in a comment, on the skeleton of the subject."""
+def copies(folder: Path, n: int, *, frames: int | None = None, equal: bool = False) -> None:
+    """Copies of trial 86_10, equal or told apart by a comment, on the skeleton of the subject."""
     folder.mkdir()
     (folder / "86.asf").write_bytes((DATA / "cmu86" / "86.asf").read_bytes())
     text = (DATA / "cmu86" / "86_10.amc").read_text()
     if frames is not None:
         text = text[: text.index(f"\n{frames + 1}\n") + 1]
     for i in range(n):
-        (folder / f"86_10_{i:04d}.amc").write_text(f"# copy {i}\n{text}")
+        (folder / f"86_10_{i:04d}.amc").write_text(text if equal else f"# copy {i}\n{text}")
 
 
-def show_build(home: Path) -> None:
-    copies(home / "copies", COPIES)
+def show_build(home: Path, n: int) -> None:
+    copies(home / "copies", n)
+    copies(home / "equal", n, equal=True)
     alone, alone_used, _ = kineme("segment", home / "copies", "--quiet")
-    built, used, memory = kineme(
-        "library", "build", home / "copies", "--into", home / "lib", "--quiet"
-    )
-    print(
-        f"{COPIES} copies of 86_10: segment FOLDER {alone:.1f} s, library build {built:.1f} s, "
-        f"{alone / built:.2f} times as fast (1.6 promised); processors {alone_used:.1f} and "
-        f"{used:.1f} s"
-    )
-    print(f"largest process {memory:.2f} GB, {verdict(memory, 1.0)}")
-    kept = sum(path.stat().st_size for path in (home / "lib").rglob("*") if path.is_file())
-    hours = Library(home / "lib").hours
-    print(f"kept: {kept / 1e6 / hours:.1f} MB an hour of recording")
+    print(f"{n} copies of 86_10: segment FOLDER {alone:.1f} s, processors {alone_used:.1f} s")
+    record("library.segment_folder.processors", round(alone_used, 1), unit="s")
+    for name in ("copies", "equal"):
+        into = home / f"lib-{name}"
+        built, used, memory = kineme("library", "build", home / name, "--into", into, "--quiet")
+        print(
+            f"library build, {name}: {built:.1f} s, {alone / built:.2f} times as fast (1.6 "
+            f"promised); processors {used:.1f} s; largest process {memory:.2f} GB, "
+            f"{verdict(memory, 1.0)}"
+        )
+        record(f"library.build.{name}.times", round(alone / built, 2))
+        record(f"library.build.{name}.processors", round(used, 1), unit="s")
+        record(f"library.build.{name}.memory", round(memory, 2), unit="GB")
+    into = home / "lib-copies"
+    kept = sum(path.stat().st_size for path in into.rglob("*") if path.is_file())
+    print(f"kept: {kept / 1e6 / Library(into).hours:.1f} MB an hour of recording")
 
 
 def show_second_build(home: Path, files: int) -> None:
@@ -63,6 +70,7 @@ def show_second_build(home: Path, files: int) -> None:
         f"{files} short recordings: {first:.1f} s; again {again:.2f} s, "
         f"{verdict(again, 2.0)}; processor {used:.2f} s"
     )
+    record("library.again.processors", round(used, 2), unit="s")
 
 
 def show_search(home: Path, hours: float) -> None:
@@ -85,14 +93,20 @@ def show_search(home: Path, hours: float) -> None:
 
 def main() -> None:
     options = argparse.ArgumentParser()
+    options.add_argument("parts", nargs="*", default=PARTS, help=", ".join(PARTS))
+    options.add_argument("--copies", type=int, default=40)
     options.add_argument("--files", type=int, default=1000)
     options.add_argument("--hours", type=float, default=10.0)
+    add_option(options)
     given = options.parse_args()
     with TemporaryDirectory() as folder:
         home = Path(folder)
-        show_build(home)
-        show_second_build(home, given.files)
-        show_search(home, given.hours)
+        if "build" in given.parts:
+            show_build(home, given.copies)
+        if "again" in given.parts:
+            show_second_build(home, given.files)
+        if "search" in given.parts:
+            show_search(home, given.hours)
 
 
 if __name__ == "__main__":

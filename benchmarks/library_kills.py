@@ -202,9 +202,9 @@ def main() -> None:
                 print(f"{n} kills, {rounds} libraries: {dict(found) or 'nothing torn'}", flush=True)
         refused = sum(on_a_full_disk(trial, found) for trial in trials)
         print(f"{refused} builds on a full disk: {dict(found) or 'nothing torn'}")
-    record("library.kills", n)
-    record("library.kills.torn", sum(found.values()))
-    record("library.full_disk", refused)
+    record("library_kills.kills", n)
+    record("library_kills.torn", sum(found.values()))
+    record("library_kills.full_disk", refused)
     sys.exit(1 if found else 0)
 
 

@@ -1,6 +1,8 @@
 """What a library of many hours costs, and whether its index finds what an exact search finds.
 
-    python benchmarks/scale.py [costs] [search] [larger] [--hours 1000] [--library DIR] [--record]
+    python benchmarks/scale.py [costs] [search] [larger] [--hours 1000] [--examples 6] [--record]
+
+``--library DIR`` keeps the simulated library there, or takes it from there.
 
 ``costs``: processor seconds for an hour of recording (subject 86, AMC, 120 frames a second): read,
 segmented, described and kept; the bytes of it, and how many clusters it has, which
@@ -16,6 +18,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -47,8 +50,8 @@ LASTS_S = 1200.0
 FASTEST, NOISE = 1.4, (0.01, 0.05)
 TOP = 50
 LARGER = (10_000, 100_000)
-GROWTH = (400, 800)
-"""Words whose joining ``vocabulary.py --growth 400 800 --record`` measured."""
+GROWTH = (100, 1000)
+"""Words whose joining ``vocabulary.py --growth 100 1000 --record`` measured."""
 EXAMPLES_S = (0.8, 1.2, 1.6, 2.2, 3.0, 4.0)
 Features = NDArray[np.float32]
 
@@ -90,7 +93,7 @@ def costs() -> None:
     record("scale.windows", round(parts["windows"] / hours, 2), unit="MB")
 
 
-def search(hours: float, kept: Path | None) -> None:
+def search(hours: float, kept: Path | None, most: int) -> None:
     """A library of so many hours, searched with its index and exactly."""
     with TemporaryDirectory() as home:
         folder = kept or Path(home) / "lib"
@@ -100,7 +103,7 @@ def search(hours: float, kept: Path | None) -> None:
         named = folder / TABLES / library.head["tables"]
         index = sum(path.stat().st_size for path in named.glob("windows.*.npy"))
         print(f"{library.hours:.0f} h, {len(library)} recordings, index {index / 1e6:.0f} MB")
-        searched(library, hours)
+        searched(library, hours, most)
         like = ("--like", DATA / "cmu86" / "86_01.amc", "--start", 2.0, "--stop", 3.2)
         taken = [kineme("library", "search", folder, *like, "--quiet") for _ in range(3)]
         clock, used, memory = min(taken)
@@ -111,10 +114,10 @@ def search(hours: float, kept: Path | None) -> None:
         record("scale.search.index", round(index / 1e6 / hours, 2), unit="MB")
 
 
-def searched(library: Library, hours: float) -> None:
+def searched(library: Library, hours: float, most: int) -> None:
     """How long it takes, and what the index misses."""
     clock, used, exact_used, recalls = [], [], [], []
-    for example in examples():
+    for example in islice(examples(), most):
         library.search(example, top=TOP)  # what the machine has read already counts as warm
         start, begun = perf_counter(), process_time()
         found = library.search(example, top=TOP)
@@ -125,6 +128,7 @@ def searched(library: Library, hours: float) -> None:
             exact = library.search(example, top=TOP)
         exact_used.append(process_time() - begun)
         recalls.append(recall(found, exact))
+        print(f"{used[-1]:.1f} s, exactly {exact_used[-1]:.1f} s, {recalls[-1]:.2f}", flush=True)
     most = 2.0 if hours > 10 else 0.2
     print(
         f"search: {median(clock):.2f} s ({max(clock):.2f} at most), {verdict(median(clock), most)}"
@@ -247,13 +251,14 @@ def main() -> None:
     options = argparse.ArgumentParser()
     options.add_argument("parts", nargs="*", default=["costs", "search", "larger"])
     options.add_argument("--hours", type=float, default=1000.0)
+    options.add_argument("--examples", type=int, default=len(EXAMPLES_S))
     options.add_argument("--library", type=Path, help="keep it here, or take it from here")
     add_option(options)
     given = options.parse_args()
     if "costs" in given.parts:
         costs()
     if "search" in given.parts:
-        search(given.hours, given.library)
+        search(given.hours, given.library, given.examples)
     if "larger" in given.parts:
         larger()
 

@@ -98,7 +98,7 @@ ROOMS = {
         "sources of the pages, the built pages, and what they are told",
         "features formats labels recordings segments",
     ),
-    "report": Room("one page of HTML that shows a recording", "features recordings segments web"),
+    "report": Room("one page of HTML that shows a recording", "features segments web"),
     "studio": Room(
         "a local server and its page: recordings looked at, tables corrected and kept",
         "clips datasets evaluation features formats labels methods recordings report segmentation "

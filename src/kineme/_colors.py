@@ -9,6 +9,10 @@ Source: Paul Tol, Colour Schemes, SRON/EPS/TN/09-002, 2021: the "muted" scheme.
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
+from typing import Protocol
+
 PALETTE = (
     "#332288",
     "#DDCC77",
@@ -22,7 +26,61 @@ PALETTE = (
 )
 NO_CLUSTER = "#DDDDDD"
 
+
+class Row(Protocol):
+    """What of a segment its colour depends on."""
+
+    @property
+    def label(self) -> str: ...
+    @property
+    def cluster(self) -> int: ...
+    @property
+    def start_s(self) -> float: ...
+    @property
+    def stop_s(self) -> float: ...
+
+
 _MIXES = ((0.0, 0), (0.5, 255), (0.4, 0))  # share and grey value mixed in, round by round
+
+
+def label_colors(rows: Iterable[Row]) -> dict[str, str]:
+    """``#RRGGBB`` of each label, the same as in the pages.
+
+    That of the cluster that has the label most; else one made from the text itself.
+
+    Parameters
+    ----------
+    rows : iterable of segments
+
+    Returns
+    -------
+    dict of str
+    """
+    most: dict[str, Counter[int]] = {}
+    taken = set()
+    for row in rows:
+        taken.add(cluster_color(row.cluster))
+        if row.label:
+            seconds = most.setdefault(row.label, Counter())
+            if row.cluster >= 0:
+                seconds[row.cluster] += row.stop_s - row.start_s  # type: ignore[assignment]
+    colors: dict[str, str] = {}
+    for label in sorted(most, key=lambda text: text.encode("utf-16-be", "surrogatepass")):
+        known = most[label].most_common(1)
+        colors[label] = cluster_color(known[0][0]) if known else _free_color(label, taken)
+        taken.add(colors[label])
+    return colors
+
+
+def _free_color(text: str, taken: set[str]) -> str:
+    """A colour for a text, the same on every day; another one where that is taken."""
+    hashed = 2166136261  # FNV-1a, over what a page takes for letters
+    units = text.encode("utf-16-le", "surrogatepass")
+    for low, high in zip(units[::2], units[1::2], strict=True):
+        hashed = ((hashed ^ (low | high << 8)) * 16777619) % 2**32
+    number = len(PALETTE) * len(_MIXES)
+    choices = [cluster_color((hashed + i) % number) for i in range(number)]
+    return next((color for color in choices if color not in taken), choices[0])
 
 
 def cluster_color(cluster: int) -> str:

@@ -29,7 +29,10 @@ class FileError(KinemeError):
     """What is wrong with a file: ``PATH, line N: reason``."""
 
     def __init__(self, path: str | PathLike[str], reason: str, *, line: int | None = None):
-        self.path = fspath(path) if isinstance(path, str | PathLike) else str(path)  # a URL
+        try:
+            self.path = fspath(path)
+        except TypeError:  # a URL, as universal_pathlib has it
+            self.path = str(path)
         self.reason = reason
         self.line = line
         where = self.path if line is None else f"{self.path}, line {line}"

@@ -87,6 +87,21 @@ def shows_curves(screen: Screen) -> None:
     place.wait_for(state="attached" if shown else "detached")
 
 
+def lays_a_ghost(screen: Screen) -> None:
+    to_a_segment(screen)
+    ghost = screen.page.get_by_text("ghost:")
+    screen.page.keyboard.press("v")
+    ghost.wait_for()
+    screen.page.keyboard.press("v")
+    ghost.wait_for(state="detached")
+
+
+def names_by_number(screen: Screen) -> None:
+    """With a label of the folder; here it has none, and the page says where to add one."""
+    screen.page.keyboard.press("1")
+    screen.page.get_by_text("No label is on the key 1 yet").wait_for()
+
+
 def edits(*keys: str, more: int = 0) -> Check:
     """A key that changes the table, by so many rows; then it is undone, made again and undone."""
 
@@ -181,6 +196,7 @@ CHECKS: dict[str, Check] = {
     "I, O": marks,
     "Z": zooms_to_the_segment,
     ", .": changes_detail,
+    "V": lays_a_ghost,
     "G": shows_curves,
     "+ −": zooms,
     "Home, End": jumps,
@@ -192,6 +208,7 @@ CHECKS: dict[str, Check] = {
     "A": changes_level,
     "N": names("n"),
     "Shift + N": names("Shift+N"),
+    "1 … 9": names_by_number,
     "J": looks_at_the_next,
     "K": checks("k"),
     "Shift + K": checks("Shift+K"),

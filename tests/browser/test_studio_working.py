@@ -33,3 +33,55 @@ def test_curves_lie_under_the_timeline_and_follow_its_zoom(page):
     edge.press("ArrowUp")
     screen.wait("true")
     assert curves.bounding_box()["height"] == tall + 16
+
+
+def test_a_label_of_the_folder_is_given_with_its_key_and_a_comment_stays(page):
+    screen = Screen(page)
+    field = page.get_by_label("A label for all recordings of the folder")
+    field.fill("lunge")
+    field.press("Enter")
+    page.get_by_role("button", name="1 lunge").wait_for()
+    field.press("Escape")
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("1")
+    screen.wait("k.segments.some((each) => each.label === 'lunge')")
+    comment = page.get_by_placeholder("what others should know of it")
+    comment.fill("the left foot slips")
+    comment.press("Control+Enter")
+    screen.saved()
+    page.wait_for_timeout(200)
+    page.reload()
+    Screen(page).opened()
+    page.keyboard.press("Shift+ArrowRight")
+    screen.wait("k.selected")
+    assert comment.input_value() == "the left foot slips"
+
+
+def test_chosen_rows_become_a_cluster_or_clips(page):
+    screen = Screen(page)
+    page.get_by_role("tab", name="Table").click()
+    rows = page.locator(".table-rows [role=row]:not(.activity)").filter(has_text="cluster 0")
+    rows.nth(0).click()
+    rows.nth(1).click(modifiers=["Control"])
+    with page.expect_download() as clips:
+        page.get_by_role("button", name="Loops…").click()
+    assert clips.value.suggested_filename.endswith(".zip")
+    clusters = {row["cluster"] for row in screen.lane("primitive")}
+    page.get_by_role("button", name="New cluster").click()
+    screen.saved()
+    assert {row["cluster"] for row in screen.lane("primitive")} == clusters | {max(clusters) + 1}
+
+
+def test_a_repetition_is_laid_over_another_one(page):
+    screen = Screen(page)
+    screen.click(screen.lane("primitive")[9])
+    screen.wait("k.selected")
+    page.keyboard.press("v")
+    page.keyboard.press("Shift+ArrowRight")
+    page.wait_for_timeout(300)
+    page.get_by_text("ghost:").wait_for()
+    laid = screen.pixels()["figure"]
+    page.get_by_role("button", name="Ghost").click()
+    page.get_by_role("button", name="Ghost").click()
+    page.wait_for_timeout(600)
+    assert screen.pixels()["figure"] != laid

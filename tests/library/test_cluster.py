@@ -48,13 +48,14 @@ def test_a_library_is_the_same_though_a_worker_was_killed(
 def test_a_task_that_ends_its_workers_costs_itself_only(client: Any) -> None:
     from kineme.library.executors.cluster import Cluster
 
-    client.run_on_scheduler(_bear_no_death)
+    client.run_on_scheduler(_bear_deaths, most=0)
     assert list(Cluster(client).completed(os._exit, [1])) == [(1, None)]
+    client.run_on_scheduler(_bear_deaths, most=3)
     assert dict(Cluster(client).completed(abs, [-2, -3])) == {-2: 2, -3: 3}
 
 
-def _bear_no_death(dask_scheduler: Any) -> None:
-    dask_scheduler.allowed_failures = 0
+def _bear_deaths(dask_scheduler: Any, most: int) -> None:
+    dask_scheduler.allowed_failures = most
 
 
 def test_an_address_where_nobody_answers_is_said(takes: Path, tmp_path: Path) -> None:

@@ -35,7 +35,7 @@ def test_curves_of_a_body() -> None:
 
 def test_a_report_has_the_channels_of_signals() -> None:
     signals = Signals(np.arange(6000.0).reshape(3000, 2), 50.0, ["a", "b"], gaps=[(10, 20)])
-    head, pieces = curves_of(signals)
+    head, pieces = curves_of(signals, 50.0)
     assert [each.name for each in head.curves] == ["a", "b"]
     first = np.frombuffer(pieces["0/0/0"], "<f4")
     assert np.isnan(first[20:40]).all()

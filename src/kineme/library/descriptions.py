@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import MotionError, ParameterError
-from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
+from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
 from kineme.library.layout import BODIES, EMBEDDED
@@ -112,8 +112,7 @@ def describe(
         named = f"{recording.n_channels} channels, {vocabulary}"
         return Description(named, features, SENSORS.rate)
     try:
-        features = matching_features(recording, effectors=effectors, mirrored=mirrored)
-        poses = matching_poses(recording, effectors=effectors)
+        features, poses = features_and_poses(recording, effectors=effectors, mirrored=mirrored)
     except MotionError as error:
         return Description("", np.empty((0, 0), np.float32), MATCHING_FPS, str(error))
     return Description(BODIES, features, MATCHING_FPS, poses=poses)

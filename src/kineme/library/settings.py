@@ -54,7 +54,8 @@ class Settings:
     def __post_init__(self) -> None:
         if not isinstance(self.preset, str):
             raise ParameterError(f"a library takes the name of a preset, not {self.preset!r:.60}")
-        for name, given in (("constants", self.constants), ("reading", self.reading)):
+        held: dict[str, Any] = {"constants": self.constants, "reading": self.reading}
+        for name, given in held.items():
             if not (isinstance(given, Mapping) and all(isinstance(key, str) for key in given)):
                 raise ParameterError(f"{name} must be values by their names, not {given!r:.60}")
         resolve_preset(self.preset, **self.constants)

@@ -23,10 +23,11 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from kineme._checks import check_type
-from kineme._colors import NO_CLUSTER, cluster_color
+from kineme._colors import NO_CLUSTER, cluster_color, label_colors
 from kineme.segmentation.spans import in_time
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
+from kineme.segments.timeline import segment_color
 
 if TYPE_CHECKING:
     from kineme.graph import NeighborGraph
@@ -178,7 +179,8 @@ def _cross(at: float, within: Segment) -> list[list[tuple[float, float]]]:
 def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
     seconds = segmentation.n_frames / segmentation.fps
     rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
-    colors = [cluster_color(cluster) for cluster in rows.cluster.tolist()]
+    labels = label_colors(segmentation)
+    colors = [segment_color(row, labels) for row in rows]
     below = _boxes(rows.start_s, rows.stop_s, seconds + 0.4 * width, seconds + 1.4 * width)
     left = _boxes(-1.4 * width, -0.4 * width, rows.start_s, rows.stop_s)
     gap = 0.6 if len(rows) < MAX_GAPS else 0.0

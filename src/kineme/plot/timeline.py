@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import get_args
 
@@ -12,10 +13,10 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from kineme._checks import as_texts, check_type, is_one_of
-from kineme._colors import cluster_color
+from kineme._colors import label_colors
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level, SegmentTable
+from kineme.segments.table import Level, Segment, SegmentTable
 from kineme.segments.timeline import draw_timeline, segment_color
 
 
@@ -109,10 +110,12 @@ def compare(
         if not len(table):
             raise ParameterError(f"{name} has no segments of level {level!r}")
     first = rows[shown[0]]
+    alike = [_renumbered(table, matched_clusters(first, table)) for table in rows.values()]
+    labels = label_colors(segment for table in alike for segment in table)
     return draw_timeline(
         rows,
         max(result.n_frames / result.fps for result in results),
-        colors=[_colors(table, matched_clusters(first, table)) for table in rows.values()],
+        colors=[[segment_color(segment, labels) for segment in table] for table in alike],
         ax=ax,
     )
 
@@ -156,11 +159,8 @@ def _clusters_at(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[np.
     return np.where(inside, table.cluster[row], -1)
 
 
-def _colors(table: SegmentTable, numbers: dict[int, int]) -> list[str]:
-    return [
-        cluster_color(numbers[segment.cluster]) if segment.cluster >= 0 else segment_color(segment)
-        for segment in table
-    ]
+def _renumbered(table: SegmentTable, numbers: dict[int, int]) -> list[Segment]:
+    return [replace(segment, cluster=numbers.get(segment.cluster, -1)) for segment in table]
 
 
 def _names(results: Sequence[Segmentation]) -> list[str]:

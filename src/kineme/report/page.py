@@ -14,13 +14,10 @@ from importlib.resources import files
 from os import PathLike
 from pathlib import Path
 
-import numpy as np
-
 from kineme._checks import check_path, check_type
 from kineme._files import atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
-from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.web.curves import curves_of
 from kineme.web.encoding import to_json
@@ -124,12 +121,9 @@ def filled(
 
 def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
     """The channels of what has no figure."""
-    if isinstance(recording, Motion):
+    if data.motion is not None:
         return None
-    if not isinstance(recording, Signals):
-        values = np.asarray(recording, np.float64)
-        recording = Signals(np.nan_to_num(values), data.fps)
-    head, pieces = curves_of(recording)
+    head, pieces = curves_of(recording, data.fps)
     return {"list": head, "pieces": {place: _base64(piece) for place, piece in pieces.items()}}
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._colors import cluster_color
+from kineme._colors import cluster_color, label_colors
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,12 +27,15 @@ NAMED = 0.06
 MOST_EDGES = 400
 """Bars of a row; more are drawn without white lines between them."""
 TRANSITION = "#F0F0F0"
+NO_LABELS: Mapping[str, str] = {}
 WIDTH, HEIGHT = 720, 16
 """Pixels of a row in a notebook."""
 
 
-def segment_color(segment: Segment) -> str:
-    """``#RRGGBB`` of a segment's bar."""
+def segment_color(segment: Segment, labels: Mapping[str, str] = NO_LABELS) -> str:
+    """``#RRGGBB`` of a segment's bar: of its cluster, else of its label."""
+    if segment.cluster < 0 and segment.label in labels:
+        return labels[segment.label]
     if segment.cluster < 0 and segment.kind == "transition":
         return TRANSITION
     return cluster_color(segment.cluster)
@@ -64,7 +67,8 @@ def draw_timeline(
     """
     axes = _new_axes(len(rows)) if ax is None else ax
     if colors is None:
-        colors = [[segment_color(segment) for segment in table] for table in rows.values()]
+        labels = label_colors(segment for table in rows.values() for segment in table)
+        colors = [[segment_color(segment, labels) for segment in table] for table in rows.values()]
     for number, (table, own) in enumerate(zip(rows.values(), colors, strict=True)):
         axes.broken_barh(
             list(zip(table.start_s, table.duration_s, strict=True)),
@@ -100,10 +104,11 @@ def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
     str
     """
     height = HEIGHT * len(rows)
+    labels = label_colors(segment for table in rows for segment in table)
     bars = [
         f'<rect x="{left}" y="{number * HEIGHT + 1}" width="{right - left}" '
-        f'height="{HEIGHT - 2}" fill="{segment_color(segment)}"><title>{_told(segment)}</title>'
-        "</rect>"
+        f'height="{HEIGHT - 2}" fill="{segment_color(segment, labels)}">'
+        f"<title>{_told(segment)}</title></rect>"
         for number, table in enumerate(rows)
         for segment, left, right in _pixels(table, start_s, stop_s)
     ]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from starlette.responses import JSONResponse
+from urllib.parse import quote
+
+from starlette.responses import JSONResponse, Response
 
 from kineme.web.encoding import to_json
 
@@ -12,6 +14,12 @@ class MessageResponse(JSONResponse):
 
     def render(self, content: object) -> bytes:
         return to_json(content)
+
+
+def file_response(name: str, content: bytes) -> Response:
+    """A file to keep."""
+    headers = {"content-disposition": f"attachment; filename*=UTF-8''{quote(name, safe='')}"}
+    return Response(content, headers=headers, media_type="application/octet-stream")
 
 
 def number_in(text: str) -> int:

@@ -17,7 +17,7 @@ from kineme.methods import PRESETS, Constant, resolve_preset
 from kineme.methods.constants import Slider
 from kineme.methods.levels import DETAILS
 from kineme.segments.hierarchy import DEFAULT_DETAIL
-from kineme.web.messages import ExportFormat, Parameter, PresetChoice
+from kineme.web.folder_messages import ExportFormat, Parameter, PresetChoice
 
 CLIPS, REPORT = "motions", "report"
 """What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""

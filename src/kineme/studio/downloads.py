@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import tempfile
 import zipfile
+from collections.abc import Iterable, Sequence
 from io import BytesIO
 from pathlib import Path
 
-from kineme.clips.split import split
+from kineme.clips.split import split, write_clips
 from kineme.errors import ParameterError
 from kineme.features import Names
 from kineme.labels import label_formats, write_segments
@@ -15,7 +16,55 @@ from kineme.recordings import Motion
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
+from kineme.studio.choices import CLIPS, REPORT
+from kineme.studio.open_recording import OpenRecording
 from kineme.web.page_data import Shown
+
+
+def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str, bytes]:
+    """Name and bytes of what is downloaded of a recording.
+
+    Parameters
+    ----------
+    opened : OpenRecording
+    kind : str
+        A label format, or one of `kineme.studio.choices`: motion files, a page.
+    level : {"activity", "primitive"}, optional
+        Of the segments.
+    """
+    loaded, stem = opened.loaded, opened.path.stem
+    if kind == CLIPS:
+        return motion_files(loaded.motion, opened.table, stem, level)
+    if kind == REPORT:
+        return report_file(loaded.recording, opened.table, loaded.path, loaded.effectors)
+    return table_file(opened.table, stem, kind, level)
+
+
+def together(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]:
+    """Several files as one ZIP; a name that comes again gets a number."""
+    packed, names = BytesIO(), set[str]()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as parts:
+        for name, content in files:
+            path, number = Path(name), 2
+            while name in names:
+                name = f"{path.stem}_{number}{path.suffix}"  # noqa: PLW2901
+                number += 1
+            names.add(name)
+            parts.writestr(name, content)
+    return f"{stem}.zip", packed.getvalue()
+
+
+def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tuple[str, bytes]:
+    """Name and bytes of a ZIP with a motion file for each of some rows of the table."""
+    table = opened.table
+    if not rows or not all(0 <= row < len(table) for row in rows):
+        raise ParameterError("choose the segments to write: some of these are not in the table")
+    wanted = [table.table[row] for row in rows]
+    with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
+        write_clips(
+            [(opened.loaded.recording, wanted)], Path(folder) / opened.path.stem, loops=loops
+        )
+        return _one_file(Path(folder), opened.path.stem)
 
 
 def table_file(

@@ -29,6 +29,9 @@ BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
     requests.SetCluster: editing.set_cluster,
     requests.SetKind: editing.set_kind,
     requests.MergeClusters: editing.merge_clusters,
+    requests.SplitCluster: editing.split_cluster,
+    requests.OrderClusters: editing.order_clusters,
+    requests.Remark: editing.comment,
     requests.Check: editing.check,
 }
 """Corrections; the fields of each are the arguments of its function, in this order."""
@@ -121,7 +124,7 @@ def _by_hand(table: Segmentation, edit: Struct) -> Segmentation:
     """The table after a correction, which it counts; what a person made of it is marked."""
     fields = (getattr(edit, name) for name in edit.__struct_fields__)
     after = BY_HAND[type(edit)](table, *fields)
-    if isinstance(edit, requests.Check):
+    if isinstance(edit, requests.Check | requests.Remark):
         return after
     before = table.provenance.get("corrections")
     count = before + 1 if isinstance(before, int) else 1

@@ -7,7 +7,7 @@ is needed after others were.
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -187,7 +187,7 @@ class LoadedRecording:
         return said["sha256"] == self.provenance.sha256 or name == self.path.name
 
     def _one_segment(self, kind: Kind) -> Segmentation:
-        columns: dict[str, list[str] | list[int]] = {
+        columns: dict[str, Sequence[str] | Sequence[int]] = {
             "level": ["activity"],
             "kind": [kind],
             "start_frame": [0],

@@ -14,16 +14,16 @@ import threading
 from pathlib import Path
 from typing import Any
 
-from msgspec import UNSET, structs
+from msgspec import structs
 
 from kineme.errors import KinemeError, ParameterError
-from kineme.segments import editing
-from kineme.segments.editing.carrying import names_of
-from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.journal import Change, Journal
+from kineme.studio.kept.reading_of_one import said_of
+from kineme.studio.kept.videos import video_message
 from kineme.studio.loading import LoadedRecording
+from kineme.studio.looks import preview_of, versions_of
 from kineme.studio.reading import RecordingCache
 from kineme.studio.storage import ChangedOnDiskError, saved_table
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
@@ -129,6 +129,8 @@ class OpenRecording:
                 can_undo=self._journal.can_undo,
                 can_redo=self._journal.can_redo,
                 saved=self._saved,
+                video=video_message(self.path),
+                reading=said_of(self.path),
                 finding=self._finding,
                 warnings=[*shown.warnings, *self._notes],
             )
@@ -180,39 +182,14 @@ class OpenRecording:
 
     def preview(self, wanted: PreviewRequest) -> Preview:
         """What segmenting again would make of the table, which stays as it is."""
-        from kineme.web.page_data import segments_message
-
-        before = self.table
-        detail = DEFAULT_DETAIL if wanted.detail is UNSET else wanted.detail
-        found = self.loaded.segment(wanted.preset, wanted.parameters, detail)
-        result = editing.carried(before, found)
-        shown = result.segmentation if wanted.keep else found
-        lost = [f"{result.corrections} corrections and {result.names} names"]
-        return Preview(
-            segmentation=segments_message(shown),
-            corrections=result.corrections,
-            names=result.names,
-            lost=result.lost if wanted.keep else lost,
-            details=list(found.hierarchy.details) if found.hierarchy else [DEFAULT_DETAIL],
-            detail=found.hierarchy.detail if found.hierarchy else DEFAULT_DETAIL,
-        )
+        return preview_of(self.table, self.loaded, wanted)
 
     def versions(self) -> list[Version]:
         """The tables that were replaced, the latest first."""
         with self._lock:
             kept = self._journal.kept()
             tables = {number: self._journal.table(number) for number in kept}
-        return [
-            Version(
-                number=number,
-                at=step.at,
-                edit=step.edit,
-                segments=len(tables[number]),
-                corrections=int(tables[number].provenance.get("corrections") or 0),
-                names=names_of(tables[number]),
-            )
-            for number, step in kept.items()
-        ]
+        return versions_of(kept, tables)
 
     def version(self, number: int) -> Comparison:
         """A table that was replaced, to lay beside the present one."""

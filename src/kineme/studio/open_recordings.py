@@ -6,15 +6,18 @@ import threading
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from msgspec import UNSET
 
 from kineme.errors import KinemeError
+from kineme.methods.presets import DEFAULT
 from kineme.studio.folder import Folder
+from kineme.studio.kept.reading_of_one import keep_options, said_of
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.web.messages import Edited, Recording
-from kineme.web.requests import EditRequest
+from kineme.web.requests import EditRequest, SegmentAgain
 
 Listener = Callable[[str, int], None]
 NO_OPTIONS = ReadingOptions()
@@ -110,6 +113,40 @@ class OpenRecordings:
         result = self.get(name).edit(sent.revision, sent.edit, self, name=called)
         self._changed(name, result.revision)
         return result
+
+    def read_as(self, name: str, said: dict[str, Any]) -> None:
+        """Read a recording otherwise from now on; its table is made anew, the one before kept.
+
+        Parameters
+        ----------
+        name : str
+            The id.
+        said : dict
+            By the names of `kineme.formats.ReadOptions`; what is not in it is as of all.
+
+        Raises
+        ------
+        KinemeError
+            It cannot be read so, and is read as before.
+        """
+        path = _found(self.folder.recordings(), name, "recording")
+        before = said_of(path)
+        keep_options(path, said)
+        try:
+            self._cache.read(path)
+        except KinemeError:
+            keep_options(path, before)
+            raise
+        with self._lock:
+            known = self._open.pop(name, None)
+            others = {other.table_path for other in self._open.values()}
+        opened = OpenRecording(name, path, self._cache, others, known.revision + 1 if known else 1)
+        with self._lock:
+            self._open[name] = opened
+        if opened.table_path.exists():
+            again = SegmentAgain(preset=DEFAULT, parameters={}, keep=False)
+            opened.edit(opened.revision, again, self)
+        self._changed(name, opened.revision)
 
     def knowledge_base(self, name: str) -> Path:
         """The file of the knowledge base of that id."""

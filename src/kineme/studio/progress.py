@@ -18,11 +18,12 @@ MOST_KNOWN = 10_000
 
 @dataclass(frozen=True)
 class Progress:
-    """How many segments a table has, and how many of them are checked, and have a name."""
+    """How many segments a table has, are checked, have a name, and are no transitions."""
 
     segments: int
     checked: int
     named: int
+    to_name: int
 
 
 def progress(recording: Path) -> Progress | None:
@@ -51,4 +52,5 @@ def _counts(path: Path, *_: int) -> Progress | None:
     except KinemeError:
         return None
     named = int((table.table.label != "").sum())
-    return Progress(len(table), len(marked(table, "checked")), named)
+    to_name = int((table.table.kind != "transition").sum())
+    return Progress(len(table), len(marked(table, "checked")), named, to_name)

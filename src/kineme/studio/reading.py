@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError
 from kineme.formats import ReadOptions, read_quietly
+from kineme.studio.kept.reading_of_one import read_options
 
 if TYPE_CHECKING:
     from kineme.features import Names
@@ -47,8 +48,8 @@ class RecordingCache:
     def __init__(self, options: ReadingOptions) -> None:
         self.options = options
         self._lock = threading.Lock()
-        self._reading: dict[tuple[Path, Stamp], threading.Lock] = {}
-        self._known: OrderedDict[tuple[Path, Stamp], Motion | Signals] = OrderedDict()
+        self._reading: dict[tuple[Path, Stamp, str], threading.Lock] = {}
+        self._known: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
 
     def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, read if it is not in memory.
@@ -67,13 +68,14 @@ class RecordingCache:
         ReadError
             The file is gone or cannot be read.
         """
-        key = path, stamp_of(path)
+        options = read_options(path, self.options.file)
+        key = path, stamp_of(path), repr(options)
         with self._lock:
             reading = self._reading.setdefault(key, threading.Lock())
         with reading:
             with self._lock:
                 known = self._known.get(key)
-            found = read_quietly(path, self.options.file) if known is None else known
+            found = read_quietly(path, options) if known is None else known
             with self._lock:
                 self._known[key] = found
                 self._known.move_to_end(key)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import cast, get_args
-from urllib.parse import quote
 
 from msgspec import UNSET
 from starlette.concurrency import run_in_threadpool
@@ -22,10 +21,11 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
-from kineme.studio.answers import MessageResponse, number_in
+from kineme.studio.answers import MessageResponse, file_response, number_in
 from kineme.studio.bodies import body, chunks
 from kineme.studio.events import Hub
 from kineme.studio.folder import file_id
+from kineme.studio.kept.vocabulary import shared_labels
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.pictures import Pictures
 from kineme.studio.progress import progress
@@ -34,8 +34,10 @@ from kineme.studio.uploads import (
     Upload,
     recording_suffixes,
 )
+from kineme.studio.whole import Whole
 from kineme.web.encoding import from_json
-from kineme.web.messages import Comparison, FileChoice, Listing, Preview, State, Versions
+from kineme.web.folder_messages import FileChoice, Listing, State
+from kineme.web.messages import Comparison, Preview, Versions
 from kineme.web.requests import CompareRequest, EditRequest, PreviewRequest
 
 
@@ -116,9 +118,13 @@ class Api:
             raise ParameterError(f"level must be {' or '.join(get_args(Level))}")
         name, kind = request.path_params["id"], request.path_params["format"]
         level = cast(Level | None, wanted)
-        file, content = await run_in_threadpool(self._export, name, kind, level)
-        headers = {"content-disposition": f"attachment; filename*=UTF-8''{quote(file, safe='')}"}
-        return Response(content, headers=headers, media_type="application/octet-stream")
+
+        def work() -> tuple[str, bytes]:
+            from kineme.studio import downloads
+
+            return downloads.exported(self._recordings.get(name), kind, level)
+
+        return file_response(*await run_in_threadpool(work))
 
     async def events(self, _: Request) -> Response:
         # sse-starlette would be one more dependency for the few lines of Hub.stream, no shorter.
@@ -134,6 +140,7 @@ class Api:
             Route("/api/recordings", self.upload, methods=["POST"]),
             Route(one, self.recording),
             *Pictures(self._recordings).routes(one),
+            *Whole(self._recordings).routes(one),
             Route(f"{one}/edits", self.edit, methods=["POST"]),
             Route(f"{one}/preview", self.preview, methods=["POST"]),
             Route(f"{one}/versions", self.versions),
@@ -158,6 +165,7 @@ class Api:
             presets=choices.presets(),
             default_preset=DEFAULT,
             details=choices.details(),
+            labels=shared_labels(folder.root),
             knowledge_bases=bases,
             annotations=annotations,
             export_formats=choices.export_formats(),
@@ -181,19 +189,6 @@ class Api:
             raise ParameterError("compare with a preset or with an annotation: name one of them")
         return Comparison(name=title, segmentation=segments_message(other), scores=scores)
 
-    def _export(self, name: str, kind: str, level: Level | None) -> tuple[str, bytes]:
-        from kineme.studio import downloads
-
-        opened = self._recordings.get(name)
-        loaded, stem = opened.loaded, opened.path.stem
-        if kind == choices.CLIPS:
-            return downloads.motion_files(loaded.motion, opened.table, stem, level)
-        if kind == choices.REPORT:
-            return downloads.report_file(
-                loaded.recording, opened.table, loaded.path, loaded.effectors
-            )
-        return downloads.table_file(opened.table, stem, kind, level)
-
 
 def _listing(name: str, path: Path) -> Listing:
     said = progress(path)
@@ -205,4 +200,5 @@ def _listing(name: str, path: Path) -> Listing:
         segments=said.segments if said else 0,
         checked=said.checked if said else 0,
         named=said.named if said else 0,
+        to_name=said.to_name if said else 0,
     )

@@ -15,7 +15,7 @@ from math import ceil
 from threading import Lock
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kineme.recordings import Motion, Signals
 from kineme.web.messages import Curve, CurveList
@@ -96,12 +96,17 @@ class Curves:
         return levels[level][number * PIECE : (number + 1) * PIECE].tobytes()
 
 
-def curves_of(signals: Signals, most_bytes: int = MOST_BYTES) -> tuple[CurveList, dict[str, bytes]]:
+def curves_of(
+    recording: Motion | Signals | ArrayLike, fps: float, most_bytes: int = MOST_BYTES
+) -> tuple[CurveList, dict[str, bytes]]:
     """The curves of signals as a page has them that cannot ask for them.
 
     Parameters
     ----------
-    signals : Signals
+    recording : Motion, Signals or array_like
+        Arrays are (frames, channels).
+    fps : float
+        Frames per second of an array.
     most_bytes : int
         Length of all pieces together; finer levels are left out where they are longer.
 
@@ -111,6 +116,9 @@ def curves_of(signals: Signals, most_bytes: int = MOST_BYTES) -> tuple[CurveList
     pieces : dict
         By "curve/level/number".
     """
+    if not isinstance(recording, Motion | Signals):
+        recording = Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
+    signals = recording
     curves, pieces = Curves(signals), dict[str, bytes]()
     head, left = curves.head(), most_bytes
     for level in reversed(range(head.levels)):
@@ -212,7 +220,7 @@ def _flexion(parent: int, joint: int, end: int) -> Callable[[Motion | Signals], 
         places = _positions(recording)
         before, after = places[:, joint] - places[:, parent], places[:, end] - places[:, joint]
         sine = np.linalg.norm(np.cross(before, after), axis=1)
-        return np.degrees(np.arctan2(sine, (before * after).sum(axis=1)))
+        return np.asarray(np.degrees(np.arctan2(sine, (before * after).sum(axis=1))))
 
     return values
 

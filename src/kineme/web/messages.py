@@ -12,8 +12,16 @@ from typing import Any
 
 from msgspec import Struct
 
-from kineme.segments.table import Segment
+from kineme.segments.table import Level, Segment
 from kineme.web.requests import Edit
+
+
+class CommentAt(Struct, frozen=True, kw_only=True):
+    """What somebody said about the segment that holds a frame."""
+
+    level: Level
+    frame: int
+    text: str
 
 
 class Segments(Struct, frozen=True, kw_only=True):
@@ -32,6 +40,7 @@ class Segments(Struct, frozen=True, kw_only=True):
     cluster_names: dict[str, str]
     checked: list[int]
     by_hand: list[int]
+    comments: list[CommentAt]
 
 
 class MotionHead(Struct, frozen=True, kw_only=True):
@@ -96,10 +105,18 @@ class TableAtDetail(Struct, frozen=True, kw_only=True):
     segments: list[Segment]
 
 
+class Video(Struct, frozen=True, kw_only=True):
+    """A video of the recording, and when in it the recording starts, seconds."""
+
+    name: str
+    offset_s: float
+
+
 class Recording(Struct, frozen=True, kw_only=True):
     """Everything a page needs of one recording but the binary parts.
 
-    ``levels`` has the tables at all details, coarsest first, in a report; the studio's server is
+    ``reading`` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+    ``levels`` the tables at all details, coarsest first, in a report; the studio's server is
     asked for them.
     While ``finding`` its segments are still to be found, and the table is a single transition.
     """
@@ -112,87 +129,14 @@ class Recording(Struct, frozen=True, kw_only=True):
     matrix: MatrixHead
     segmentation: Segments
     levels: list[TableAtDetail]
+    video: Video | None
+    reading: dict[str, Any]
     revision: int
     can_undo: bool
     can_redo: bool
     saved: str
     finding: bool = False
     warnings: list[str]
-
-
-class Parameter(Struct, frozen=True, kw_only=True):
-    """A constant of a preset that the page offers to change."""
-
-    name: str
-    help: str
-    value: float
-    minimum: float
-    maximum: float
-    step: float
-    unit: str
-
-
-class PresetChoice(Struct, frozen=True, kw_only=True):
-    """A preset, and those of its constants that the page offers to change.
-
-    ``signal_parameters`` are the same for signals, where lengths are in
-    standard deviations of the channels.
-    """
-
-    name: str
-    help: str
-    parameters: list[Parameter]
-    signal_parameters: list[Parameter]
-
-
-class Listing(Struct, frozen=True, kw_only=True):
-    """A recording of the folder, opened or not.
-
-    ``segments``, ``checked`` and ``named`` count the rows of its table, if it has been saved
-    (``corrected``), that are there, checked, and have a name.
-    """
-
-    id: str
-    name: str
-    bytes: int
-    corrected: bool
-    segments: int
-    checked: int
-    named: int
-
-
-class FileChoice(Struct, frozen=True, kw_only=True):
-    """A file of the folder that an operation can use: a knowledge base, a label file."""
-
-    id: str
-    name: str
-
-
-class ExportFormat(Struct, frozen=True, kw_only=True):
-    """A format that segments can be written in, and the suffix of what is downloaded."""
-
-    name: str
-    suffix: str
-    help: str
-
-
-class State(Struct, frozen=True, kw_only=True):
-    """What the studio offers: the first message a page asks for.
-
-    ``suffixes`` are those of files that can be recordings, ``details`` the levels of detail that
-    a segmentation may have.
-    """
-
-    version: str
-    folder: str
-    suffixes: list[str]
-    recordings: list[Listing]
-    presets: list[PresetChoice]
-    default_preset: str
-    details: list[float]
-    knowledge_bases: list[FileChoice]
-    annotations: list[FileChoice]
-    export_formats: list[ExportFormat]
 
 
 class Edited(Struct, frozen=True, kw_only=True):

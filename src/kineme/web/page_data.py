@@ -12,12 +12,12 @@ from kineme.errors import ParameterError
 from kineme.features import Names
 from kineme.labels.json_table import SCHEMA
 from kineme.recordings import Motion, Signals
-from kineme.segments.editing import cluster_names
+from kineme.segments.editing import cluster_names, comments
 from kineme.segments.editing.marks import Mark, marked, span_of
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
 from kineme.web.matrix import Matrix
-from kineme.web.messages import MotionHead, Recording, Segments, TableAtDetail
+from kineme.web.messages import CommentAt, MotionHead, Recording, Segments, TableAtDetail
 from kineme.web.similarity import matrix_of_motion, matrix_of_signal
 
 MOST_ROWS = 12_000
@@ -145,6 +145,8 @@ def recording_message(
         matrix=data.matrix.head(band),
         segmentation=segments_message(segmentation),
         levels=_levels(segmentation) if levels else [],
+        video=None,
+        reading={},
         revision=0,
         can_undo=False,
         can_redo=False,
@@ -176,6 +178,10 @@ def segments_message(segmentation: Segmentation) -> Segments:
         cluster_names={str(cluster): name for cluster, name in cluster_names(segmentation).items()},
         checked=[i for i, row in enumerate(rows) if span_of(row) in spans["checked"]],
         by_hand=[i for i, row in enumerate(rows) if span_of(row) in spans["by_hand"]],
+        comments=[
+            CommentAt(level=level, frame=frame, text=text)
+            for level, frame, text in comments(segmentation)
+        ],
     )
 
 

@@ -14,6 +14,7 @@ from kineme.segments.table import Kind, Level
 
 LONGEST_TEXT = 500
 """Characters; nobody names a movement with more."""
+LONGEST_COMMENT = 5000
 LARGEST = 2**53
 """Whole numbers up to here are the same in the page and in Python."""
 
@@ -110,6 +111,27 @@ class MergeClusters(EditBase, frozen=True, kw_only=True, tag="merge_clusters"):
     into: Whole
 
 
+class SplitCluster(EditBase, frozen=True, kw_only=True, tag="split_cluster"):
+    """The primitives of a cluster that start at ``frames`` are a new cluster."""
+
+    cluster: Whole
+    frames: list[Whole]
+
+
+class OrderClusters(EditBase, frozen=True, kw_only=True, tag="order_clusters"):
+    """The clusters are numbered in this order."""
+
+    order: list[Whole]
+
+
+class Remark(EditBase, frozen=True, kw_only=True, tag="comment"):
+    """The segment that starts at ``frame`` has a comment; an empty one takes it away."""
+
+    level: Level
+    frame: Whole
+    text: Annotated[str, Meta(max_length=LONGEST_COMMENT)]
+
+
 class Check(EditBase, frozen=True, kw_only=True, tag="check"):
     """The segments that start at ``frames`` are checked, or not any more."""
 
@@ -156,6 +178,9 @@ ByHand = (
     | SetCluster
     | SetKind
     | MergeClusters
+    | SplitCluster
+    | OrderClusters
+    | Remark
     | Check
 )
 
@@ -187,6 +212,41 @@ class PreviewRequest(Request, frozen=True, kw_only=True):
     parameters: dict[Text, Number]
     keep: bool
     detail: Number | UnsetType = UNSET
+
+
+class LabelsRequest(Request, frozen=True, kw_only=True):
+    """The labels that all recordings of the folder share, those on the keys 1 to 9 first."""
+
+    labels: list[Text]
+
+
+class KnowledgeRequest(Request, frozen=True, kw_only=True):
+    """A knowledge base of that name, of the named primitives of recordings."""
+
+    name: Text
+    recordings: list[Text]
+
+
+class ClipsRequest(Request, frozen=True, kw_only=True):
+    """Segments by their rows in the table, as motion files; with ``loops`` made to close."""
+
+    rows: list[Whole]
+    loops: bool
+
+
+class VideoRequest(Request, frozen=True, kw_only=True):
+    """Where the recording starts in its reference video, seconds."""
+
+    offset_s: Number
+
+
+class ReadingRequest(Request, frozen=True, kw_only=True):
+    """How a recording is read; empty: as the file says."""
+
+    person: Text = ""
+    fps: Number = 0
+    unit: Text = ""
+    up: Text = ""
 
 
 class CompareRequest(Request, frozen=True, kw_only=True):

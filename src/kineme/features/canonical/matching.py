@@ -69,13 +69,7 @@ def matching_features(
     >>> matching_features(kineme.read(kineme.bundled_recording())).shape
     (725, 40)
     """
-    at_rate = resample(motion, POSE_FPS)
-    poses = poses_of(at_rate, effectors=effectors)
-    stacked = stacked_poses(mirror_poses(poses) if mirrored else poses)
-    features = directions(stacked, *basis())
-    for start, stop in at_rate.gaps:
-        features[(start + 1) // 2 : (stop + 1) // 2] = 0.0
-    return features
+    return features_and_poses(motion, effectors=effectors, mirrored=mirrored)[0]
 
 
 def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
@@ -98,6 +92,19 @@ def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
         As `matching_features`.
     """
     return poses_of(resample(motion, POSE_FPS), effectors=effectors)[::2]
+
+
+def features_and_poses(
+    motion: Motion, *, effectors: Names | None = None, mirrored: bool = False
+) -> tuple[NDArray[np.float32], Floats]:
+    """What `matching_features` and `matching_poses` give, of one look at the body."""
+    at_rate = resample(motion, POSE_FPS)
+    poses = poses_of(at_rate, effectors=effectors)
+    stacked = stacked_poses(mirror_poses(poses) if mirrored else poses)
+    features = directions(stacked, *basis())
+    for start, stop in at_rate.gaps:
+        features[(start + 1) // 2 : (stop + 1) // 2] = 0.0
+    return features, poses[::2]
 
 
 def poses_of(motion: Motion, *, effectors: Names | None = None) -> Floats:

@@ -13,7 +13,14 @@ lose theirs.
 
 from kineme.segments.editing.borders import delete_border, merge, move_border, split
 from kineme.segments.editing.carrying import carried
-from kineme.segments.editing.clusters import merge_clusters, set_cluster, set_kind
+from kineme.segments.editing.clusters import (
+    merge_clusters,
+    order_clusters,
+    set_cluster,
+    set_kind,
+    split_cluster,
+)
+from kineme.segments.editing.comments import comment, comments
 from kineme.segments.editing.marks import check
 from kineme.segments.editing.naming import cluster_names, name_cluster, name_segment
 
@@ -21,13 +28,17 @@ __all__ = [
     "carried",
     "check",
     "cluster_names",
+    "comment",
+    "comments",
     "delete_border",
     "merge",
     "merge_clusters",
     "move_border",
     "name_cluster",
     "name_segment",
+    "order_clusters",
     "set_cluster",
     "set_kind",
     "split",
+    "split_cluster",
 ]

@@ -16,6 +16,7 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.segments.editing.comments import comments, with_comments
 from kineme.segments.editing.imposing import imposed, in_the_middle, overlap
 from kineme.segments.editing.marks import Mark, Span, marked, span_of, with_marks
 from kineme.segments.editing.naming import cluster_names, name_cluster, with_cluster_names
@@ -70,6 +71,7 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
     now = imposed(found, placed)
     for mark, spans in marks.items():
         now = with_marks(now, mark, spans)
+    now = with_comments(now, comments(before))
     if "corrections" in before.provenance and fixed:
         count = {"corrections": before.provenance["corrections"]}
         now = replace(now, provenance={**now.provenance, **count})

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import get_args
 
 from kineme.errors import ParameterError
@@ -79,6 +80,74 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
         raise ParameterError(f"cluster {cluster} cannot be merged with itself: name another")
     members = [(row.level, row) for row in members_of(segmentation, cluster)]
     return _moved_to(segmentation, members, into, score=math.nan)
+
+
+def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int]) -> Segmentation:
+    """The primitives of a cluster that start at ``frames`` are in a new cluster of their own.
+
+    So is an activity all of whose primitives of that cluster go.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    cluster : int
+    frames : iterable of int
+        Where the primitives start; activities in a table without primitives.
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        None of these is in the cluster, or all are.
+    """
+    chosen, rows = set(frames), members_of(segmentation, cluster)
+    level: Level = "primitive" if any(row.level == "primitive" for row in rows) else "activity"
+    own = [row for row in rows if row.level == level]
+    gone = [row for row in own if row.start_frame in chosen]
+    if not gone or len(gone) == len(own):
+        raise ParameterError(
+            f"{len(gone)} of {len(own)} segments of cluster {cluster} are chosen: "
+            "choose some of them, not all"
+        )
+    staying = {row.activity for row in own if row.start_frame not in chosen}
+    leaving = {row.activity for row in gone} - staying
+    moved: list[tuple[Level, Segment]] = [(row.level, row) for row in gone]
+    if level == "primitive":
+        whole = enumerate(segmentation.activities)
+        moved += [("activity", row) for i, row in whole if i in leaving and row.cluster == cluster]
+    following = int(segmentation.table.cluster.max(initial=-1)) + 1
+    return _moved_to(segmentation, moved, following, score=math.nan)
+
+
+def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmentation:
+    """The same clusters numbered anew, in this order from 0; names go along.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    order : sequence of int
+        The clusters, each once.
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        They are not the clusters of the table.
+    """
+    there = sorted(set(segmentation.table.cluster.tolist()) - {-1})
+    if sorted(order) != there:
+        raise ParameterError(f"name each cluster once: {', '.join(map(str, there))}")
+    new = {cluster: number for number, cluster in enumerate(order)} | {-1: -1}
+    names = known_names(segmentation)
+    rows = [replace(row, cluster=new[row.cluster]) for row in segmentation]
+    renamed = {new[cluster]: name for cluster, name in names.items()}
+    return with_cluster_names(with_rows(segmentation, rows, []), renamed)
 
 
 def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -> Segmentation:

@@ -20,7 +20,14 @@ export interface Segment {
   border_confidence: number | null;
 }
 
-export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
+export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
+
+/** What somebody said about the segment that holds a frame. */
+export interface CommentAt {
+  level: Level;
+  frame: number;
+  text: string;
+}
 
 /**
  * A segment table as its JSON file has it (`kineme.segments/1`), and what people did to it.
@@ -38,6 +45,7 @@ export interface Segments {
   cluster_names: Record<string, string>;
   checked: number[];
   by_hand: number[];
+  comments: CommentAt[];
 }
 
 /**
@@ -99,10 +107,17 @@ export interface TableAtDetail {
   segments: Segment[];
 }
 
+/** A video of the recording, and when in it the recording starts, seconds. */
+export interface Video {
+  name: string;
+  offset_s: number;
+}
+
 /**
  * Everything a page needs of one recording but the binary parts.
  *
- * `levels` has the tables at all details, coarsest first, in a report; the studio's server is
+ * `reading` has what people said of how it is read (`kineme.web.requests.ReadingRequest`),
+ * `levels` the tables at all details, coarsest first, in a report; the studio's server is
  * asked for them.
  * While `finding` its segments are still to be found, and the table is a single transition.
  */
@@ -115,84 +130,14 @@ export interface Recording {
   matrix: MatrixHead;
   segmentation: Segments;
   levels: TableAtDetail[];
+  video: Video | null;
+  reading: Record<string, unknown>;
   revision: number;
   can_undo: boolean;
   can_redo: boolean;
   saved: string;
   finding?: boolean;
   warnings: string[];
-}
-
-/** A constant of a preset that the page offers to change. */
-export interface Parameter {
-  name: string;
-  help: string;
-  value: number;
-  minimum: number;
-  maximum: number;
-  step: number;
-  unit: string;
-}
-
-/**
- * A preset, and those of its constants that the page offers to change.
- *
- * `signal_parameters` are the same for signals, where lengths are in
- * standard deviations of the channels.
- */
-export interface PresetChoice {
-  name: string;
-  help: string;
-  parameters: Parameter[];
-  signal_parameters: Parameter[];
-}
-
-/**
- * A recording of the folder, opened or not.
- *
- * `segments`, `checked` and `named` count the rows of its table, if it has been saved
- * (`corrected`), that are there, checked, and have a name.
- */
-export interface Listing {
-  id: string;
-  name: string;
-  bytes: number;
-  corrected: boolean;
-  segments: number;
-  checked: number;
-  named: number;
-}
-
-/** A file of the folder that an operation can use: a knowledge base, a label file. */
-export interface FileChoice {
-  id: string;
-  name: string;
-}
-
-/** A format that segments can be written in, and the suffix of what is downloaded. */
-export interface ExportFormat {
-  name: string;
-  suffix: string;
-  help: string;
-}
-
-/**
- * What the studio offers: the first message a page asks for.
- *
- * `suffixes` are those of files that can be recordings, `details` the levels of detail that
- * a segmentation may have.
- */
-export interface State {
-  version: string;
-  folder: string;
-  suffixes: string[];
-  recordings: Listing[];
-  presets: PresetChoice[];
-  default_preset: string;
-  details: number[];
-  knowledge_bases: FileChoice[];
-  annotations: FileChoice[];
-  export_formats: ExportFormat[];
 }
 
 /** The table after an edit, already on the disk as `saved`. */
@@ -243,7 +188,7 @@ export interface Preview {
 export interface Version {
   number: number;
   at: string;
-  edit: MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo | null;
+  edit: MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo | null;
   segments: number;
   corrections: number;
   names: number;
@@ -263,6 +208,80 @@ export interface Changed {
 /** Why a request was refused, in one sentence. */
 export interface Failure {
   error: string;
+}
+
+/** A constant of a preset that the page offers to change. */
+export interface Parameter {
+  name: string;
+  help: string;
+  value: number;
+  minimum: number;
+  maximum: number;
+  step: number;
+  unit: string;
+}
+
+/**
+ * A preset, and those of its constants that the page offers to change.
+ *
+ * `signal_parameters` are the same for signals, where lengths are in
+ * standard deviations of the channels.
+ */
+export interface PresetChoice {
+  name: string;
+  help: string;
+  parameters: Parameter[];
+  signal_parameters: Parameter[];
+}
+
+/**
+ * A recording of the folder, opened or not.
+ *
+ * `segments`, `checked` and `named` count the rows of its table, if it has been saved
+ * (`corrected`), that are there, checked, have a name, and are no transitions.
+ */
+export interface Listing {
+  id: string;
+  name: string;
+  bytes: number;
+  corrected: boolean;
+  segments: number;
+  checked: number;
+  named: number;
+  to_name: number;
+}
+
+/** A file of the folder that an operation can use: a knowledge base, a label file. */
+export interface FileChoice {
+  id: string;
+  name: string;
+}
+
+/** A format that segments can be written in, and the suffix of what is downloaded. */
+export interface ExportFormat {
+  name: string;
+  suffix: string;
+  help: string;
+}
+
+/**
+ * What the studio offers: the first message a page asks for.
+ *
+ * `suffixes` are those of files that can be recordings, `details` the levels of detail that
+ * a segmentation may have, `labels` those that all recordings share.
+ */
+export interface State {
+  version: string;
+  folder: string;
+  suffixes: string[];
+  recordings: Listing[];
+  presets: PresetChoice[];
+  default_preset: string;
+  details: number[];
+  labels: string[];
+  knowledge_bases: FileChoice[];
+  annotations: FileChoice[];
+  export_formats: ExportFormat[];
 }
 
 /** The border at `frame` of a level goes to `to`. */
@@ -346,6 +365,27 @@ export interface MergeClusters {
   into: number;
 }
 
+/** The primitives of a cluster that start at `frames` are a new cluster. */
+export interface SplitCluster {
+  kind: "split_cluster";
+  cluster: number;
+  frames: number[];
+}
+
+/** The clusters are numbered in this order. */
+export interface OrderClusters {
+  kind: "order_clusters";
+  order: number[];
+}
+
+/** The segment that starts at `frame` has a comment; an empty one takes it away. */
+export interface Remark {
+  kind: "comment";
+  level: Level;
+  frame: number;
+  text: string;
+}
+
 /** The segments that start at `frames` are checked, or not any more. */
 export interface Check {
   kind: "check";
@@ -384,7 +424,7 @@ export interface Redo {
   kind: "redo";
 }
 
-export type ByHand = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | Check;
+export type ByHand = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check;
 
 /** Several edits, one after the other, which are one step of undo; all of them or none. */
 export interface Together {
@@ -409,6 +449,36 @@ export interface PreviewRequest {
   parameters: Record<string, number>;
   keep: boolean;
   detail?: number;
+}
+
+/** The labels that all recordings of the folder share, those on the keys 1 to 9 first. */
+export interface LabelsRequest {
+  labels: string[];
+}
+
+/** A knowledge base of that name, of the named primitives of recordings. */
+export interface KnowledgeRequest {
+  name: string;
+  recordings: string[];
+}
+
+/** Segments by their rows in the table, as motion files; with `loops` made to close. */
+export interface ClipsRequest {
+  rows: number[];
+  loops: boolean;
+}
+
+/** Where the recording starts in its reference video, seconds. */
+export interface VideoRequest {
+  offset_s: number;
+}
+
+/** How a recording is read; empty: as the file says. */
+export interface ReadingRequest {
+  person?: string;
+  fps?: number;
+  unit?: string;
+  up?: string;
 }
 
 /** Another result to lay beside the shown one: a preset's, or a file's of the folder. */

@@ -17,6 +17,7 @@ export interface EditHooks {
   moveBorder(level: Level, frame: number, to: number): Promise<void>;
   nameCluster(cluster: number, label: string): void;
   mergeClusters(cluster: number, into: number): void;
+  orderClusters(order: number[]): void;
 }
 
 /** Another result shown below the first. */
@@ -62,6 +63,8 @@ export class State {
   readonly hovered = signal<number | null>(null);
   /** Whether the viewer shows all members of `cluster` in step. */
   readonly inStep = signal(false);
+  /** A repetition laid over the one that plays, in step with it. */
+  readonly ghost = signal<Segment | null>(null);
   readonly follow = signal(true);
   readonly trails = signal(true);
   /** The span of time that the timeline and the matrix show; null: all of it. */

@@ -139,6 +139,13 @@ export class Store extends State {
     this.loop.value = { start_s: segment.start_s, stop_s: segment.stop_s };
   }
 
+  /** Lays the repetition at the playhead over the others; once more takes it away. */
+  toggleGhost(): void {
+    const present = this.present.value ?? null;
+    const same = this.ghost.value?.start_frame === present?.start_frame;
+    this.ghost.value = this.ghost.value && same ? null : present;
+  }
+
   /** One more recording; it becomes the current one. */
   add(opened: OpenRecording): void {
     this.opened.value = [...this.opened.value, opened];
@@ -153,6 +160,7 @@ export class Store extends State {
       this.cluster.value = null;
       this.other.value = null;
       this.inStep.value = false;
+      this.ghost.value = null;
       this.zoom.value = null;
       this.marks.value = UNMARKED;
       this.playing.value = false;

@@ -24,7 +24,16 @@ export function segment(start: number, stop: number, more: Partial<Segment> = {}
 export function tableOf(segments: Segment[], more: Partial<Segments> = {}): Segments {
   const n_frames = Math.max(...segments.map((each) => each.stop_frame), 0);
   const bare = { schema: "", fps: 10, provenance: {}, timings: {} };
-  return { ...bare, n_frames, segments, cluster_names: {}, checked: [], by_hand: [], ...more };
+  return {
+    ...bare,
+    n_frames,
+    segments,
+    cluster_names: {},
+    checked: [],
+    by_hand: [],
+    comments: [],
+    ...more,
+  };
 }
 
 export function head(n_samples: number, more: Partial<MotionHead> = {}): MotionHead {

@@ -15,7 +15,15 @@ function page(): Store {
   const recording = signal({
     ...{ id: "a", name: "take", n_frames: 50, fps: 10, motion: null, segmentation },
     ...{ matrix: { fps: 10, tile: 256, sizes: [50], band: null }, revision: 0 },
-    ...{ can_undo: false, can_redo: false, saved: "", warnings: [], levels: [] },
+    ...{
+      can_undo: false,
+      can_redo: false,
+      saved: "",
+      warnings: [],
+      levels: [],
+      video: null,
+      reading: {},
+    },
   } satisfies Recording);
   store.add({ data: {} as RecordingData, recording, motion: signal(null) });
   return store;

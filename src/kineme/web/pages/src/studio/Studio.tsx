@@ -21,7 +21,9 @@ import { type DialogName, Header } from "./Header";
 import { VersionsDialog } from "./dialogs/VersionsDialog";
 import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
+import { Video } from "./panels/Video";
 import { PresetPanel } from "./panels/PresetPanel";
+import { ReadingPanel } from "./panels/ReadingPanel";
 import { SegmentPanel } from "./panels/SegmentPanel";
 import type { Review } from "./review/review";
 import { ReviewPanel } from "./review/ReviewPanel";
@@ -86,6 +88,7 @@ export function Studio({ session, editor, review, uploads, front }: Props): JSX.
           <>
             <FolderPanel session={session} uploads={uploads} />
             <PresetPanel session={session} />
+            <ReadingPanel session={session} />
           </>
         }
         viewer={<Stage session={session} />}
@@ -114,6 +117,7 @@ function Stage({ session }: { session: Session }): JSX.Element {
   return (
     <>
       <Viewer store={store} />
+      <Video session={session} />
       {!store.active.value && (
         <p class="empty quiet">
           {opening.value || !session.state.value ? (

@@ -13,6 +13,7 @@ export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
   ["A", "Work on activities, or on primitives again"],
   ["N", "Name the segment; Enter takes the name, Escape leaves it"],
   ["Shift + N", "Name its cluster"],
+  ["1 … 9", "Name the segment with a label of the folder (see Segment)"],
   ["J", "Next to look at: where the result is least sure"],
   ["K", "The segment is checked: mark it, and go to the next to look at"],
   ["Shift + K", "Mark the segment as checked, or take the mark away"],
@@ -47,6 +48,8 @@ export function commandOf(
     const by = { ArrowLeft: -1, ArrowRight: 1 }[key];
     return by ? () => editor.nudge(by * (event.shiftKey ? 10 : 1)) : undefined;
   }
+  const digit = /^[1-9]$/.test(key) ? Number(key) : 0;
+  if (digit) return () => nameByKey(digit, session, editor);
   const commands: Record<string, () => void> = {
     s: () => editor.split(),
     m: () => editor.mergeWithNext(),
@@ -65,4 +68,10 @@ export function commandOf(
     "?": () => show("help"),
   };
   return commands[key];
+}
+
+function nameByKey(digit: number, session: Session, editor: Editor): void {
+  const label = session.state.value?.labels[digit - 1];
+  if (label) editor.nameTarget(label);
+  else session.bulletin.tell(`No label is on the key ${digit} yet: add it in “Segment”, below.`);
 }

@@ -28,6 +28,7 @@ function start(): void {
     moveBorder: (level, frame, to) => editor.moveBorder(level, frame, to),
     nameCluster: (cluster, label) => editor.nameCluster(cluster, label),
     mergeClusters: (cluster, into) => editor.mergeClusters(cluster, into),
+    orderClusters: (order) => editor.orderClusters(order),
   };
   effect(() => {
     if (editor.naming.value) front.tab.value = "segment";

@@ -4,20 +4,30 @@ import type { Listing, State } from "../messages";
 import type { EditedRecording } from "./editing/editedRecording";
 
 /** How far a recording is. */
-export type Status = "new" | "corrected" | "checked";
+export type Status = "new" | "corrected" | "labelled" | "checked";
+
+/** What the list is ordered by. */
+export type Order = "name" | "left" | "size";
+
+const FAR: readonly Status[] = ["new", "corrected", "labelled", "checked"];
 
 export class RecordingList {
   /** What the list of recordings shows. */
   readonly search = signal("");
+  readonly order = signal<Order>("name");
   readonly wanted = signal<Status | "">("");
   readonly listed = computed(() => {
     const text = this.search.value.trim().toLowerCase();
     const all = this.state.value?.recordings ?? [];
-    return all.filter(
+    const found = all.filter(
       (each) =>
         each.name.toLowerCase().includes(text) &&
         (!this.wanted.value || this.statusOf(each) === this.wanted.value),
     );
+    if (this.order.value === "size") found.sort((a, b) => b.bytes - a.bytes);
+    if (this.order.value === "left")
+      found.sort((a, b) => FAR.indexOf(this.statusOf(a)) - FAR.indexOf(this.statusOf(b)));
+    return found;
   });
 
   constructor(
@@ -29,12 +39,22 @@ export class RecordingList {
   statusOf(listing: Listing): Status {
     const open = this.recordings.value.find((edited) => edited.id === listing.id);
     const { saved, segmentation } = open?.confirmed.value ?? {};
-    if (segmentation && saved)
-      return status(segmentation.segments.length, segmentation.checked.length);
-    return listing.corrected ? status(listing.segments, listing.checked) : "new";
+    if (!segmentation || !saved) return listing.corrected ? status(listing) : "new";
+    const { segments, checked } = segmentation;
+    return status({
+      segments: segments.length,
+      checked: checked.length,
+      named: segments.filter(({ label }) => label).length,
+      to_name: segments.filter(({ kind }) => kind !== "transition").length,
+    });
+  }
+
+  isChecked(listing: Listing): boolean {
+    return this.statusOf(listing) === "checked";
   }
 }
 
-function status(segments: number, checked: number): Status {
-  return checked > 0 && checked >= segments ? "checked" : "corrected";
+function status(of: Pick<Listing, "segments" | "checked" | "named" | "to_name">): Status {
+  if (of.checked > 0 && of.checked >= of.segments) return "checked";
+  return of.named > 0 && of.named >= of.to_name ? "labelled" : "corrected";
 }

@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 import { nameOf } from "../segments";
 import { NO_COLOR } from "../colors";
 import type { Store } from "../store";
+import { clock } from "../view";
 import { MOST_MEMBERS } from "./placement";
 import { keepUpToDate, turnByKey } from "./updates";
 import { FigureScene } from "./scene";
@@ -51,6 +52,11 @@ function Caption({ store }: { store: Store }): JSX.Element {
         <p>
           <span class="swatch" style={{ background: store.colorOf(present) ?? NO_COLOR }} />{" "}
           {nameOf(present)}
+        </p>
+      )}
+      {store.ghost.value && !stepping && (
+        <p class="quiet">
+          ghost: {nameOf(store.ghost.value)} of {clock(store.ghost.value.start_s, 2)}
         </p>
       )}
       {stepping && <p class="quiet">{count} in step</p>}

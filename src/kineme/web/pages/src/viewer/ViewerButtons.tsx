@@ -26,6 +26,15 @@ export function ViewerButtons({
       >
         In step
       </Toggle>
+      <button
+        type="button"
+        aria-pressed={store.ghost.value !== null}
+        title="Keep the repetition at the playhead as a ghost, and lay it over the others (V)"
+        disabled={!store.present.value || !store.active.value?.motion.value}
+        onClick={() => store.toggleGhost()}
+      >
+        Ghost
+      </button>
       <button type="button" onClick={onFrame} title="Put the camera where everything is seen">
         Reset view
       </button>

@@ -102,3 +102,12 @@ export function quantile(values: readonly number[], share: number): number {
   const sorted = [...values].sort((a, b) => a - b);
   return sorted[Math.min(Math.floor(share * sorted.length), sorted.length - 1)] ?? 0;
 }
+
+const anatomies = new WeakMap<Motion, Anatomy>();
+
+/** The same, once for each motion. */
+export function anatomyOfCached(motion: Motion): Anatomy {
+  let anatomy = anatomies.get(motion);
+  if (!anatomy) anatomies.set(motion, (anatomy = anatomyOf(motion)));
+  return anatomy;
+}

@@ -66,6 +66,15 @@ export class Figure {
       (this.paints[part].uniforms.color!.value as THREE.Color).set(colors[part]);
   }
 
+  /** Lets what is behind shine through; its shadow is not drawn. */
+  fade(alpha: number): void {
+    for (const paint of [this.paints.body, this.paints.joint]) {
+      paint.uniforms.alpha!.value = alpha;
+      paint.transparent = true;
+    }
+    this.paints.shadow.visible = false;
+  }
+
   dispose(): void {
     for (const mesh of [this.bones, this.joints, this.skull]) mesh.dispose();
     for (const paint of Object.values(this.paints)) paint.dispose();

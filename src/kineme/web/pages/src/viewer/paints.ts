@@ -37,6 +37,7 @@ in mat4 instanceMatrix;
 in vec3 normal;
 uniform vec3 color;
 uniform float lit;
+uniform float alpha;
 out vec4 paint;
 out float far;
 const vec3 SUN = normalize(vec3(2.0, 5.0, 3.0));
@@ -46,7 +47,7 @@ void main() {
   vec3 size = vec3(dot(turn[0], turn[0]), dot(turn[1], turn[1]), dot(turn[2], turn[2]));
   vec3 up = normalize(turn * (normal / max(size, 1e-12)) + vec3(0.0, 1e-9, 0.0));
   vec3 light = 0.67 * mix(GROUND, vec3(1.0), 0.5 + 0.5 * up.y) + 0.54 * max(dot(up, SUN), 0.0);
-  paint = vec4(color * mix(vec3(1.0), light, lit), 1.0);
+  paint = vec4(color * mix(vec3(1.0), light, lit), alpha);
   vec4 seen = viewMatrix * modelMatrix * instanceMatrix * vec4(position, 1.0);
   far = -seen.z;
   gl_Position = projectionMatrix * seen;
@@ -95,7 +96,8 @@ void main() {
 
 /** For instances of one colour; `lit` is 1 for bodies and 0 for shadows. */
 export function bodyPaint(haze: Haze, lit: 0 | 1): THREE.RawShaderMaterial {
-  const uniforms = { ...haze, color: { value: new THREE.Color() }, lit: { value: lit } };
+  const own = { color: { value: new THREE.Color() }, lit: { value: lit }, alpha: { value: 1 } };
+  const uniforms = { ...haze, ...own };
   return paint(BODY_VERTEX, HAZY_FRAGMENT, uniforms);
 }
 

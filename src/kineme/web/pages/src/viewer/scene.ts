@@ -6,9 +6,10 @@ import { headingAt, poseAt, rootOf, type Motion } from "../motion";
 import { segmentAt } from "../segments";
 import type { Store } from "../store";
 import { cssColor, theme } from "../theme";
-import { anatomyOf, type Anatomy } from "./anatomy";
+import { anatomyOfCached } from "./anatomy";
 import { inStep, timeOf, putInPlace, sideBySide, type PlacedFigure } from "./placement";
 import { Figure } from "./figure";
+import { Ghost } from "./ghost";
 import { Stage } from "./stage";
 import { Trails } from "./trails";
 
@@ -23,12 +24,14 @@ export class FigureScene {
   private poses: Float32Array[] = [];
   private scene = "";
   private size = 1;
+  private readonly ghost: Ghost;
 
   constructor(
     private readonly store: Store,
     canvas: HTMLCanvasElement,
   ) {
     this.stage = new Stage(canvas);
+    this.ghost = new Ghost(this.stage.scene, this.stage.haze);
   }
 
   /** New figures when the recordings, the cluster or its members changed. */
@@ -72,6 +75,15 @@ export class FigureScene {
       const joints = each.segment ? joint : color;
       this.figures[i]!.paint({ body: leads ? color : body, joint: leads ? color : joints, shadow });
     });
+    const lead = this.placed[0];
+    const free = this.placed.length === 1 && lead?.segment === null;
+    if (lead)
+      this.ghost.show(
+        lead.motion,
+        free ? store.ghost.value : null,
+        store.present.value,
+        store.playhead.value,
+      );
     this.drawTrails();
     if (store.follow.value) this.followLead(seconds);
   }
@@ -184,6 +196,7 @@ export class FigureScene {
   }
 
   private clear(): void {
+    this.ghost.clear();
     for (const figure of this.figures) {
       figure.group.removeFromParent();
       figure.dispose();
@@ -192,14 +205,6 @@ export class FigureScene {
     this.trails?.dispose();
     this.trails = null;
   }
-}
-
-const anatomies = new WeakMap<Motion, Anatomy>();
-
-function anatomyOfCached(motion: Motion): Anatomy {
-  let anatomy = anatomies.get(motion);
-  if (!anatomy) anatomies.set(motion, (anatomy = anatomyOf(motion)));
-  return anatomy;
 }
 
 function handsAndFeet(motion: Motion): number[] {

@@ -84,7 +84,7 @@ function watchFigures(store: Store): void {
 
 function watchPose(store: Store): void {
   void [store.playhead.value, store.primitives.value, store.selected.value];
-  void [store.trails.value, store.follow.value];
+  void [store.trails.value, store.follow.value, store.ghost.value];
 }
 
 /** A click on a member of a cluster selects it; on one of several recordings, shows it. */

@@ -32,6 +32,7 @@ export function table(): Segments {
     cluster_names: {},
     checked: [],
     by_hand: [],
+    comments: [],
     segments: [
       row("activity", 0, 100),
       row("primitive", 0, 30, 0),
@@ -51,6 +52,8 @@ export function recording(segmentation = table(), revision = 0): Recording {
     matrix: { fps: 10, tile: 256, sizes: [100], band: null },
     segmentation,
     levels: [],
+    video: null,
+    reading: {},
     revision,
     can_undo: false,
     can_redo: false,

@@ -39,15 +39,28 @@ export function CompareDialog({ session, close }: Props): JSX.Element {
       <h2>A label file of the folder</h2>
       <div class="choices">
         {annotations.map(({ id, name }) => (
-          <button
-            key={id}
-            type="button"
-            disabled={busy.value !== ""}
-            onClick={() => void compare(name, { annotation: id })}
-          >
-            {name}
-            {busy.value === name && <span class="busy" />}
-          </button>
+          <span class="group" key={id}>
+            <button
+              type="button"
+              disabled={busy.value !== ""}
+              onClick={() => void compare(name, { annotation: id })}
+            >
+              {name}
+              {busy.value === name && <span class="busy" />}
+            </button>
+            <button
+              type="button"
+              aria-label={`Work on ${name}: it becomes the table`}
+              title="It becomes the table you work on; the present one is kept in History"
+              disabled={busy.value !== ""}
+              onClick={() => {
+                void session.edited.value?.edit({ kind: "take_labels", annotation: id });
+                close();
+              }}
+            >
+              Work on it
+            </button>
+          </span>
         ))}
         {annotations.length === 0 && (
           <p class="quiet">

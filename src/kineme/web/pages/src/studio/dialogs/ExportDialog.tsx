@@ -1,8 +1,10 @@
 /** The segments as a file, in every format the package writes. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
 import type { Level } from "../../messages";
 import { explain } from "../server/api";
+import { save } from "../server/save";
 import { Dialog } from "./Dialog";
 import type { Session } from "../session";
 
@@ -19,14 +21,22 @@ const CHOICES: readonly (readonly [Level | "", string])[] = [
 
 export function ExportDialog({ session, close }: Props): JSX.Element {
   const level = useSignal<Level | "">("");
+  const all = useSignal(false);
   const busy = useSignal("");
+  useEffect(() => void session.refresh(), []);
+  const recordings = session.state.value?.recordings ?? [];
+  const done = recordings.filter((each) => session.list.isChecked(each)).length;
   const write = async (format: string): Promise<void> => {
     const edited = session.edited.value;
     if (!edited) return;
     busy.value = format;
     try {
-      const { name, data } = await session.api.exported(edited.id, format, level.value);
-      download(name, data);
+      const { api } = session;
+      save(
+        await (all.value
+          ? api.exportedTogether(format, level.value)
+          : api.exported(edited.id, format, level.value)),
+      );
       session.bulletin.solved("export");
     } catch (error) {
       session.bulletin.problem(explain(error), "export");
@@ -47,6 +57,22 @@ export function ExportDialog({ session, close }: Props): JSX.Element {
             {title}
           </label>
         ))}
+      </fieldset>
+      <fieldset>
+        <label class="check">
+          <input type="radio" name="of" checked={!all.value} onChange={() => (all.value = false)} />
+          this recording
+        </label>
+        <label class="check">
+          <input
+            type="radio"
+            name="of"
+            checked={all.value}
+            disabled={!done}
+            onChange={() => (all.value = true)}
+          />
+          every recording that is checked ({done} of {recordings.length}), as one ZIP
+        </label>
       </fieldset>
       <table class="formats">
         <tbody>
@@ -71,12 +97,4 @@ export function ExportDialog({ session, close }: Props): JSX.Element {
       </table>
     </Dialog>
   );
-}
-
-function download(name: string, data: Blob): void {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(data);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

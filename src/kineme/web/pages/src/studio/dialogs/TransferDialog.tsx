@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { Dialog } from "./Dialog";
+import { NewKnowledge } from "./NewKnowledge";
 import type { Session } from "../session";
 
 interface Props {
@@ -29,9 +30,8 @@ export function TransferDialog({ session, close }: Props): JSX.Element {
     <Dialog title="Labels from a knowledge base" close={close}>
       {bases.length === 0 ? (
         <p>
-          There is no knowledge base in {session.state.value?.folder}. Make one there from a
-          recording with names:{" "}
-          <code>kineme label walk.bvh --labels walk.segments.json --knowledge moves.npz</code>
+          There is no knowledge base in {session.state.value?.folder} yet. Make one below, of
+          recordings whose segments have names.
         </p>
       ) : (
         <form onSubmit={transfer}>
@@ -79,6 +79,7 @@ export function TransferDialog({ session, close }: Props): JSX.Element {
           </p>
         </form>
       )}
+      <NewKnowledge session={session} />
     </Dialog>
   );
 }

@@ -68,6 +68,26 @@ export class Editor {
     void this.send({ kind: "name_segment", level, frame, label });
   }
 
+  /** Gives the segment one works on a name of its own. */
+  nameTarget(label: string): void {
+    this.session.edited.value?.whenSettled(() => {
+      const segment = this.segment.value;
+      if (segment) this.name(segment, label);
+    });
+  }
+
+  comment({ level, start_frame: frame }: Segment, text: string): void {
+    void this.send({ kind: "comment", level, frame, text });
+  }
+
+  splitCluster(cluster: number, frames: number[]): void {
+    void this.send({ kind: "split_cluster", cluster, frames });
+  }
+
+  orderClusters(order: number[]): void {
+    void this.send({ kind: "order_clusters", order });
+  }
+
   nameCluster(cluster: number, label: string): void {
     void this.send({ kind: "name_cluster", cluster, label });
   }

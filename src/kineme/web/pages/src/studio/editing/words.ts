@@ -34,6 +34,14 @@ export function inWords(edit: Edit, fps: number): string {
       return `${edit.level} at ${at(edit.frame)} made ${edit.to === "activity" ? "an" : "a"} ${edit.to}`;
     case "merge_clusters":
       return `cluster ${edit.cluster} merged into ${edit.into}`;
+    case "split_cluster":
+      return `${counted(edit.frames.length, "segment")} of cluster ${edit.cluster} made a cluster of their own`;
+    case "order_clusters":
+      return "clusters put into another order";
+    case "comment":
+      return edit.text
+        ? `comment on the ${edit.level} at ${at(edit.frame)}`
+        : `comment on the ${edit.level} at ${at(edit.frame)} removed`;
     case "check":
       return `${counted(edit.frames.length, ...LEVELS[edit.level])} ${edit.checked ? "checked" : "not checked any more"}`;
     case "together":

@@ -1,11 +1,11 @@
 /** The recordings of the folder: search, open, show beside, add. */
 import type { JSX } from "preact";
 import type { Listing } from "../../messages";
-import type { Status } from "../recordingList";
+import type { Order, Status } from "../recordingList";
 import type { Session } from "../session";
 import type { Uploads } from "../server/uploads";
 
-const SIGNS: Record<Status, string> = { new: "", corrected: "✎", checked: "✓" };
+const SIGNS: Record<Status, string> = { new: "", corrected: "✎", labelled: "◐", checked: "✓" };
 const TAIL = 12; // letters at the end of a name that are always seen
 
 interface Props {
@@ -57,7 +57,17 @@ export function FolderPanel({ session, uploads }: Props): JSX.Element {
             <option value="">all</option>
             <option value="new">new</option>
             <option value="corrected">corrected</option>
+            <option value="labelled">labelled</option>
             <option value="checked">checked</option>
+          </select>
+          <select
+            aria-label="Order of the recordings"
+            value={session.list.order.value}
+            onChange={(event) => (session.list.order.value = event.currentTarget.value as Order)}
+          >
+            <option value="name">by name</option>
+            <option value="left">what is left first</option>
+            <option value="size">largest first</option>
           </select>
         </div>
       )}

@@ -9,6 +9,8 @@ import type { Editor } from "../editing/editor";
 import { counted } from "../editing/words";
 import type { Review } from "../review/review";
 import type { Session } from "../session";
+import { Comment } from "./Comment";
+import { Vocabulary } from "./Vocabulary";
 
 interface Props {
   session: Session;
@@ -88,6 +90,8 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
           onName={(label) => editor.nameCluster(segment.cluster, label)}
         />
       )}
+      <Comment key={`${segment.level} ${segment.start_frame}`} {...{ session, editor, segment }} />
+      <Vocabulary session={session} editor={editor} />
     </div>
   );
 }

@@ -8,40 +8,42 @@
 
 import type {
   Changed,
+  ClipsRequest,
   CompareRequest,
   Comparison,
   CurveList,
   Edited,
   EditRequest,
-  Failure,
+  FileChoice,
+  KnowledgeRequest,
+  LabelsRequest,
   Level,
   Listing,
   Preview,
+  ReadingRequest,
   PreviewRequest,
   Recording,
   State,
   Version,
   Versions,
+  VideoRequest,
 } from "../../messages";
+
+import {
+  filename,
+  orNull,
+  parsed,
+  Refused,
+  sentence,
+  Unreachable,
+  unbroken,
+  type Download,
+} from "./answers";
+
+export { explain, Refused, Unreachable, type Download } from "./answers";
 
 /** Milliseconds between two tries to reach the server. */
 export const RETRY = 1000;
-
-export class Refused extends Error {
-  constructor(
-    readonly status: number,
-    message: string,
-    readonly body: unknown,
-  ) {
-    super(message);
-  }
-}
-
-export class Unreachable extends Error {
-  constructor() {
-    super("The studio's server does not answer.");
-  }
-}
 
 export class Api {
   /** @param token what the server printed in its address; another server has another one */
@@ -99,15 +101,42 @@ export class Api {
   }
 
   /** The segments of a level, or of all that the format holds, as a file named by the server. */
-  async exported(
-    id: string,
-    format: string,
-    level: Level | "",
-  ): Promise<{ name: string; data: Blob }> {
+  exported(id: string, format: string, level: Level | ""): Promise<Download> {
     const path = `/api/recordings/${encodeURIComponent(id)}/export/${encodeURIComponent(format)}`;
-    const answer = await this.ask(`${path}?level=${level}`);
-    const name = filename(answer.headers.get("content-disposition") ?? "") || `segments.${format}`;
-    return { name, data: await unbroken(answer.blob()) };
+    return this.download(`${path}?level=${level}`);
+  }
+
+  /** The same of all recordings that are checked. */
+  exportedTogether(format: string, level: Level | ""): Promise<Download> {
+    return this.download(`/api/export/${encodeURIComponent(format)}?level=${level}`);
+  }
+
+  /** Some rows of the table as motion files. */
+  clips(id: string, request: ClipsRequest): Promise<Download> {
+    return this.download(`/api/recordings/${encodeURIComponent(id)}/clips`, request);
+  }
+
+  shareLabels(request: LabelsRequest): Promise<string[]> {
+    return this.json("/api/labels", request);
+  }
+
+  makeKnowledge(request: KnowledgeRequest): Promise<FileChoice> {
+    return this.json("/api/knowledge", request);
+  }
+
+  /** How a recording is read from now on. */
+  readAs(id: string, request: ReadingRequest): Promise<unknown> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}/reading`, request);
+  }
+
+  /** Where the video of a recording comes from. */
+  videoAddress(id: string): string {
+    const path = `/api/recordings/${encodeURIComponent(id)}/video`;
+    return `${path}?token=${encodeURIComponent(this.token)}`;
+  }
+
+  placeVideo(id: string, request: VideoRequest): Promise<VideoRequest> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}/video`, request);
   }
 
   /** A file into the folder; `progress` is told the share sent, 0 to 1. */
@@ -145,6 +174,12 @@ export class Api {
     };
   }
 
+  private async download(path: string, body?: unknown): Promise<Download> {
+    const answer = await this.ask(path, body);
+    const name = filename(answer.headers.get("content-disposition") ?? "") || "kineme";
+    return { name, data: await unbroken(answer.blob()) };
+  }
+
   private async json<T>(path: string, body?: unknown): Promise<T> {
     const answer = await this.ask(path, body);
     return (await unbroken(answer.json())) as T;
@@ -165,47 +200,4 @@ export class Api {
     const said = parsed(await unbroken(answer.text()));
     throw new Refused(answer.status, sentence(said, answer.status), said);
   }
-}
-
-/** What to tell a person about anything thrown by this page. */
-export function explain(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
-}
-
-/** The file name of a Content-Disposition header, its UTF-8 form first; empty if it has none. */
-export function filename(disposition: string): string {
-  const encoded = /filename\*=utf-8''([^;]+)/i.exec(disposition)?.[1];
-  if (encoded) return decodeURIComponent(encoded);
-  return /filename="?([^";]+)"?/i.exec(disposition)?.[1] ?? "";
-}
-
-/** What was asked for; null where there is no such thing. */
-async function orNull<T>(answer: Promise<T>): Promise<T | null> {
-  try {
-    return await answer;
-  } catch (error) {
-    if (error instanceof Refused && error.status === 404) return null;
-    throw error;
-  }
-}
-
-async function unbroken<T>(work: Promise<T>): Promise<T> {
-  try {
-    return await work;
-  } catch {
-    throw new Unreachable();
-  }
-}
-
-function parsed(text: string): unknown {
-  try {
-    return JSON.parse(text);
-  } catch {
-    return null;
-  }
-}
-
-function sentence(body: unknown, status: number): string {
-  const error = (body as Partial<Failure> | null)?.error;
-  return error ?? `The server refused this with status ${status}.`;
 }

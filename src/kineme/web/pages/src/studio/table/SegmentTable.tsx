@@ -6,21 +6,12 @@ import { computed, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useMemo, useRef } from "preact/hooks";
 import { NO_COLOR } from "../../colors";
-import type { ByHand } from "../../messages";
 import { durationOf, nameOf } from "../../segments";
 import { clock } from "../../view";
 import type { Editor } from "../editing/editor";
 import type { Session } from "../session";
-import {
-  between,
-  EVERYTHING,
-  type Filter,
-  type Order,
-  type Row,
-  rowsOf,
-  spansToMerge,
-  sureness,
-} from "./rows";
+import { between, EVERYTHING, type Filter, type Order, type Row, rowsOf, sureness } from "./rows";
+import { Actions } from "./Actions";
 import { TableFilter } from "./TableFilter";
 
 const HEIGHT = 26; // pixels of a row
@@ -183,62 +174,6 @@ function TableRow(props: {
       <span role="gridcell" class="number">
         {checked ? <span title="checked">✓</span> : sure === null ? "" : sure.toFixed(2)}
       </span>
-    </div>
-  );
-}
-
-/** What is done to all chosen rows, as one step. */
-function Actions(props: Props & { rows: Row[] }): JSX.Element {
-  const { editor, rows } = props;
-  const name = useSignal("");
-  const merges = spansToMerge(rows);
-  const checked = rows.length > 0 && rows.every((row) => row.checked);
-  const segments = rows.map(({ segment }) => segment);
-  return (
-    <div class="table-actions">
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          const edits = segments.map(({ level, start_frame: frame }): ByHand => {
-            return { kind: "name_segment", level, frame, label: name.value.trim() };
-          });
-          editor.together(edits, `named “${name.value.trim()}”`);
-        }}
-      >
-        <input
-          type="text"
-          aria-label="Name for all chosen"
-          placeholder="name"
-          disabled={!rows.length}
-          value={name.value}
-          onInput={(event) => (name.value = event.currentTarget.value)}
-        />
-        <button type="submit" disabled={!rows.length}>
-          Name {rows.length || ""}
-        </button>
-      </form>
-      <button
-        type="button"
-        disabled={!merges.length}
-        title="Neighbours become one segment"
-        onClick={() =>
-          editor.together(
-            merges.map(({ level, start, stop }) => {
-              return { kind: "merge", level, start_frame: start, stop_frame: stop };
-            }),
-            "merged",
-          )
-        }
-      >
-        Merge
-      </button>
-      <button
-        type="button"
-        disabled={!rows.length}
-        onClick={() => editor.check(segments, !checked)}
-      >
-        {checked ? "Uncheck" : "Check"}
-      </button>
     </div>
   );
 }

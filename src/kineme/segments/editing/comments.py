@@ -1,0 +1,68 @@
+"""What people say about segments.
+
+A comment is at a frame of a level, and so of the segment that holds this frame, whatever becomes
+of its borders: no edit and no new segmentation loses one. They are in the provenance
+(``comments``), a list of ``[level, frame, text]``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from kineme.segments.editing.rows import starting
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level
+
+Comment = tuple[Level, int, str]
+
+
+def comments(segmentation: Segmentation) -> list[Comment]:
+    """Level, frame and text of each, in time order."""
+    said: Any = segmentation.provenance.get("comments")
+    found = said if isinstance(said, list) else []
+    return sorted(
+        (tuple(each) for each in found if isinstance(each, list) and len(each) == 3),
+        key=lambda each: (each[1], each[0]),
+    )
+
+
+def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> Segmentation:
+    """The segment that starts at ``frame`` has this comment in place of any it had.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    level : {"activity", "primitive"}
+    frame : int
+        Where the segment starts.
+    text : str
+        Empty: it has none any more.
+
+    Returns
+    -------
+    Segmentation
+
+    Raises
+    ------
+    ParameterError
+        No segment starts there.
+    """
+    row = starting(segmentation, level, frame)
+    kept = [
+        each
+        for each in comments(segmentation)
+        if each[0] != level or not row.start_frame <= each[1] < row.stop_frame
+    ]
+    if text:
+        kept.append((level, (row.start_frame + row.stop_frame) // 2, text))
+    return with_comments(segmentation, kept)
+
+
+def with_comments(segmentation: Segmentation, said: list[Comment]) -> Segmentation:
+    """The same segments with these comments and no others."""
+    kept = segmentation.provenance.items()
+    provenance = {name: what for name, what in kept if name != "comments"}
+    if said:
+        provenance["comments"] = [list(each) for each in said]
+    return replace(segmentation, provenance=provenance)

@@ -1,0 +1,1 @@
+"""Small files that the studio keeps in ``.kineme`` besides tables and their history."""

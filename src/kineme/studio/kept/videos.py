@@ -1,0 +1,49 @@
+"""The reference video of a recording: a file of the same name, and when in it the recording starts.
+
+The offset is kept in ``.kineme/walk.bvh.video.json``, seconds of the video at frame 0.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from kineme.studio.records import FOLDER, write_file
+from kineme.web.messages import Video
+
+SUFFIXES = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
+
+
+def video_of(recording: Path) -> Path | None:
+    """The video beside a recording; None where there is none."""
+    for suffix in SUFFIXES:
+        for path in (recording.with_suffix(suffix), recording.with_suffix(suffix.upper())):
+            if path.is_file() and not path.is_symlink():
+                return path
+    return None
+
+
+def offset_of(recording: Path) -> float:
+    """Seconds of the video at the start of the recording; 0 where nobody said."""
+    try:
+        said = json.loads(_place(recording).read_text(encoding="utf-8"))
+        return float(said["offset_s"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return 0.0
+
+
+def video_message(recording: Path) -> Video | None:
+    """What a page is told of the video."""
+    found = video_of(recording)
+    return Video(name=found.name, offset_s=offset_of(recording)) if found else None
+
+
+def set_offset(recording: Path, seconds: float) -> None:
+    """Keep the offset of the video."""
+    place = _place(recording)
+    place.parent.mkdir(exist_ok=True)
+    write_file(place, json.dumps({"offset_s": seconds}).encode())
+
+
+def _place(recording: Path) -> Path:
+    return recording.parent / FOLDER / f"{recording.name}.video.json"

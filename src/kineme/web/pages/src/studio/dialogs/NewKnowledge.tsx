@@ -1,0 +1,62 @@
+/** A knowledge base of the recordings that have names. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
+import { explain } from "../server/api";
+import type { Session } from "../session";
+
+export function NewKnowledge({ session }: { session: Session }): JSX.Element {
+  const named = (session.state.value?.recordings ?? []).filter((each) => each.named > 0);
+  const left = useSignal<ReadonlySet<string>>(new Set());
+  const name = useSignal("moves");
+  const busy = useSignal(false);
+  useEffect(() => void session.refresh(), []); // names given since the page was opened
+  const make = async (event: Event): Promise<void> => {
+    event.preventDefault();
+    busy.value = true;
+    try {
+      const recordings = named.map(({ id }) => id).filter((id) => !left.value.has(id));
+      const made = await session.api.makeKnowledge({ name: name.value.trim(), recordings });
+      session.bulletin.solved("knowledge");
+      session.bulletin.tell(`${made.name} is in the folder: other recordings can take its names.`);
+      await session.refresh();
+    } catch (error) {
+      session.bulletin.problem(explain(error), "knowledge");
+    }
+    busy.value = false;
+  };
+  return (
+    <form class="new-knowledge" onSubmit={(event) => void make(event)}>
+      <h2>Make a knowledge base of recordings with names</h2>
+      {named.length === 0 && <p class="quiet">No recording of the folder has names yet.</p>}
+      <div class="choices">
+        {named.map(({ id, name: title, named: count }) => (
+          <label class="check" key={id}>
+            <input
+              type="checkbox"
+              checked={!left.value.has(id)}
+              onChange={(event) => {
+                const now = new Set(left.value);
+                if (event.currentTarget.checked) now.delete(id);
+                else now.add(id);
+                left.value = now;
+              }}
+            />
+            {title} <span class="quiet">{count}</span>
+          </label>
+        ))}
+      </div>
+      <p class="actions">
+        <input
+          type="text"
+          aria-label="Name of the knowledge base"
+          value={name.value}
+          onInput={(event) => (name.value = event.currentTarget.value)}
+        />
+        <button type="submit" disabled={busy.value || !name.value.trim() || !named.length}>
+          Make it {busy.value && <span class="busy" />}
+        </button>
+      </p>
+    </form>
+  );
+}

@@ -1,0 +1,87 @@
+/** The reference video beside the figure, at the time of the playhead. */
+import { useSignalEffect } from "@preact/signals";
+import { useRef } from "preact/hooks";
+import type { JSX } from "preact";
+import { explain } from "../server/api";
+import type { Session } from "../session";
+
+const APART = 0.12; // seconds that picture and figure may be apart while they play
+
+export function Video({ session }: { session: Session }): JSX.Element | null {
+  const recording = session.store.recording.value;
+  const video = recording?.video;
+  if (!video) return null;
+  return (
+    <Player
+      key={recording.id}
+      session={session}
+      id={recording.id}
+      name={video.name}
+      offset={video.offset_s}
+    />
+  );
+}
+
+interface Props {
+  session: Session;
+  id: string;
+  name: string;
+  offset: number;
+}
+
+function Player({ session, id, name, offset }: Props): JSX.Element {
+  const { store, api } = session;
+  const element = useRef<HTMLVideoElement>(null);
+  const start = useRef(offset);
+  const follow = (): void => {
+    const shown = element.current;
+    if (!shown) return;
+    const wanted = Math.max(store.playhead.value + start.current, 0);
+    const playing = store.playing.value;
+    if (shown.readyState === 0) return;
+    shown.playbackRate = Math.min(Math.max(store.speed.value, 0.0625), 16);
+    if (Math.abs(shown.currentTime - wanted) > (playing ? APART * store.speed.value : 1e-3))
+      shown.currentTime = wanted;
+    if (playing && shown.paused && wanted < shown.duration)
+      void shown.play().catch(() => undefined);
+    if (!playing && !shown.paused) shown.pause();
+  };
+  useSignalEffect(follow);
+  const place = async (seconds: number): Promise<void> => {
+    if (!Number.isFinite(seconds)) return;
+    start.current = seconds;
+    follow();
+    try {
+      await api.placeVideo(id, { offset_s: seconds });
+      session.bulletin.solved("video");
+    } catch (error) {
+      session.bulletin.problem(explain(error), "video");
+    }
+  };
+  return (
+    <figure class="video">
+      <video
+        ref={element}
+        src={api.videoAddress(id)}
+        muted
+        playsInline
+        preload="auto"
+        aria-label={`Video ${name}`}
+        onLoadedMetadata={follow}
+      />
+      <figcaption>
+        <label title="Seconds of the video at the start of the recording">
+          starts at{" "}
+          <input
+            type="number"
+            class="number"
+            step="0.02"
+            defaultValue={String(offset)}
+            onChange={(event) => void place(event.currentTarget.valueAsNumber)}
+          />{" "}
+          s of the video
+        </label>
+      </figcaption>
+    </figure>
+  );
+}

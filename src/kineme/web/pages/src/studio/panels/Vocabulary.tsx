@@ -1,0 +1,68 @@
+/** The labels that all recordings of the folder share; the first nine are on the keys 1 to 9. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import type { Editor } from "../editing/editor";
+import { explain } from "../server/api";
+import type { Session } from "../session";
+
+const KEYS = 9;
+
+export function Vocabulary({ session, editor }: { session: Session; editor: Editor }): JSX.Element {
+  const labels = session.state.value?.labels ?? [];
+  const name = useSignal("");
+  const keep = async (next: string[]): Promise<void> => {
+    try {
+      await session.api.shareLabels({ labels: next });
+      session.bulletin.solved("labels");
+      await session.refresh();
+    } catch (error) {
+      session.bulletin.problem(explain(error), "labels");
+    }
+  };
+  return (
+    <section class="vocabulary" aria-label="Shared labels">
+      <h2>Labels of the folder</h2>
+      <div class="choices">
+        {labels.map((label, i) => (
+          <span class="group" key={label}>
+            <button
+              type="button"
+              title={
+                i < KEYS ? `Name the segment “${label}” (${i + 1})` : `Name the segment “${label}”`
+              }
+              onClick={() => editor.nameTarget(label)}
+            >
+              {i < KEYS && <kbd>{i + 1}</kbd>} {label}
+            </button>
+            <button
+              type="button"
+              class="icon"
+              aria-label={`Take “${label}” off the list`}
+              onClick={() => void keep(labels.filter((each) => each !== label))}
+            >
+              ×
+            </button>
+          </span>
+        ))}
+      </div>
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          const wanted = name.value.trim();
+          name.value = "";
+          if (wanted) void keep([...labels, wanted]);
+        }}
+      >
+        <input
+          type="text"
+          aria-label="A label for all recordings of the folder"
+          placeholder={labels.length ? "one more label" : "a label for the key 1"}
+          value={name.value}
+          onInput={(event) => (name.value = event.currentTarget.value)}
+          onKeyDown={(event) => event.key === "Escape" && event.currentTarget.blur()}
+        />
+        <button type="submit">Add</button>
+      </form>
+    </section>
+  );
+}

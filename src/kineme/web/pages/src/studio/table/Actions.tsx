@@ -1,0 +1,119 @@
+/** What is done to all chosen rows of the table, as one step. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import type { ByHand } from "../../messages";
+import type { Editor } from "../editing/editor";
+import { explain } from "../server/api";
+import { save } from "../server/save";
+import type { Session } from "../session";
+import { type Row, spansToMerge } from "./rows";
+
+interface Props {
+  session: Session;
+  editor: Editor;
+  rows: Row[];
+}
+
+export function Actions(props: Props): JSX.Element {
+  const { session, editor, rows } = props;
+  const busy = useSignal(false);
+  const clips = async (loops: boolean): Promise<void> => {
+    const { edited, api, bulletin } = session;
+    if (!edited.value) return;
+    busy.value = true;
+    try {
+      const numbers = rows.map(({ number }) => number);
+      save(await api.clips(edited.value.id, { rows: numbers, loops }));
+      bulletin.solved("clips");
+    } catch (error) {
+      bulletin.problem(explain(error), "clips");
+    }
+    busy.value = false;
+  };
+  const cluster = rows[0]?.segment.cluster ?? -1;
+  const divisible =
+    cluster >= 0 &&
+    rows.every(
+      ({ segment }) => segment.cluster === cluster && segment.level === rows[0]?.segment.level,
+    );
+  const name = useSignal("");
+  const merges = spansToMerge(rows);
+  const checked = rows.length > 0 && rows.every((row) => row.checked);
+  const segments = rows.map(({ segment }) => segment);
+  return (
+    <div class="table-actions">
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          const edits = segments.map(({ level, start_frame: frame }): ByHand => {
+            return { kind: "name_segment", level, frame, label: name.value.trim() };
+          });
+          editor.together(edits, `named “${name.value.trim()}”`);
+        }}
+      >
+        <input
+          type="text"
+          aria-label="Name for all chosen"
+          placeholder="name"
+          disabled={!rows.length}
+          value={name.value}
+          onInput={(event) => (name.value = event.currentTarget.value)}
+        />
+        <button type="submit" disabled={!rows.length}>
+          Name {rows.length || ""}
+        </button>
+      </form>
+      <button
+        type="button"
+        disabled={!merges.length}
+        title="Neighbours become one segment"
+        onClick={() =>
+          editor.together(
+            merges.map(({ level, start, stop }) => {
+              return { kind: "merge", level, start_frame: start, stop_frame: stop };
+            }),
+            "merged",
+          )
+        }
+      >
+        Merge
+      </button>
+      <button
+        type="button"
+        disabled={!rows.length}
+        onClick={() => editor.check(segments, !checked)}
+      >
+        {checked ? "Uncheck" : "Check"}
+      </button>
+      <button
+        type="button"
+        disabled={!divisible}
+        title="The chosen ones become a cluster of their own"
+        onClick={() =>
+          editor.splitCluster(
+            cluster,
+            segments.map(({ start_frame }) => start_frame),
+          )
+        }
+      >
+        New cluster
+      </button>
+      <button
+        type="button"
+        disabled={!rows.length || busy.value}
+        title="The chosen segments as motion files"
+        onClick={() => void clips(false)}
+      >
+        Clips…
+      </button>
+      <button
+        type="button"
+        disabled={!rows.length || busy.value}
+        title="The same, each made to close, so that it can be repeated without a jerk"
+        onClick={() => void clips(true)}
+      >
+        Loops…
+      </button>
+    </div>
+  );
+}

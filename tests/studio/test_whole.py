@@ -1,0 +1,94 @@
+"""The folder as a whole: details, labels in common, exports of what is checked, clips."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+
+import numpy as np
+from studio_clients import Studio
+
+
+def test_a_detail_is_shown_before_it_is_made(studio: Studio) -> None:
+    address = f"/api/recordings/{studio.id}/preview"
+    sent = {"preset": "kineme", "parameters": {}, "keep": True, "detail": 0.125}
+    revision = studio.recording()["revision"]
+    preview = studio.client.post(address, json=sent).json()
+    assert preview["detail"] == preview["details"][0]
+    made = studio.done(revision, "segment", preset="kineme", parameters={}, detail=0.125)
+    assert made["segmentation"]["segments"] == preview["segmentation"]["segments"]
+    assert studio.client.post(address, json={**sent, "detail": -1}).status_code == 400
+
+
+def test_curves_come_in_pieces(studio: Studio) -> None:
+    head = studio.get(f"/api/recordings/{studio.id}/curves").json()
+    assert {each["group"] for each in head["curves"]} >= {"height", "speed"}
+    piece = studio.get(f"/api/recordings/{studio.id}/curves/0/0/0").content
+    assert np.frombuffer(piece, "<f4").size == 2 * studio.recording()["n_frames"]
+    assert studio.get(f"/api/recordings/{studio.id}/curves/0/9/0").status_code == 404
+
+
+def test_checked_recordings_are_written_together_and_known_by_their_names(studio: Studio) -> None:
+    message = studio.recording()
+    assert studio.get("/api/export/json").status_code == 400  # none is checked yet
+    revision = message["revision"]
+    for row in message["segmentation"]["segments"]:
+        level, frame = row["level"], row["start_frame"]
+        edit = {"level": level, "frames": [frame], "checked": True}
+        revision = studio.done(revision, "check", **edit)["revision"]
+    row = next(each for each in message["segmentation"]["segments"] if each["kind"] == "activity")
+    named = {"level": row["level"], "frame": row["start_frame"], "label": "walk"}
+    studio.done(revision, "name_segment", **named)
+    answer = studio.get("/api/export/json")
+    assert zipfile.ZipFile(io.BytesIO(answer.content)).namelist() == ["take.json"]
+    wanted = {"name": "../moves", "recordings": [studio.id]}
+    made = studio.client.post("/api/knowledge", json=wanted).json()
+    assert made["name"] == "moves.npz"
+    assert (studio.folder / "moves.npz").exists()
+    assert studio.client.post("/api/knowledge", json=wanted).status_code == 400  # there already
+    assert studio.get("/api/state").json()["recordings"][0]["named"] >= 1
+
+
+def test_labels_are_shared_and_clips_are_of_chosen_rows(studio: Studio) -> None:
+    studio.client.post("/api/labels", json={"labels": ["walk", " walk ", "", "jump"]})
+    assert studio.get("/api/state").json()["labels"] == ["walk", "jump"]
+    address = f"/api/recordings/{studio.id}/clips"
+    clips = studio.client.post(address, json={"rows": [0], "loops": True})
+    names = zipfile.ZipFile(io.BytesIO(clips.content)).namelist()
+    assert sum(name.endswith(".bvh") for name in names) == 1
+    assert studio.client.post(address, json={"rows": [10_000], "loops": False}).status_code == 400
+
+
+def test_a_video_lies_beside_and_keeps_its_offset(studio: Studio) -> None:
+    address = f"/api/recordings/{studio.id}/video"
+    assert studio.recording()["video"] is None
+    assert studio.get(address).status_code == 404
+    (studio.folder / "take.mp4").write_bytes(b"0123456789")
+    part = studio.get(address, headers={"range": "bytes=2-4"})
+    assert (part.status_code, part.content) == (206, b"234")
+    studio.client.post(address, json={"offset_s": 1.5})
+    assert studio.recording()["video"] == {"name": "take.mp4", "offset_s": 1.5}
+
+
+def test_a_comment_outlives_borders_and_new_segmentations(studio: Studio) -> None:
+    message = studio.recording()
+    row = message["segmentation"]["segments"][0]
+    said = {"level": row["level"], "frame": row["start_frame"], "text": "slips"}
+    revision = studio.done(message["revision"], "comment", **said)["revision"]
+    made = studio.done(revision, "segment", preset="kineme", parameters={}, detail=8)
+    (comment,) = made["segmentation"]["comments"]
+    assert comment["text"] == "slips"
+    assert row["start_frame"] <= comment["frame"] < row["stop_frame"]
+
+
+def test_a_recording_can_be_read_otherwise(studio: Studio) -> None:
+    message = studio.recording()
+    studio.done(message["revision"], "split", level="activity", frame=90)
+    address = f"/api/recordings/{studio.id}/reading"
+    assert studio.client.post(address, json={"unit": "parsec"}).status_code == 400
+    assert studio.recording()["fps"] == message["fps"]
+    assert studio.client.post(address, json={"fps": 30.0}).status_code == 200
+    after = studio.recording()
+    assert (after["fps"], after["reading"]) == (30.0, {"fps": 30.0})
+    assert after["segmentation"]["fps"] == 30.0
+    assert after["can_undo"] is False or after["saved"]
