@@ -3,7 +3,8 @@
     python benchmarks/sets.py [SET ...] [--methods kineme uniform] [--rivals] [--every N] [--record]
 
 Channels of muscles are left out. Clusters stand for classes of their recording; then, where
-``--one-mapping`` asks for it, for the same class in the whole set (`_one_mapping.py`).
+``--one-mapping`` asks for it, for the same class in the whole set: joined as by
+``--mapping folder --clusters N``, N the number of classes, and not told how many (``untold``).
 ``--rivals`` adds segmenters of other packages, those that are installed
 (``benchmarks/rivals/requirements.txt``); they take long: ``--every 20`` takes every twentieth
 recording. docs/sets.md quotes what ``--record`` keeps.
@@ -19,68 +20,54 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
-from typing import NamedTuple
 
 from _figures import add_option, record
-from _one_mapping import Described, described, one_vocabulary
 from _rival_presets import register_rivals
-from kineme.evaluation.comparison import Comparison, best_mapping, compare
+from kineme.evaluation.comparison import Comparison, compare
+from kineme.evaluation.jobs import Answer, Job, sides_of
+from kineme.evaluation.joining import joined_comparisons
 from kineme.evaluation.methods import segment_by
 from kineme.evaluation.recordings import Reading, recordings_below
 from kineme.evaluation.score import over_all, scores
 from kineme.evaluation.tables import markdown
-from kineme.labels.collections import LabelSource, labels_of
+from kineme.labels.collections import labels_of
 
 SETS = ("hugadb", "hapt", "ipolgait", "utkinect")
 SHARES = ("mof", "edit", "f1@10", "f1@25", "f1@50")
 OTHERS = ("border_f1", "cut_ratio")
+WAYS = {"folder": True, "untold": False}
+"""Ways to join the clusters of a set, and whether they are told the number of classes."""
 READING = Reading(without=("emg*", "time*"))
 
 
-class Scored(NamedTuple):
-    """A method on a recording: what there is to compare, what took how long, and the clusters."""
-
-    compared: Comparison
-    classes: Mapping[str, int]
-    seconds: float
-    hours: float
-    clusters: Described | None
-
-
-def scored(path: Path, source: LabelSource, method: str, one_mapping: bool) -> Scored | str:
+def scored(job: Job) -> Answer:
     """A method on a recording, or why it failed; processor time is that of this process."""
     try:
-        return _scored(path, source, method, one_mapping)
+        return _scored(job)
     except Exception as error:  # noqa: BLE001 (a rival that fails is a result)
-        return f"{path.stem}, {method}: {type(error).__name__}: {error}"
+        return Answer(error=f"{type(error).__name__}: {error}")
 
 
-def _scored(path: Path, source: LabelSource, method: str, one_mapping: bool) -> Scored:
+def _scored(job: Job) -> Answer:
     warnings.simplefilter("ignore")
     register_rivals()
-    recording = READING.read(path)
-    truth = source.of(n_frames=recording.n_frames, fps=recording.fps)
+    recording = job.reading.read(job.path)
+    truth = job.source.of(n_frames=recording.n_frames, fps=recording.fps)
     classes: dict[str, int] = {}
     compare(truth, truth, classes=classes)
     start = time.process_time()
-    found = segment_by(method, recording, n_classes=len(classes))
+    found = segment_by(job.method, recording, n_classes=len(classes))
     seconds = time.process_time() - start
     compared = compare(truth, found, classes=classes)
-    clusters = described(recording, found) if one_mapping else None
-    return Scored(compared, classes, seconds, recording.duration / 3600, clusters)
+    sides = sides_of(recording, truth, found) if job.joins else None
+    return Answer(compared, sides, classes, seconds, recording.duration)
 
 
-def with_one_mapping(answers: Sequence[Scored]) -> list[Comparison]:
+def with_one_mapping(answers: Mapping[Job, Answer], *, told: bool) -> list[Comparison]:
     """The same results, a cluster of the whole set standing for the same class everywhere."""
-    numbers: dict[str, int] = {}
-    renumbered = []
-    for answer in answers:
-        new = {old: numbers.setdefault(name, len(numbers)) for name, old in answer.classes.items()}
-        truth = [new[old] for old in answer.compared.truth.tolist()]
-        renumbered.append(Comparison(truth, answer.compared.found, answer.compared.fps))
-    shared = one_vocabulary(renumbered, [answer.clusters for answer in answers], len(numbers))
-    mapping = best_mapping(shared)
-    return [Comparison(one.truth, one.found, one.fps, mapping) for one in shared]
+    classes = {name for answer in answers.values() for name in answer.classes}
+    compared = joined_comparisons(list(answers.items()), len(classes) if told else None)
+    return [one for one in compared if one is not None]
 
 
 def row(name: str, compared: Sequence[Comparison]) -> list[str]:
@@ -120,20 +107,23 @@ def main() -> None:
         chosen = list(labels.items())[:: options.every]
         with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
             for method in methods:
-                jobs = [pool.submit(scored, *one, method, options.one_mapping) for one in chosen]
-                results = [job.result() for job in jobs]
-                for failed in (each for each in results if isinstance(each, str)):
-                    print(failed)
-                answers = [each for each in results if isinstance(each, Scored)]
+                jobs = [Job(*one, method, READING, options.one_mapping) for one in chosen]
+                tried = dict(zip(jobs, pool.map(scored, jobs), strict=True))
+                for job, answer in tried.items():
+                    if answer.error:
+                        print(f"{job.path.stem}, {method}: {answer.error}")
+                answers = {job: answer for job, answer in tried.items() if not answer.error}
                 if not answers:
                     continue
-                rows.append(row(f"{name}.recording.{method}{part}", [a.compared for a in answers]))
-                cost = sum(a.seconds for a in answers) / sum(a.hours for a in answers)
+                compared = [a.compared for a in answers.values() if a.compared is not None]
+                rows.append(row(f"{name}.recording.{method}{part}", compared))
+                hours = sum(a.length_s for a in answers.values()) / 3600
+                cost = sum(a.seconds for a in answers.values()) / hours
                 record(f"sets.{name}.recording.{method}{part}.seconds_per_hour", round(cost, 1))
                 rows[-1].append(f"{cost:.1f}")
-                if options.one_mapping:
-                    whole = row(f"{name}.folder.{method}{part}", with_one_mapping(answers))
-                    rows.append([*whole, ""])
+                for key, told in WAYS.items() if options.one_mapping else ():
+                    whole = with_one_mapping(answers, told=told)
+                    rows.append([*row(f"{name}.{key}.{method}{part}", whole), ""])
     head = ["set", "recordings", *SHARES, *OTHERS, "processor s / h"]
     print(markdown(head, rows))
 

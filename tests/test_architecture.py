@@ -88,7 +88,7 @@ ROOMS = {
     ),
     "evaluation": Room(
         "scores of any result against any truth, and of methods over a folder",
-        "features formats labels methods recordings segmentation segments",
+        "features formats labels methods recordings segmentation segments transfer",
     ),
     "reproduction": Room(
         "the papers' own figures and tables on subject 86",

@@ -163,6 +163,14 @@ def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> Non
     assert result.over_all("uniform")["cut_ratio"] == 79.0
 
 
+def test_clusters_are_joined_for_one_mapping(corpus) -> None:
+    sources = labels_of(recordings_below(corpus), corpus / "labels.csv")
+    given = {"mapping": "folder", "reading": Reading(without=("emg*",)), "processes": 1}
+    result = evaluate_folder(sources, ["uniform"], n_clusters=2, **given)  # clusters of no meaning
+    assert result.over_all("uniform")["mof"] > 0.95
+    assert [bool(one.error) for one in result.methods["uniform"]] == [False, False, True]
+
+
 def test_labels_that_belong_to_nothing_here_are_refused(corpus, tmp_path) -> None:
     (tmp_path / "labels.csv").write_text("recording,start_s,stop_s,label\nwalk,0,1,step\n")
     with pytest.raises(ReadError, match="no labels of any of the 4 recordings, such as 'a'"):

@@ -62,3 +62,47 @@ def test_segments_of_another_recording_are_refused() -> None:
     found = kineme.segment(motion)
     with pytest.raises(ParameterError, match="do not belong"):
         share_clusters([cut(motion, 0, 100)], [found])
+
+
+def still_and_shaken(turns: list[bool], unit: float = 1.0) -> tuple:
+    """Ten seconds each of lying still and being shaken, and its segments, a cluster each."""
+    rng = np.random.default_rng(len(turns))
+    rows = [[5.0, 0.0] + (3.0 if on else 0.1) * rng.standard_normal((200, 2)) for on in turns]
+    edges = 200 * np.arange(len(turns) + 1)
+    columns = {
+        "level": ["activity"] * len(turns) + ["primitive"] * len(turns),
+        "kind": ["activity"] * 2 * len(turns),
+        "start_frame": np.tile(edges[:-1], 2),
+        "stop_frame": np.tile(edges[1:], 2),
+        "cluster": np.tile(np.arange(len(turns)), 2),
+    }
+    found = kineme.Segmentation.from_columns(columns, n_frames=int(edges[-1]), fps=20.0)
+    return kineme.Signals(unit * np.concatenate(rows), 20.0), found
+
+
+@pytest.mark.parametrize("told", [None, 2])
+def test_clusters_of_signals_are_alike_in_all_recordings(told: int | None) -> None:
+    turns = ([True, False], [False, True, False], [False, False])
+    signals, found = zip(*map(still_and_shaken, turns), strict=True)
+    shared = share_clusters(signals, found, n_clusters=told)
+    still = int(shared[2].activities.cluster[0])
+    for one, own, before in zip(shared, turns, found, strict=True):
+        assert (one.activities.cluster != still).tolist() == own
+        assert one.primitives.cluster.tolist() == one.activities.cluster.tolist()
+        assert one.cuts().tolist() == before.cuts().tolist()
+    assert shared[0] == share_clusters(signals, found, n_clusters=told)[0]
+
+
+def test_a_still_recording_is_not_stretched_to_a_moving_one() -> None:
+    signals, found = zip(
+        still_and_shaken([True, True]), still_and_shaken([True, True], 0.01), strict=True
+    )
+    moved, still = share_clusters(signals, found, n_clusters=2)
+    assert set(moved.table.cluster.tolist()).isdisjoint(still.table.cluster.tolist())
+
+
+def test_signals_of_other_channels_share_nothing() -> None:
+    one, found = still_and_shaken([True, False])
+    other = kineme.Signals(one.values, one.fps, ["a", "b"])
+    with pytest.raises(ParameterError, match="of the same channels, not of 1, 2 and of a, b"):
+        share_clusters([one, other], [found, found])

@@ -1,9 +1,8 @@
 """Methods on a folder of recordings with labels: every score of each, and over all of them.
 
-Clusters stand for classes by one mapping a recording, or by one for the whole folder; the
-latter asks that clusters mean the same in all recordings, which no method promises that looks
-at one recording at a time. A recording that cannot be read, segmented or compared costs itself
-only, and says why.
+Clusters stand for classes by one mapping a recording, or by one for the whole folder; for the
+latter the clusters of all recordings are joined first (`kineme.evaluation.joining`). A recording
+that cannot be read, segmented or compared costs itself only, and says why.
 """
 
 from __future__ import annotations
@@ -15,11 +14,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-
 from kineme._version import __version__
-from kineme.evaluation.comparison import Comparison, best_mapping
+from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.jobs import Answer, Job, answers_to
+from kineme.evaluation.joining import joined_comparisons
 from kineme.evaluation.methods import check_method
 from kineme.evaluation.recordings import Reading
 from kineme.evaluation.score import Ratio, over_all, scores, value_of
@@ -134,6 +132,7 @@ def evaluate_folder(
     methods: Sequence[str],
     *,
     mapping: Mapped = "recording",
+    n_clusters: int | None = None,
     reading: Reading | None = None,
     processes: int = 2,
     progress: Progress | None = None,
@@ -147,7 +146,10 @@ def evaluate_folder(
     methods : sequence of str
         Names of methods, in the order of the tables.
     mapping : {"recording", "folder"}
-        Whether clusters stand for classes of their recording alone, or for the same in all.
+        Whether clusters stand for classes of their recording alone, or for the same in all,
+        over which they are joined before.
+    n_clusters : int, optional
+        How many clusters signals of the folder are joined to; found out by default.
     reading : Reading, optional
         How the recordings are read.
     processes : int
@@ -167,7 +169,7 @@ def evaluate_folder(
     for name in methods:
         check_method(name)
     jobs = [
-        Job(path, source, name, reading or Reading())
+        Job(path, source, name, reading or Reading(), joins=mapping == "folder")
         for path, source in labels.items()
         for name in methods
     ]
@@ -176,44 +178,30 @@ def evaluate_folder(
         answers[job] = answer
         if progress is not None:
             progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
-    return FolderScores(
-        {
-            name: _scored([(j, answers[j]) for j in jobs if j.method == name], mapping)
-            for name in methods
-        },
-        mapping,
-    )
+    results: dict[str, list[Evaluated]] = {}
+    for name in methods:
+        own = [(job, answers[job]) for job in jobs if job.method == name]
+        if progress is not None and mapping == "folder":
+            progress(f"joining the clusters of all recordings, {name}")
+        compared = joined_comparisons(own, n_clusters) if mapping == "folder" else None
+        results[name] = _scored(own, compared or [answer.compared for _, answer in own])
+    return FolderScores(results, mapping)
 
 
-def _scored(answers: Sequence[tuple[Job, Answer]], mapping: Mapped) -> list[Evaluated]:
-    """The scores of one method, clusters mapped to classes."""
-    numbers: dict[str, int] = {}
-    shared: dict[int, Comparison] = {}
-    for i, (_, answer) in enumerate(answers):
-        if answer.compared is not None:
-            shared[i] = _renumbered(answer.compared, answer.classes, numbers)
-    pooled = best_mapping(list(shared.values())) if mapping == "folder" and shared else None
+def _scored(
+    answers: Sequence[tuple[Job, Answer]], compared: Sequence[Comparison | None]
+) -> list[Evaluated]:
+    """The scores of one method."""
     found = []
-    for i, (job, answer) in enumerate(answers):
-        if i not in shared:
+    for (job, answer), one in zip(answers, compared, strict=True):
+        if one is None:
             found.append(Evaluated(job.path.name, error=answer.error))
             continue
-        one = shared[i]
-        compared = Comparison(one.truth, one.found, one.fps, pooled)
-        results = {name: score.function(compared) for name, score in scores().items()}
+        results = {name: score.function(one) for name, score in scores().items()}
         found.append(
             Evaluated(job.path.name, answer.seconds, answer.length_s, results, answer.notes)
         )
     return found
-
-
-def _renumbered(
-    compared: Comparison, classes: Mapping[str, int], numbers: dict[str, int]
-) -> Comparison:
-    """The comparison with the numbers that classes have in the whole folder."""
-    new = {number: numbers.setdefault(name, len(numbers)) for name, number in classes.items()}
-    table = np.array([new[number] for number in range(len(classes))], np.int64)
-    return Comparison(table[compared.truth], compared.found, compared.fps)
 
 
 def _plain(values: Mapping[str, float]) -> dict[str, float | None]:

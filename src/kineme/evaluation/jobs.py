@@ -6,7 +6,7 @@ import time
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -15,6 +15,10 @@ from kineme.evaluation.comparison import Comparison, compare
 from kineme.evaluation.methods import segment_by
 from kineme.evaluation.recordings import Reading
 from kineme.labels.collections import LabelSource
+from kineme.recordings.motion import Motion
+from kineme.recordings.signals import Signals
+from kineme.segments.segmentation import Segmentation
+from kineme.transfer.moments import Moments, moments_of
 
 
 @dataclass(frozen=True)
@@ -25,9 +29,21 @@ class Job:
     source: LabelSource
     method: str
     reading: Reading
+    joins: bool = False
+    """Whether clusters will be joined with those of other recordings."""
 
     def __hash__(self) -> int:
         return hash((self.path, self.method))
+
+
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """Both sides of a comparison, to join the clusters of several recordings first."""
+
+    truth: Segmentation
+    found: Segmentation
+    moments: Moments | None
+    """Of signals; motions are read again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +51,7 @@ class Answer:
     """What came out of a job: something to compare, or an error."""
 
     compared: Comparison | None = None
+    sides: Sides | None = None
     classes: Mapping[str, int] = field(default_factory=dict)
     seconds: float = 0.0
     length_s: float = 0.0
@@ -80,10 +97,28 @@ def _answer(job: Job) -> Answer:
             found = segment_by(job.method, recording, n_classes=len(classes))
             seconds = time.perf_counter() - start
             compared = compare(truth, found, classes=classes)
+            sides = sides_of(recording, truth, found) if job.joins else None
     except (KinemeError, ValueError, ArithmeticError, MemoryError) as error:
         return _failed(error)
     notes = tuple(truth.provenance.get("notes", ()))
-    return Answer(compared, classes, seconds, recording.n_frames / recording.fps, notes)
+    length_s = recording.n_frames / recording.fps
+    return Answer(compared, sides, classes, seconds, length_s, notes)
+
+
+def sides_of(recording: Motion | Signals, truth: Segmentation, found: Segmentation) -> Sides:
+    """Both sides as they can be joined with others.
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+    truth, found : Segmentation
+
+    Returns
+    -------
+    Sides
+    """
+    moments = moments_of(recording) if isinstance(recording, Signals) else None
+    return Sides(truth, replace(found, hierarchy=None), moments)
 
 
 def _failed(error: BaseException) -> Answer:

@@ -1,7 +1,8 @@
 """One number for one movement, over several recordings.
 
-Recording by recording, clusters are looked for in those before as label
-transfer looks for labels, with the clusters' numbers for names.
+Recording by recording, clusters of bodies are looked for in those before as label
+transfer looks for labels, with the clusters' numbers for names. Those of signals are
+found anew over all recordings, see `kineme.transfer.vocabulary`.
 """
 
 from __future__ import annotations
@@ -15,33 +16,42 @@ from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
 from kineme.matching import THRESHOLD
-from kineme.recordings import Motion
+from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.features import transfer_features
 from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.labels import transfer_labels
+from kineme.transfer.moments import moments_of
+from kineme.transfer.vocabulary import share_by_moments
 
 
 def share_clusters(
-    motions: Sequence[Motion],
+    recordings: Sequence[Motion] | Sequence[Signals],
     segmentations: Sequence[Segmentation],
     *,
     threshold: float = THRESHOLD,
+    n_clusters: int | None = None,
 ) -> list[Segmentation]:
     """The same segments, in which equal cluster numbers are equal movements everywhere.
 
-    The clusters of the first recording keep their numbers. A later cluster takes
+    Of motions the clusters of the first keep their numbers. A later cluster takes
     the number that most of its members find in the recordings before, if more
     than half find it; of two clusters of one recording only the one of more
     finds takes it. All others are numbered on.
 
+    Of signals each activity takes one of the clusters that the moments of all recordings
+    have together; repetitions have the cluster of their activity.
+
     Parameters
     ----------
-    motions : sequence of Motion
+    recordings : sequence of Motion or of Signals
+        Signals of the same channels.
     segmentations : sequence of Segmentation
         One for each; labels are neither used nor changed.
     threshold : float
-        Largest cost of a match; see `transfer_labels`.
+        Of motions, largest cost of a match; see `transfer_labels`.
+    n_clusters : int, optional
+        Of signals, how many clusters to tell apart; found out by default.
 
     Returns
     -------
@@ -52,7 +62,8 @@ def share_clusters(
     EndEffectorError
         Head, hands or feet were not found.
     ParameterError
-        Other segmentations than the motions'.
+        Other segmentations than the recordings', signals of other channels, or both
+        motions and signals.
 
     Examples
     --------
@@ -65,11 +76,25 @@ def share_clusters(
     >>> other.repetitions() == one.repetitions()
     True
     """
-    if [m.n_frames for m in motions] != [s.n_frames for s in segmentations]:
+    if [r.n_frames for r in recordings] != [s.n_frames for s in segmentations]:
         raise ParameterError(
-            f"segments of {[s.n_frames for s in segmentations]} frames do not belong to motions "
-            f"of {[m.n_frames for m in motions]}"
+            f"segments of {[s.n_frames for s in segmentations]} frames do not belong to recordings "
+            f"of {[r.n_frames for r in recordings]}"
         )
+    signals = [each for each in recordings if isinstance(each, Signals)]
+    if not signals:
+        motions = [each for each in recordings if isinstance(each, Motion)]
+        return _numbered_on(motions, segmentations, threshold)
+    if len(signals) < len(recordings):
+        raise ParameterError("clusters are shared over motions or over signals, not over both")
+    moments = [moments_of(each) for each in signals]
+    return share_by_moments(moments, segmentations, n_clusters=n_clusters)
+
+
+def _numbered_on(
+    motions: Sequence[Motion], segmentations: Sequence[Segmentation], threshold: float
+) -> list[Segmentation]:
+    """The clusters of motions by the numbers of those before, or by the next ones."""
     known: KnowledgeBase | None = None
     shared, following = [], 0
     for motion, found in zip(motions, segmentations, strict=True):

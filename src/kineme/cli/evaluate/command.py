@@ -49,10 +49,21 @@ def evaluate(
     mapping: Annotated[
         Mapped,
         typer.Option(
-            help="Whether clusters stand for classes of one recording, or for the same in all.",
+            help="Whether clusters stand for classes of one recording, or for the same in all, "
+            "over which they are joined before.",
             rich_help_panel=FOLDER,
         ),
     ] = "recording",
+    clusters: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=1,
+            help="With --mapping folder: join the clusters of signals into so many; found out by "
+            "default.",
+            rich_help_panel=FOLDER,
+        ),
+    ] = None,
     columns: Annotated[
         str | None,
         typer.Option(
@@ -137,6 +148,8 @@ def evaluate(
         if what != BENCHMARK and Path(what).is_dir():
             if labels is None:
                 raise typer.BadParameter("--labels FILE or FOLDER is needed for a folder")
+            if clusters is not None and mapping != "folder":
+                raise typer.BadParameter("--clusters N is of --mapping folder")
             from kineme.cli.evaluate.folder import run_folder
             from kineme.evaluation.recordings import Reading
 
@@ -145,6 +158,7 @@ def evaluate(
                 labels,
                 names or [DEFAULT],
                 mapping=mapping,
+                n_clusters=clusters,
                 reading=Reading(_listed(columns), _listed(without_columns)),
                 output=output,
                 as_json=as_json,

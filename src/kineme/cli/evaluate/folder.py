@@ -28,6 +28,7 @@ def run_folder(
     methods: Sequence[str],
     *,
     mapping: Mapped,
+    n_clusters: int | None,
     reading: Reading,
     output: Path | None,
     as_json: bool,
@@ -43,7 +44,14 @@ def run_folder(
         stage("looking for recordings")
         recordings = recordings_below(folder)
         found = labels_of(recordings, labels)
-        result = evaluate_folder(found, methods, mapping=mapping, reading=reading, progress=stage)
+        result = evaluate_folder(
+            found,
+            methods,
+            mapping=mapping,
+            n_clusters=n_clusters,
+            reading=reading,
+            progress=stage,
+        )
     if not quiet:
         _tell("without labels, left out", [path.name for path in recordings if path not in found])
     _tell_of_recordings(result, quiet=quiet)

@@ -1,0 +1,129 @@
+"""What channels are like, moment by moment, so that recordings of one collection can be compared.
+
+Five times a second and per channel: the mean over a second, and the logarithm of the deviation
+within it. A recording alone is divided by its own deviations; here all of a collection are divided
+by those of the collection: what lies still in one must not look like what runs in another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError
+from kineme.recordings import Signals
+
+Floats = NDArray[np.float64]
+Float32s = NDArray[np.float32]
+Ints = NDArray[np.int64]
+
+RATE = 5.0
+"""Moments per second."""
+WINDOW = 1.0
+"""Seconds around each."""
+STILL = 0.03
+"""Movement of less than this share of a channel's deviation in the collection is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Moments:
+    """What the channels of a recording are like at some of its frames.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Of the channels.
+    frames : (moments,) array
+        Where they are.
+    means, deviations : (moments, channels) array
+        In the units of the channels, over `WINDOW`.
+    """
+
+    names: tuple[str, ...]
+    frames: Ints
+    means: Float32s
+    deviations: Float32s
+
+
+def moments_of(signals: Signals) -> Moments:
+    """The moments of a recording, `RATE` a second outside of its gaps.
+
+    Parameters
+    ----------
+    signals : Signals
+
+    Returns
+    -------
+    Moments
+
+    Examples
+    --------
+    >>> from kineme import Signals
+    >>> moments_of(Signals([[0.0], [2.0]] * 20, fps=20)).deviations[4].tolist()
+    [1.0]
+    """
+    half = max(1, round(WINDOW / 2 * signals.fps))
+    parts = []
+    for first, stop in signals.spans():
+        values = signals.values[first:stop]
+        n = len(values)
+        at = np.arange(0, n, signals.fps / RATE).astype(np.int64)
+        spans = np.maximum(at - half, 0), np.minimum(at + half, n)
+        middle = values.mean(axis=0)
+        means = _means(values - middle, *spans)
+        squares = _means((values - middle) ** 2, *spans)
+        deviations = np.sqrt(np.maximum(squares - means**2, 0.0))
+        parts.append((first + at, means + middle, deviations))
+    frames, means, deviations = (np.concatenate(part) for part in zip(*parts, strict=True))
+    return Moments(
+        tuple(signals.names), frames, means.astype(np.float32), deviations.astype(np.float32)
+    )
+
+
+def in_common_units(recordings: Sequence[Moments]) -> list[Float32s]:
+    """Features (moments, 2 · channels) of each recording, in units of all of them.
+
+    Parameters
+    ----------
+    recordings : sequence of Moments
+        With the same channels.
+
+    Returns
+    -------
+    list of ndarray
+
+    Raises
+    ------
+    ParameterError
+        Their channels differ.
+    """
+    for one in recordings:
+        if one.names != recordings[0].names:
+            raise ParameterError(
+                "clusters are shared over recordings of the same channels, not of "
+                f"{', '.join(recordings[0].names):.80} and of {', '.join(one.names):.80}"
+            )
+    means = np.concatenate([one.means for one in recordings]).astype(np.float64)
+    deviations = np.concatenate([one.deviations for one in recordings]).astype(np.float64)
+    whole = np.sqrt(means.var(axis=0) + (deviations**2).mean(axis=0))
+    whole[whole == 0] = 1.0
+    energies = np.log(deviations / whole + STILL)
+    features = np.hstack([_standardized(means), _standardized(energies)]).astype(np.float32)
+    ends = np.cumsum([len(one.frames) for one in recordings])[:-1]
+    return np.split(features, ends)
+
+
+def _means(values: Floats, first: Ints, last: Ints) -> Floats:
+    sums = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
+    means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
+    return means
+
+
+def _standardized(values: Floats) -> Floats:
+    centred = values - values.mean(axis=0)
+    deviation = centred.std(axis=0)
+    scaled: Floats = centred / np.where(deviation > 1e-9 * np.abs(values).max(), deviation, np.inf)
+    return scaled
