@@ -24,8 +24,8 @@ RATE = 5.0
 """Moments per second."""
 WINDOW = 1.0
 """Seconds around each."""
-STILL = 0.03
-"""Movement of less than this share of a channel's deviation in the collection is none."""
+STILL = 0.05
+"""Movement of less than this share of how much a channel's means vary in the collection is none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,9 +108,9 @@ def in_common_units(recordings: Sequence[Moments]) -> list[Float32s]:
             )
     means = np.concatenate([one.means for one in recordings]).astype(np.float64)
     deviations = np.concatenate([one.deviations for one in recordings]).astype(np.float64)
-    whole = np.sqrt(means.var(axis=0) + (deviations**2).mean(axis=0))
-    whole[whole == 0] = 1.0
-    energies = np.log(deviations / whole + STILL)
+    varies = means.std(axis=0)
+    varies = np.where(varies > 0, varies, np.sqrt((deviations**2).mean(axis=0)))
+    energies = np.log(deviations / np.where(varies > 0, varies, 1.0) + STILL)
     features = np.hstack([_standardized(means), _standardized(energies)]).astype(np.float32)
     ends = np.cumsum([len(one.frames) for one in recordings])[:-1]
     return np.split(features, ends)
