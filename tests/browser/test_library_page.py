@@ -32,7 +32,7 @@ def test_a_cluster_is_named_more_of_it_found_and_what_is_wrong_refused(new_tab, 
         name = page.get_by_label("Name of cluster 0", exact=True)
         name.fill("walk")
         name.press("Enter")
-        page.get_by_role("button", name="Find more like walk").click()
+        page.get_by_role("button", name="Find more like this: walk").click()
         page.locator(".hit .figure[data-drawn=true]").first.wait_for()
         assert Library(library).numbers("walk") == [0]
         before = distances(page)

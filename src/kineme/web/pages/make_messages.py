@@ -4,7 +4,8 @@
 
 writes ``src/messages.ts`` beside this file from `kineme.web.messages`,
 `kineme.web.folder_messages`, `kineme.web.library_messages` and
-`kineme.web.requests`: the same names, with their docstrings. Generators that start from JSON Schema lose the names of ``Level`` and ``Edit`` and need a
+`kineme.web.requests`: the same names, with their docstrings. Generators
+that start from JSON Schema lose the names of ``Level`` and ``Edit`` and need a
 node package more; this one reads ``msgspec.inspect``. A test fails while the
 two sides differ.
 """

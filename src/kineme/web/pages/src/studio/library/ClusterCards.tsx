@@ -78,7 +78,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
       <div class="card-tools">
         <button
           type="button"
-          aria-label={`Find more like ${called}`}
+          aria-label={`Find more like this: ${called}`}
           onClick={() =>
             void page.ask({ title: called, like: [], unlike: [], cluster: it.cluster })
           }

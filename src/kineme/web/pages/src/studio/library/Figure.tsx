@@ -52,6 +52,7 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
   const canvas = useRef<HTMLCanvasElement>(null);
   const sketch = useSignal<Sketch | null>(null);
   const gone = useSignal(false);
+  const visible = useRef(false);
   const strip = playing === undefined;
   const { recording, start_s, stop_s } = span;
 
@@ -69,8 +70,8 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
     gone.value = false;
     let here = true;
     const seen = new IntersectionObserver((entries) => {
-      if (!entries.some((entry) => entry.isIntersecting)) return;
-      seen.disconnect();
+      visible.current = entries.at(-1)!.isIntersecting;
+      if (!visible.current || sketch.peek()) return;
       sketches
         .of({ recording, start_s, stop_s })
         .then((found) => here && (sketch.value = found))
@@ -98,7 +99,7 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
     const lasts = Math.max(stop_s - start_s, 0.1) * 1000;
     let picture = 0;
     const next = (now: number): void => {
-      draw((now % lasts) / lasts);
+      if (visible.current) draw((now % lasts) / lasts);
       picture = requestAnimationFrame(next);
     };
     picture = requestAnimationFrame(next);

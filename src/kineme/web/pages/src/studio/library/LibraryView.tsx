@@ -21,13 +21,13 @@ export function LibraryView({ page }: { page: LibraryPage }): JSX.Element {
       <header>
         <h1>kineme</h1>
         <span class="folder quiet" title={state?.folder}>
-          {state?.folder}
+          {state?.folder.split(/[\\/]/).at(-1)}
         </span>
         <span class="spacer" />
         {state && (
           <span class="quiet number sizes">
-            {state.recordings.length} recordings, {state.hours.toFixed(2)} h,{" "}
-            {state.clusters.length} clusters
+            {counted(state.recordings.length, "recording")}, {state.hours.toFixed(2)} h,{" "}
+            {counted(state.clusters.length, "cluster")}
           </span>
         )}
         <IconButton icon="theme" label={`Show the page ${other}`} onClick={toggleTheme} />
@@ -44,4 +44,8 @@ export function LibraryView({ page }: { page: LibraryPage }): JSX.Element {
       )}
     </main>
   );
+}
+
+function counted(n: number, what: string): string {
+  return `${n} ${what}${n === 1 ? "" : "s"}`;
 }

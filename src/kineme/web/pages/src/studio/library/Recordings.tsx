@@ -54,7 +54,7 @@ export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
                   <button
                     type="button"
                     disabled={!each.vocabulary}
-                    aria-label={`Find more like a part of ${each.recording}`}
+                    aria-label={`Find like a part of ${each.recording}`}
                     onClick={() => {
                       page.span.value = {
                         recording: each.recording,

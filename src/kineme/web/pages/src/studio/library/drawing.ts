@@ -14,9 +14,11 @@ export function sheet(canvas: HTMLCanvasElement): CanvasRenderingContext2D | nul
   const [wide, tall] = [canvas.clientWidth, canvas.clientHeight];
   const pen = canvas.getContext("2d");
   if (!pen || !wide || !tall) return null;
-  canvas.width = Math.round(wide * devicePixelRatio);
-  canvas.height = Math.round(tall * devicePixelRatio);
-  pen.scale(devicePixelRatio, devicePixelRatio);
+  const [width, height] = [wide, tall].map((side) => Math.round(side * devicePixelRatio));
+  if (canvas.width !== width) canvas.width = width!;
+  if (canvas.height !== height) canvas.height = height!;
+  pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+  pen.clearRect(0, 0, wide, tall);
   pen.lineCap = pen.lineJoin = "round";
   return pen;
 }
