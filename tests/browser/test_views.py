@@ -21,11 +21,12 @@ SIZES = {390: 844, 768: 1024, 1024: 768, 1440: 900, 2560: 1000}
 WALKED = (390, 768, 1440)  # widths at which every view is looked at
 
 
-def violations(page: Any, *, colors_only: bool) -> list[str]:
-    """What axe-core objects to, level A or AA."""
+def violations(page: Any, part: str = "body", *, colors_only: bool = False) -> list[str]:
+    """What axe-core objects to in a part of the page, level A or AA."""
     rules = {"type": "rule", "values": ["color-contrast"]} if colors_only else RULES
     found = page.evaluate(
-        "(only) => axe.run(document, { runOnly: only, resultTypes: ['violations'] })", rules
+        "([part, only]) => axe.run(part, { runOnly: only, resultTypes: ['violations'] })",
+        [part, rules],
     )
     return [
         f"{each['id']}: {node['target']}, {node['failureSummary']}"
@@ -34,24 +35,28 @@ def violations(page: Any, *, colors_only: bool) -> list[str]:
     ]
 
 
-def views(page: Any, screen: Screen) -> Iterator[str]:
-    """Every view of a recording in the studio, one after the other."""
+def views(page: Any, screen: Screen) -> Iterator[tuple[str, str]]:
+    """Every view of a recording in the studio, one after the other, and what is new in it."""
     for tab in TABS:
         page.locator(f"#tab-{tab}").click()
         if tab == "review":
             page.keyboard.press("j")
         if tab == "clusters":
             page.locator(".cluster-name").first.click()
-        yield tab
+        yield tab, "body" if tab == TABS[0] else ".place-side"
     page.get_by_label("Preset", exact=True).select_option("voegele2014")
     screen.wait("k.other === 'Preview'")
-    yield "preview"
+    yield "preview", ".preset-panel"
     page.get_by_role("button", name="Discard").click()
     screen.wait("k.other === null")
+    page.keyboard.press("g")
+    page.locator(".channels canvas").wait_for()
+    yield "curves", ".place-curves"
+    page.keyboard.press("g")
     for key in DIALOGS:
         page.keyboard.press(key)
         page.locator("dialog[open]").wait_for()
-        yield f"dialog {key}"
+        yield f"dialog {key}", "dialog[open]"
         page.keyboard.press("Escape")
         page.locator("dialog[open]").wait_for(state="detached")
 
@@ -79,8 +84,9 @@ def test_nobody_is_kept_out_of_any_view(page, server, sensors, report):
         pytest.skip("no axe-core: npm ci in src/kineme/web/pages")
     screen, found = Screen(page), []
 
-    def look(view: str, *, colors_only: bool = False) -> None:
-        found.extend(f"{view}, {each}" for each in violations(page, colors_only=colors_only))
+    def look(view: str, part: str = "body", *, colors_only: bool = False) -> None:
+        said = violations(page, part, colors_only=colors_only)
+        found.extend(f"{view}, {each}" for each in said)
 
     def load() -> None:
         page.evaluate(f"{AXE.read_text(encoding='utf-8')}; 0")
@@ -88,8 +94,8 @@ def test_nobody_is_kept_out_of_any_view(page, server, sensors, report):
     load()
     for scheme in ("dark", "light"):
         page.emulate_media(color_scheme=scheme)
-        for view in views(page, screen):
-            look(f"{scheme}, {view}", colors_only=scheme == "light")
+        for view, part in views(page, screen):
+            look(f"{scheme}, {view}", part, colors_only=scheme == "light")
     page.goto(server.address_of(sensors))
     screen.wait("k?.segments?.length")
     load()
@@ -97,9 +103,9 @@ def test_nobody_is_kept_out_of_any_view(page, server, sensors, report):
     page.goto(report.as_uri())
     screen.opened()
     load()
-    for tab in page.get_by_role("tab").all():
+    for i, tab in enumerate(page.get_by_role("tab").all()):
         tab.click()
-        look(f"report, {tab.inner_text()}")
+        look(f"report, {tab.inner_text()}", ".place-side" if i else "body")
     assert found == []
 
 
@@ -111,14 +117,14 @@ def test_nothing_is_cut_off_covered_or_empty_at_any_size(page, server, sensors, 
 
     for width, height in SIZES.items():
         page.set_viewport_size({"width": width, "height": height})
-        for scheme in ("dark", "light"):
-            for motion in ("no-preference", "reduce"):
-                page.emulate_media(color_scheme=scheme, reduced_motion=motion)
-                screen.opened()
-                look(f"{width}, {scheme}, {motion}")
-                figure = page.locator(".viewer canvas").bounding_box()
-                assert figure["height"] > 200
-        for view in views(page, screen) if width in WALKED else ():
+        for scheme, motion in (("dark", "no-preference"), ("light", "reduce")):
+            page.emulate_media(color_scheme=scheme, reduced_motion=motion)
+            screen.opened()
+            look(f"{width}, {scheme}, {motion}")
+        assert page.locator(".viewer canvas").bounding_box()["height"] > 200
+        assert page.get_by_label("Frame", exact=True).is_visible()
+        assert page.get_by_label("Playhead", exact=True).is_visible()
+        for view, _ in views(page, screen) if width in WALKED else ():
             look(f"{width}, {view}")
     for address in (server.address_of(sensors), report.as_uri()):
         page.goto(address)

@@ -36,12 +36,12 @@ def other_way() -> Segmentation:
     return Segmentation.from_columns(columns, n_frames=60, fps=30.0)
 
 
-def test_names_go_to_the_clusters_and_segments_that_match() -> None:
+def test_numbers_and_names_go_to_the_clusters_and_segments_that_match() -> None:
     before = editing.name_cluster(walk_pause_jump(), 1, "jump")
     result = editing.carried(before, other_way())
-    assert spans(result.segmentation, "activity") == "0-33 c1 walk | 33-38 t | 38-60 c0 jump"
+    assert spans(result.segmentation, "activity") == "0-33 c0 walk | 33-38 t | 38-60 c1 jump"
     assert spans(result.segmentation, "primitive") == (
-        "0-11 c1 walk | 11-22 c1 limp | 22-33 c1 walk | 33-38 t | 38-60 c0 jump"
+        "0-11 c0 walk | 11-22 c0 limp | 22-33 c0 walk | 33-38 t | 38-60 c1 jump"
     )
     assert (result.corrections, result.names, result.lost) == (0, 3, [])
 
@@ -55,9 +55,9 @@ def test_names_that_match_nothing_are_listed() -> None:
 def test_what_was_made_by_hand_stays_as_it_was_made() -> None:
     before = by_hand(walk_pause_jump(), "move_border", "activity", 30, 28)
     result = editing.carried(before, other_way())
-    assert spans(result.segmentation, "activity") == "0-28 c1 walk | 28-40 t | 40-60 c0"
+    assert spans(result.segmentation, "activity") == "0-28 c0 walk | 28-40 t | 40-60 c1"
     assert spans(result.segmentation, "primitive") == (
-        "0-11 c1 walk | 11-20 c1 limp | 20-28 c1 walk | 28-40 t | 40-60 c0"
+        "0-11 c0 walk | 11-20 c0 limp | 20-28 c0 walk | 28-40 t | 40-60 c1"
     )
     assert result.corrections == 4
     assert marked(result.segmentation, "by_hand") == marked(before, "by_hand")

@@ -2,15 +2,17 @@
 
 Segments made by hand or checked (`kineme.segments.editing.marks`) are in it as they were;
 the new ones give way. Clusters are matched by the frames that they share: an old cluster is
-the new one that holds more than half of it, unless that has more of another. Names go where
-they match: that of a cluster to the matching one, that of a segment to the segment that it
-shares more than half of both their frames with. What finds no place is told.
+the new one that holds more than half of it, unless that has more of another. What matches keeps
+its number, and so its colour; other new clusters get numbers that the table so far has not. Names
+go where they match: that of a cluster to the matching one, that of a segment to the segment that
+it shares more than half of both their frames with. What finds no place is told.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, replace
+from itertools import count
 from typing import get_args
 
 import numpy as np
@@ -65,17 +67,16 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
     fixed = [row for row in before if span_of(row) in set().union(*marks.values())]
     if not len(found.primitives):
         fixed = [row for row in fixed if row.level == "activity"]
-    match = _matching_clusters(before, found, fixed)
     own = {span_of(row) for row in _with_own_name(before)}
-    placed = [_moved(row, match, keep=span_of(row) in own) for row in fixed]
-    now = imposed(found, placed)
+    placed = [row if span_of(row) in own else replace(row, label="") for row in fixed]
+    now = imposed(_numbered_like(before, found), placed)
     for mark, spans in marks.items():
         now = with_marks(now, mark, spans)
     now = with_comments(now, comments(before))
     if "corrections" in before.provenance and fixed:
-        count = {"corrections": before.provenance["corrections"]}
-        now = replace(now, provenance={**now.provenance, **count})
-    return _named(now, before, match, len(fixed))
+        corrections = {"corrections": before.provenance["corrections"]}
+        now = replace(now, provenance={**now.provenance, **corrections})
+    return _named(now, before, len(fixed))
 
 
 def names_of(segmentation: Segmentation) -> int:
@@ -88,27 +89,34 @@ def _with_own_name(segmentation: Segmentation) -> Rows:
     return [row for row in segmentation if row.label not in ("", names.get(row.cluster, ""))]
 
 
-def _matching_clusters(before: Segmentation, found: Segmentation, fixed: Rows) -> dict[int, int]:
-    """The new number of each old cluster that has one; corrections need one in any case."""
+def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
+    """The new segments, with the old numbers of the clusters that match."""
+    match = _matching_clusters(before, found)
+    taken = set(before.table.cluster.tolist())
+    free = (number for number in count() if number not in taken)
+    number = {-1: -1}
+    for cluster in sorted(set(found.table.cluster.tolist()) - {-1}):
+        number[cluster] = match[cluster] if cluster in match else next(free)
+    rows = [replace(row, cluster=number[row.cluster]) for row in found]
+    return with_rows(found, rows, [])
+
+
+def _matching_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]:
+    """The old number of each new cluster that has one."""
     shared: dict[int, Counter[int]] = {}
     for level in get_args(Level):
         pairs = np.stack([_by_frame(before, level), _by_frame(found, level)])
-        for (old, new), count in zip(*_counts(pairs), strict=True):
+        for (old, new), frames in zip(*_counts(pairs), strict=True):
             if old >= 0:
-                shared.setdefault(old, Counter())[new] += count
+                shared.setdefault(old, Counter())[new] += frames
     most = []
     for cluster, counts in shared.items():
-        new, count = counts.most_common(1)[0]
-        if new >= 0 and 2 * count > counts.total():
-            most.append((-count, cluster, new))
+        new, frames = counts.most_common(1)[0]
+        if new >= 0 and 2 * frames > counts.total():
+            most.append((-frames, cluster, new))
     match: dict[int, int] = {}
     for _, cluster, new in sorted(most):
-        if new not in match.values():
-            match[cluster] = new
-    following = int(found.table.cluster.max(initial=-1)) + 1
-    for cluster in sorted({row.cluster for row in fixed if row.cluster >= 0} - set(match)):
-        match[cluster] = following
-        following += 1
+        match.setdefault(new, cluster)
     return match
 
 
@@ -125,12 +133,7 @@ def _counts(pairs: NDArray[np.int64]) -> tuple[list[list[int]], list[int]]:
     return values.T.tolist(), counts.tolist()
 
 
-def _moved(row: Segment, match: dict[int, int], *, keep: bool) -> Segment:
-    """A segment of the old table as one of the new; its label only if that is its own."""
-    return replace(row, cluster=match.get(row.cluster, -1), label=row.label if keep else "")
-
-
-def _named(now: Segmentation, before: Segmentation, match: dict[int, int], fixed: int) -> Carried:
+def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
     """The new table with the names of the old one, and the names that found no place."""
     lost, given = [], dict[int, str]()
     there = set(now.table.cluster.tolist())
@@ -138,9 +141,8 @@ def _named(now: Segmentation, before: Segmentation, match: dict[int, int], fixed
     if not names and not own:
         return Carried(now, fixed, 0, [])
     for cluster, name in names.items():
-        new = match.get(cluster, -1)
-        if new >= 0 and new in there:
-            given[new] = name
+        if cluster in there:
+            given[cluster] = name
         else:
             lost.append(f"the name “{name}” of cluster {cluster}: no cluster matches it")
     for cluster, name in given.items():

@@ -1,5 +1,5 @@
 /** The self-similarity matrix: similar frames are bright; click to go there. */
-import { useEffect, useMemo } from "preact/hooks";
+import { useMemo } from "preact/hooks";
 import type { JSX } from "preact";
 import { Canvas } from "../canvas/Canvas";
 import { Line } from "../canvas/Line";
@@ -15,7 +15,6 @@ export function Matrix({ store }: { store: Store }): JSX.Element {
   const tiles = useMemo(() => (data ? new Tiles(data) : null), [data]);
   const gestures = useMemo(() => new MatrixGestures(store), [store]);
   const { pointed, rows } = gestures;
-  useEffect(() => tiles?.recolor(), [tiles, theme.value]);
   if (!tiles) return <div class="matrix" />;
 
   return (
@@ -36,6 +35,7 @@ export function Matrix({ store }: { store: Store }): JSX.Element {
           draw={(pen, width) => {
             // Those of one recording and the tiles of another do not go together.
             const { active } = store;
+            tiles.colorFor(theme.value);
             const head = active.value?.data === data ? store.recording.value?.matrix : undefined;
             const frame = { side: width - EDGE, down: rows.value, across: store.range.value };
             if (head && head.sizes.length) drawMatrix(pen, head, tiles, frame, store);

@@ -2,30 +2,37 @@
 import { signal } from "@preact/signals";
 import { channelsOf } from "../colors";
 import type { RecordingData } from "../recordingData";
-import { cssColor } from "../theme";
+import { cssColor, type Theme } from "../theme";
 import type { Place } from "./pyramid";
 
-const MOST = 240; // tiles in memory, a quarter of a megabyte each
+const MOST = 240; // tiles in memory, a third of a megabyte each
 const AT_ONCE = 6;
+
+interface Tile {
+  /** How similar, from 0 to 255. */
+  grey: Uint8Array;
+  picture: OffscreenCanvas;
+}
 
 export class Tiles {
   /** Grows whenever a tile has come. */
   readonly arrived = signal(0);
-  private readonly pictures = new Map<string, OffscreenCanvas | null>();
+  private readonly pictures = new Map<string, Tile | null>();
   private readonly waiting = new Map<string, Place>();
   private loading = 0;
   private shades = shadesOfPage();
+  private theme: Theme | null = null;
 
   constructor(private readonly data: RecordingData) {}
 
   /** The picture of a tile; undefined while it is on its way, null where there is none. */
   get(place: Place): OffscreenCanvas | null | undefined {
     const key = `${place.level}/${place.row}/${place.column}`;
-    const picture = this.pictures.get(key);
-    if (picture !== undefined) {
+    const tile = this.pictures.get(key);
+    if (tile !== undefined) {
       this.pictures.delete(key); // to the end: the first ones are forgotten first
-      this.pictures.set(key, picture);
-      return picture;
+      this.pictures.set(key, tile);
+      return tile && tile.picture;
     }
     if (!this.waiting.has(key)) {
       this.waiting.set(key, place);
@@ -39,10 +46,12 @@ export class Tiles {
     this.waiting.clear();
   }
 
-  /** Draws all tiles anew in the present colours. */
-  recolor(): void {
+  /** Puts all tiles into the colours of a theme at once, as paper does not wait. */
+  colorFor(theme: Theme): void {
+    if (theme === this.theme) return;
+    this.theme = theme;
     this.shades = shadesOfPage();
-    this.pictures.clear();
+    for (const tile of this.pictures.values()) if (tile) paint(tile, this.shades);
   }
 
   private async load(): Promise<void> {
@@ -52,11 +61,11 @@ export class Tiles {
     const [key, { level, row, column }] = next;
     this.waiting.delete(key);
     this.loading += 1;
-    const { shades } = this;
     try {
       const blob = await this.data.tile(level, row, column);
-      const picture = blob && (await colored(blob, shades));
-      if (shades === this.shades) this.store(key, picture);
+      const tile = blob && (await decoded(blob));
+      if (tile) paint(tile, this.shades);
+      this.store(key, tile);
     } catch {
       this.store(key, null); // a coarser tile is shown in its place
     } finally {
@@ -66,30 +75,37 @@ export class Tiles {
     void this.load();
   }
 
-  private store(key: string, picture: OffscreenCanvas | null): void {
-    this.pictures.set(key, picture);
+  private store(key: string, tile: Tile | null): void {
+    this.pictures.set(key, tile);
     const first = this.pictures.keys().next().value;
     if (this.pictures.size > MOST && first !== undefined) this.pictures.delete(first);
   }
 }
 
-/** Grey becomes the colour between those of unlike and equal. */
-async function colored(blob: Blob, shades: Uint8ClampedArray): Promise<OffscreenCanvas> {
+async function decoded(blob: Blob): Promise<Tile> {
   const bitmap = await createImageBitmap(blob);
-  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-  const pen = canvas.getContext("2d", { willReadFrequently: true })!;
+  const picture = new OffscreenCanvas(bitmap.width, bitmap.height);
+  const pen = picture.getContext("2d", { willReadFrequently: true })!;
   pen.drawImage(bitmap, 0, 0);
   bitmap.close();
-  const pixels = pen.getImageData(0, 0, canvas.width, canvas.height);
+  const { data } = pen.getImageData(0, 0, picture.width, picture.height);
+  const grey = new Uint8Array(data.length / 4);
+  for (let i = 0; i < grey.length; i++) grey[i] = data[4 * i]!;
+  return { grey, picture };
+}
+
+/** Grey becomes the colour between those of unlike and equal. */
+function paint({ grey, picture }: Tile, shades: Uint8ClampedArray): void {
+  const pixels = new ImageData(picture.width, picture.height);
   const { data } = pixels;
-  for (let i = 0; i < data.length; i += 4) {
-    const grey = 3 * data[i]!;
-    data[i] = shades[grey]!;
-    data[i + 1] = shades[grey + 1]!;
-    data[i + 2] = shades[grey + 2]!;
+  for (let i = 0; i < grey.length; i++) {
+    const shade = 3 * grey[i]!;
+    data[4 * i] = shades[shade]!;
+    data[4 * i + 1] = shades[shade + 1]!;
+    data[4 * i + 2] = shades[shade + 2]!;
+    data[4 * i + 3] = 255;
   }
-  pen.putImageData(pixels, 0, 0);
-  return canvas;
+  picture.getContext("2d")!.putImageData(pixels, 0, 0);
 }
 
 function shadesOfPage(): Uint8ClampedArray {

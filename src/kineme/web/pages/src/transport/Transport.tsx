@@ -62,6 +62,7 @@ export function Transport({ store, curves = false }: Props): JSX.Element {
       {curves && (
         <button
           type="button"
+          class="curves-button"
           aria-pressed={store.curves.value}
           title="Curves and signals over time (G)"
           onClick={() => (store.curves.value = !store.curves.value)}

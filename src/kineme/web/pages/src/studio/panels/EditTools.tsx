@@ -5,7 +5,7 @@ import type { Editor } from "../editing/editor";
 export function EditTools({ editor }: { editor: Editor }): JSX.Element {
   const disabled = !editor.segment.value;
   return (
-    <span class="group" role="group" aria-label="Segments">
+    <span class="group edit-tools" role="group" aria-label="Segments">
       <button
         type="button"
         disabled={disabled}
