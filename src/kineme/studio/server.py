@@ -96,7 +96,7 @@ def serve(
         hub = Hub()
         folder = Folder(root, files) if library is None else library.as_folder()
         recordings = OpenRecordings(folder, hub.tell, options)
-        forget_drafts(root)
+        forget_drafts(folder.root)
         config = uvicorn.Config(
             create_app(recordings, token=token, port=number, hub=hub, library=library),
             log_level=logging.ERROR,

@@ -106,7 +106,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
       {dialog.value === "merge" && (
         <ChoiceDialog
           title={`Merge into ${called}`}
-          say="Those chosen become part of it, in every recording; their own names and numbers go."
+          say="Those chosen become part of it, in every recording; their own names and numbers go. This cannot be undone."
           action="Merge"
           close={close}
           choices={others.map((other) => ({
@@ -119,7 +119,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
       {dialog.value === "split" && (
         <ChoiceDialog
           title={`Split ${called}`}
-          say="What it has in the recordings chosen, some but not all, becomes a cluster of its own."
+          say="What it has in the recordings chosen, some but not all, becomes a cluster of its own. This cannot be undone."
           action="Split"
           most={n - 1}
           close={close}

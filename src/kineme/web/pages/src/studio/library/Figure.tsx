@@ -8,6 +8,7 @@ import { unpackMotion } from "../../motion";
 import { theme } from "../../theme";
 import { drawCurves, drawPoses, sheet, type Sketch } from "./drawing";
 import { flattened } from "./flat";
+import { explain } from "../server/answers";
 import type { LibraryApi } from "./libraryApi";
 
 const POSES = [0, 1 / 6, 2 / 6, 3 / 6, 4 / 6, 5 / 6, 1];
@@ -51,7 +52,7 @@ interface Props {
 export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
   const sketch = useSignal<Sketch | null>(null);
-  const gone = useSignal(false);
+  const failure = useSignal("");
   const visible = useRef(false);
   const strip = playing === undefined;
   const { recording, start_s, stop_s } = span;
@@ -67,7 +68,7 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
 
   useEffect(() => {
     sketch.value = null;
-    gone.value = false;
+    failure.value = "";
     let here = true;
     const seen = new IntersectionObserver((entries) => {
       visible.current = entries.at(-1)!.isIntersecting;
@@ -75,7 +76,7 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
       sketches
         .of({ recording, start_s, stop_s })
         .then((found) => here && (sketch.value = found))
-        .catch(() => here && (gone.value = true));
+        .catch((error: unknown) => here && (failure.value = explain(error)));
     });
     seen.observe(canvas.current!);
     const sized = new ResizeObserver(() => draw(0.5));
@@ -96,9 +97,11 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
       draw(0.5);
       return;
     }
-    const lasts = Math.max(stop_s - start_s, 0.1) * 1000;
     let picture = 0;
     const next = (now: number): void => {
+      const { flat } = sketch.peek() ?? {};
+      const shown_s = flat ? flat.poses.length / flat.fps : stop_s - start_s;
+      const lasts = 1000 * Math.max(shown_s, 0.1);
       if (visible.current) draw((now % lasts) / lasts);
       picture = requestAnimationFrame(next);
     };
@@ -109,7 +112,11 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
   return (
     <span class="figure" data-drawn={sketch.value !== null}>
       <canvas ref={canvas} aria-hidden="true" />
-      {gone.value && <span class="quiet">its file is gone</span>}
+      {failure.value && (
+        <span class="quiet" title={failure.value}>
+          cannot be drawn
+        </span>
+      )}
     </span>
   );
 }

@@ -43,12 +43,18 @@ export class LibraryPage {
     await this.trying(async () => (this.state.value = await this.api.library()));
   }
 
+  /** The library as it is now, others may have named clusters; what went wrong stays shown. */
+  async refresh(): Promise<void> {
+    if (this.state.value && !this.problem.value) await this.start();
+  }
+
   /** The edit is on the disk once this has ended; whether it was made. */
   async edit(edit: LibraryEdit): Promise<boolean> {
     const made = await this.trying(async () => {
       this.state.value = await this.api.editLibrary(edit);
     });
     if (made) this.relabel();
+    else this.problem.value = `Not saved: ${this.problem.value}`;
     return made;
   }
 

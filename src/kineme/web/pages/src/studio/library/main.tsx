@@ -13,4 +13,5 @@ const page = new LibraryPage(api);
 shareToken(api);
 document.title = "Library · kineme studio";
 render(<LibraryView page={page} />, document.getElementById("page")!);
+addEventListener("focus", () => void page.refresh());
 void page.start();
