@@ -7,7 +7,7 @@ interface Props<Value> {
   title: string;
   say: string;
   action: string;
-  choices: { value: Value; text: string }[];
+  choices: { value: Value; text: string; picture?: JSX.Element }[];
   /** So many may be chosen; all by default. */
   most?: number;
   /** Does it; whether it was done. */
@@ -28,7 +28,7 @@ export function ChoiceDialog<Value>(props: Props<Value>): JSX.Element {
     <Dialog title={title} close={close}>
       <p>{say}</p>
       <ul class="choice-list">
-        {choices.map(({ value, text }) => (
+        {choices.map(({ value, text, picture }) => (
           <li key={value}>
             <label>
               <input
@@ -37,6 +37,7 @@ export function ChoiceDialog<Value>(props: Props<Value>): JSX.Element {
                 onChange={() => toggle(value)}
               />{" "}
               {text}
+              {picture}
             </label>
           </li>
         ))}

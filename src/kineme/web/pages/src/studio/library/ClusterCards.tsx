@@ -51,7 +51,6 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
   const { page, cluster: it } = props;
   const dialog = useSignal<"merge" | "split" | null>(null);
   const called = it.label || `cluster ${it.cluster}`;
-  const span = { recording: it.example, start_s: it.start_s, stop_s: it.stop_s };
   const close = (): void => void (dialog.value = null);
   const n = it.recordings.length;
   const others = (page.state.value?.clusters ?? []).filter(
@@ -69,7 +68,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
           onName={(name) => void page.edit({ kind: "name", cluster: it.cluster, name })}
         />
       </div>
-      <Figure sketches={page.sketches} span={span} cluster={it.cluster} />
+      <Strip page={page} cluster={it} />
       <p class="quiet number">
         {it.repetitions || it.activities} × {seconds(it.typical_s)}, {seconds(it.seconds)} in all,
         in {n} {n === 1 ? "recording" : "recordings"}
@@ -112,6 +111,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
           choices={others.map((other) => ({
             value: other.cluster,
             text: `${other.cluster} ${other.label}`,
+            picture: <Strip page={page} cluster={other} />,
           }))}
           choose={(chosen) => page.edit({ kind: "merge", cluster: it.cluster, others: chosen })}
         />
@@ -132,4 +132,11 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
       )}
     </li>
   );
+}
+
+/** The most typical segment of a cluster. */
+function Strip(props: { page: LibraryPage; cluster: LibraryCluster }): JSX.Element {
+  const { cluster, example, start_s, stop_s } = props.cluster;
+  const span = { recording: example, start_s, stop_s };
+  return <Figure sketches={props.page.sketches} span={span} cluster={cluster} />;
 }
