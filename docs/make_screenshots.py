@@ -35,6 +35,7 @@ DRAWN_IN_SOFTWARE = [
     "--enable-unsafe-swiftshader",
 ]
 NAMES = ("walk", "squat", "arm circles", "jump", "run", "kick")  # of clusters 0 to 5
+LIBRARY_NAMES = ("walk", "squat", "arm circles", "kick", "jump", "run")
 STILL = 1500  # milliseconds until trails, tiles and curves are drawn
 
 
@@ -47,6 +48,10 @@ def main() -> None:
         browser = driver.chromium.launch(executable_path=chromium, args=DRAWN_IN_SOFTWARE)
         with studio(folder) as address:
             draw_studio(browser.new_page(viewport=SIZE, color_scheme="dark"), address)
+        library = folder / "library"
+        kineme.library.build(kineme.bundled_recording(), library)
+        with studio(library) as address:
+            draw_library(browser.new_page(viewport=SIZE, color_scheme="light"), address)
         draw_report(browser.new_page(viewport=SIZE, color_scheme="light"), folder)
         browser.close()
 
@@ -71,6 +76,21 @@ def draw_studio(page: Page, address: str) -> None:
     page.get_by_role("button", name="truth.csv").click()
     page.get_by_text("Stop comparing").wait_for()
     save(page, "studio-compare")
+
+
+def draw_library(page: Page, address: str) -> None:
+    page.goto(address)
+    for cluster, name in enumerate(LIBRARY_NAMES):
+        page.get_by_label(f"Name of cluster {cluster}", exact=True).fill(name)
+        page.keyboard.press("Enter")
+        page.get_by_role("button", name=f"Find more like this: {name}").wait_for()
+    save(page, "studio-library")
+    page.get_by_role("button", name="Find more like this: walk").click()
+    page.locator(".hit .figure[data-drawn=true]").first.wait_for()
+    page.locator(".hit").first.focus()
+    for key in "yyn":
+        page.keyboard.press(key)
+    save(page, "studio-library-search")
 
 
 def draw_report(page: Page, folder: Path) -> None:

@@ -101,8 +101,8 @@ ROOMS = {
     "report": Room("one page of HTML that shows a recording", "features segments web"),
     "studio": Room(
         "a local server and its page: recordings looked at, tables corrected and kept",
-        "clips datasets evaluation features formats labels methods recordings report segmentation "
-        "segments transfer web",
+        "clips datasets evaluation features formats labels library methods recordings report "
+        "segmentation segments transfer web",
     ),
     "cli": Room("commands, one small file each", "*"),
 }

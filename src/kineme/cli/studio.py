@@ -18,7 +18,7 @@ def studio(
         list[Path] | None,
         typer.Argument(
             metavar="[FILES|FOLDER]",
-            help="Recordings, or a folder of them; by default the folder you are in.",
+            help="Recordings, a folder of them, or a library; by default the folder you are in.",
         ),
     ] = None,
     port: Annotated[
@@ -44,11 +44,22 @@ def studio(
         from kineme.studio.server import serve
 
         options = ReadingOptions(ReadOptions(**(reading or {})), effector_names(effectors))
+        library = None
+        if recordings is None and (root / "library.json").is_file():
+            if reading or effectors:
+                raise ParameterError(f"{root} is a library, read as it was built: no such options")
+            from kineme.studio.library.shown import ShownLibrary
+
+            library = ShownLibrary(root)
+            options = library.options()
 
         def announce(address: str) -> None:
             typer.echo(f"kineme studio: {address} (Ctrl+C ends it)")
 
-        serve(root, recordings, options=options, port=port, browser=browser, announce=announce)
+        serve(
+            root, recordings, options=options, port=port, browser=browser, announce=announce,
+            library=library,
+        )  # fmt: skip
     failures.exit()
 
 

@@ -140,7 +140,8 @@ def numbers_of(tables: OpenTables, cluster: int | str) -> list[int]:
     """
     there = sorted(set(tables.columns("words")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)
-    found = [number for number in there if edits.name(number) == text]
+    named = isinstance(cluster, str)  # a whole number is never taken for a name of digits
+    found = [number for number in there if named and edits.name(number) == text]
     if not found and text.isdecimal():
         found = [number for number in there if number == edits.number(int(text))]
     if not found:

@@ -77,18 +77,18 @@ class OpenTables:
         """A table, one of `kineme.library.tables.DESCRIBED`, as a pyarrow.Table."""
         if name not in self._computed:
             self._computed[name] = read_table(self.folder, self.head["tables"], name)
-        if name not in self._edited:
-            self._edited[name] = edited(self._computed[name], self.edits)
-        return self._edited[name]
+        kept = self._edited  # an edit, in another thread, begins a new one
+        if name not in kept:
+            kept[name] = edited(self._computed[name], self.edits)
+        return kept[name]
 
     def columns(self, name: str) -> Columns:
         """The same as arrays."""
-        if name not in self._arrays:
+        kept = self._arrays
+        if name not in kept:
             table = self.table(name)
-            self._arrays[name] = {
-                column: as_array(table.column(column)) for column in table.column_names
-            }
-        return self._arrays[name]
+            kept[name] = {column: as_array(table.column(column)) for column in table.column_names}
+        return kept[name]
 
     @cached_property
     def rows(self) -> dict[str, tuple[int, int]]:

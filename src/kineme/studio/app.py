@@ -5,6 +5,7 @@ from __future__ import annotations
 import mimetypes
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from starlette.applications import Starlette
 from starlette.background import BackgroundTask
@@ -19,14 +20,17 @@ from kineme.studio.answers import MessageResponse
 from kineme.studio.bodies import TooSlowError
 from kineme.studio.events import Hub
 from kineme.studio.open_recording import ConflictError
-from kineme.studio.open_recordings import OpenRecordings, UnknownError
+from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.routes import Api
 from kineme.studio.security import Guard, is_trusted
 from kineme.studio.uploads import LIMIT, TooLargeError
 from kineme.web.messages import Conflict, Failure
 
+if TYPE_CHECKING:
+    from kineme.studio.library.shown import ShownLibrary
+
 STATIC = Path(__file__).parents[1] / "web" / "static"
-PAGE = "studio.html"
+PAGE, LIBRARY_PAGE = "studio.html", "library.html"
 Handler = Callable[[Request, Exception], Response]
 STATUS: dict[type[Exception], int] = {
     KinemeError: 400,
@@ -34,6 +38,7 @@ STATUS: dict[type[Exception], int] = {
     TooLargeError: 413,
     TooSlowError: 408,
     WriteError: 500,
+    SupersededError: 409,
 }
 
 mimetypes.add_type("text/javascript", ".js")  # the registry of Windows may say something else
@@ -45,6 +50,7 @@ def create_app(
     token: str,
     port: int,
     hub: Hub,
+    library: ShownLibrary | None = None,
     static: Path = STATIC,
     limit: int = LIMIT,
 ) -> Guard:
@@ -59,6 +65,8 @@ def create_app(
         The server's own.
     hub : Hub
         Where news of the recordings go through.
+    library : ShownLibrary, optional
+        That the recordings are of; its page is shown where none of them is named.
     static : Path
         The built page.
     limit : int
@@ -70,18 +78,19 @@ def create_app(
     """
 
     def page(request: Request) -> Response:
-        path = static / PAGE
+        names = request.query_params.getlist("open")
+        path = static / (PAGE if library is None or names else LIBRARY_PAGE)
         if not path.is_file():
             return _failure("this page has not been built: npm run build", 404)
         answer = FileResponse(path)
         if is_trusted(request):  # the recordings are read while the browser sets up the page
-            names = request.query_params.getlist("open")
             answer.background = BackgroundTask(recordings.prepare, names)
         return answer
 
     handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _refused)
     app = Starlette(
         routes=[
+            *library_routes(library),
             *Api(recordings, hub, limit=limit).routes(),
             Route("/", page),
             Mount("/assets", StaticFiles(directory=static / "assets", check_dir=False)),
@@ -95,6 +104,15 @@ def create_app(
         },
     )
     return Guard(app, token=token, port=port)
+
+
+def library_routes(library: ShownLibrary | None) -> list[Route]:
+    """The addresses of a library, if there is one."""
+    if library is None:
+        return []
+    from kineme.studio.library.routes import LibraryApi  # reads Parquet
+
+    return LibraryApi(library).routes()
 
 
 def _refused(_: Request, error: Exception) -> Response:

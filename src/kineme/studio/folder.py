@@ -31,6 +31,8 @@ class Folder:
         The recordings to list; by default all that lie in the folder.
     """
 
+    of_library = False
+
     def __init__(self, root: Path, files: Iterable[Path] | None = None):
         self.root = root
         self._files = None if files is None else list(files)

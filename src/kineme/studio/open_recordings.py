@@ -27,6 +27,10 @@ class UnknownError(Exception):
     """There is no such recording, file or tile."""
 
 
+class SupersededError(Exception):
+    """Something newer was asked for."""
+
+
 class OpenRecordings:
     """The recordings of a folder, each opened once.
 

@@ -160,6 +160,7 @@ class Api:
         return State(
             version=__version__,
             folder=str(folder.root.absolute()),
+            of_library=folder.of_library,
             suffixes=recording_suffixes(),
             recordings=[_listing(name, path) for name, path in folder.recordings().items()],
             presets=choices.presets(),

@@ -20,6 +20,7 @@ from kineme.studio.events import Hub
 from kineme.studio.security import new_token
 
 if TYPE_CHECKING:
+    from kineme.studio.library.shown import ShownLibrary
     from kineme.studio.open_recordings import OpenRecordings
     from kineme.studio.reading import ReadingOptions
 
@@ -53,6 +54,7 @@ def serve(
     port: int | None,
     browser: bool,
     announce: Callable[[str], None],
+    library: ShownLibrary | None = None,
 ) -> None:
     """Serve until Ctrl+C.
 
@@ -70,6 +72,8 @@ def serve(
         Open the address in the browser.
     announce : callable
         Called with the address.
+    library : ShownLibrary, optional
+        Whose recordings are shown, in place of those of the folder.
 
     Raises
     ------
@@ -90,10 +94,11 @@ def serve(
         from kineme.studio.uploads import forget_drafts
 
         hub = Hub()
-        recordings = OpenRecordings(Folder(root, files), hub.tell, options)
-        forget_drafts(root)
+        folder = Folder(root, files) if library is None else library.as_folder()
+        recordings = OpenRecordings(folder, hub.tell, options)
+        forget_drafts(folder.root)
         config = uvicorn.Config(
-            create_app(recordings, token=token, port=number, hub=hub),
+            create_app(recordings, token=token, port=number, hub=hub, library=library),
             log_level=logging.ERROR,
             access_log=False,  # addresses hold the token
             server_header=False,

@@ -66,11 +66,13 @@ class State(Struct, frozen=True, kw_only=True):
     """What the studio offers: the first message a page asks for.
 
     ``suffixes`` are those of files that can be recordings, ``details`` the levels of detail that
-    a segmentation may have, ``labels`` those that all recordings share.
+    a segmentation may have, ``labels`` those that all recordings share, ``of_library`` whether the
+    recordings are those of a library.
     """
 
     version: str
     folder: str
+    of_library: bool
     suffixes: list[str]
     recordings: list[Listing]
     presets: list[PresetChoice]

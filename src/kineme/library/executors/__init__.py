@@ -8,12 +8,13 @@ they come. `here.Here` is this process, `processes.Processes` are several of thi
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Protocol, TypeVar
+from typing import Protocol, TypeVar, runtime_checkable
 
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
 
 
+@runtime_checkable
 class Executor(Protocol):
     """Where tasks are worked on."""
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from kineme._version import __version__
 from kineme.errors import KinemeError, MissingDependencyError, ParameterError
-from kineme.library.executors import Outcome, Task
+from kineme.library.executors import Executor, Outcome, Task
 
 EXTRA = "cluster"
 """The extra that installs what clusters need."""
@@ -77,8 +77,10 @@ class Cluster:
 
 
 @contextmanager
-def connected(client: Any) -> Iterator[Cluster]:
+def connected(client: Any) -> Iterator[Executor]:
     """The cluster of a client, or of the scheduler at an address such as ``tcp://10.0.0.1:8786``.
+
+    An executor is taken as it is.
 
     Raises
     ------
@@ -87,6 +89,9 @@ def connected(client: Any) -> Iterator[Cluster]:
     MissingDependencyError
         dask is not installed.
     """
+    if isinstance(client, Executor):
+        yield client
+        return
     if not isinstance(client, str):
         yield Cluster(client)
         return

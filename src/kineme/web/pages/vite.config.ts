@@ -12,7 +12,7 @@ const names = {
 };
 
 export default defineConfig(({ mode }) => {
-  const page = mode === "report" ? "report" : "studio";
+  const page = mode === "report" || mode === "library" ? mode : "studio";
   return {
     base: "./",
     plugins: page === "report" ? [oneFile()] : [],

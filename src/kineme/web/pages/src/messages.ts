@@ -268,11 +268,13 @@ export interface ExportFormat {
  * What the studio offers: the first message a page asks for.
  *
  * `suffixes` are those of files that can be recordings, `details` the levels of detail that
- * a segmentation may have, `labels` those that all recordings share.
+ * a segmentation may have, `labels` those that all recordings share, `of_library` whether the
+ * recordings are those of a library.
  */
 export interface State {
   version: string;
   folder: string;
+  of_library: boolean;
   suffixes: string[];
   recordings: Listing[];
   presets: PresetChoice[];
@@ -486,3 +488,108 @@ export interface CompareRequest {
   preset?: string;
   annotation?: string;
 }
+
+/** A recording of a library; `id` is what the studio opens it by, empty where it is gone. */
+export interface LibraryRecording {
+  recording: string;
+  id: string;
+  status: "as found" | "checked" | "corrected" | "gone";
+  vocabulary: string;
+  duration_s: number;
+}
+
+/**
+ * A cluster of a library, as `kineme.library.clusters.Cluster` tells it.
+ *
+ * `recordings` are places in the list of all; `unsure` counts those of single recordings that
+ * may as well be in another cluster.
+ */
+export interface LibraryCluster {
+  cluster: number;
+  label: string;
+  vocabulary: string;
+  recordings: number[];
+  activities: number;
+  repetitions: number;
+  seconds: number;
+  typical_s: number;
+  example: string;
+  start_s: number;
+  stop_s: number;
+  unsure: number;
+}
+
+/** A library: its recordings, its clusters, and what could not be read, with the reason. */
+export interface LibraryState {
+  folder: string;
+  hours: number;
+  recordings: LibraryRecording[];
+  clusters: LibraryCluster[];
+  failed: Record<string, string>;
+}
+
+/** Where a recording is like an example. */
+export interface LibraryHit {
+  recording: string;
+  start_s: number;
+  stop_s: number;
+  distance: number;
+  cluster: number;
+  label: string;
+}
+
+/** What a search found, the nearest first. */
+export interface LibraryHits {
+  hits: LibraryHit[];
+}
+
+/**
+ * A span of a recording to be drawn small: a motion, its numbers in base 64, or curves.
+ *
+ * Curves are those of the first channels, from 0 to 1.
+ */
+export interface LibraryFigure {
+  motion: MotionHead | null;
+  numbers: string;
+  curves: number[][];
+}
+
+/** A span of a recording of the library. */
+export interface Span {
+  recording: string;
+  start_s: number;
+  stop_s: number;
+}
+
+/** What is searched for: any of the spans, or what is typical of a cluster; and unlike what. */
+export interface SearchRequest {
+  like: Span[];
+  unlike: Span[];
+  threshold: number;
+  top: number;
+  mirror: boolean;
+  cluster?: number;
+}
+
+/** A name for a cluster of the library; an empty one takes it away. */
+export interface CallCluster {
+  kind: "name";
+  cluster: number;
+  name: string;
+}
+
+/** Others become part of a cluster of the library, which keeps its number and name. */
+export interface JoinClusters {
+  kind: "merge";
+  cluster: number;
+  others: number[];
+}
+
+/** What a cluster of the library has in some recordings becomes a cluster of its own. */
+export interface PartCluster {
+  kind: "split";
+  cluster: number;
+  recordings: string[];
+}
+
+export type LibraryEdit = CallCluster | JoinClusters | PartCluster;

@@ -18,6 +18,7 @@ export function Header({ session, show }: Props): JSX.Element {
   return (
     <>
       <h1>kineme</h1>
+      {session.state.value?.of_library && <a href={`?token=${session.api.token}`}>Library</a>}
       <span class="folder quiet" title={session.state.value?.folder}>
         {recording?.name ?? session.state.value?.folder}
       </span>

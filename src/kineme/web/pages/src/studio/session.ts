@@ -13,7 +13,7 @@ import type { Store } from "../store";
 import { type Api, explain, Refused, RETRY, Unreachable } from "./server/api";
 import { Beside } from "./editing/beside";
 import { EditedRecording } from "./editing/editedRecording";
-import { fromAddress, toAddress } from "./server/address";
+import { fromAddress, momentInAddress, toAddress } from "./server/address";
 import { ServerData } from "./server/serverData";
 import { shareToken } from "./server/token";
 import { Bulletin } from "./news";
@@ -145,6 +145,7 @@ export class Session {
     const before = fromAddress().filter((id) => known.has(id));
     const first = before.length || known.size > 1 ? before : known;
     for (const id of first) await this.open(id, { beside: true });
+    if (momentInAddress()) this.store.seek(momentInAddress());
     effect(() => toAddress(this.store.opened.value));
   }
 

@@ -180,7 +180,7 @@ export class Api {
     return { name, data: await unbroken(answer.blob()) };
   }
 
-  private async json<T>(path: string, body?: unknown): Promise<T> {
+  protected async json<T>(path: string, body?: unknown): Promise<T> {
     const answer = await this.ask(path, body);
     return (await unbroken(answer.json())) as T;
   }

@@ -1,0 +1,1 @@
+"""A library in the studio: its page, its recordings as a folder, searches and edits."""

@@ -1,0 +1,127 @@
+"""What the page of a library is told, and what it sends; see `kineme.web.messages`."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from msgspec import UNSET, Meta, Struct, UnsetType
+
+from kineme.web.messages import MotionHead
+from kineme.web.requests import EditBase, Request, Text, Whole
+
+MOST_EXAMPLES = 500
+"""Examples, or counter-examples, of one search."""
+Seconds = Annotated[float, Meta(ge=0, le=1e7)]
+Path = Annotated[str, Meta(max_length=5000)]
+
+
+class LibraryRecording(Struct, frozen=True, kw_only=True):
+    """A recording of a library; ``id`` is what the studio opens it by, empty where it is gone."""
+
+    recording: str
+    id: str
+    status: Literal["gone", "as found", "corrected", "checked"]
+    vocabulary: str
+    duration_s: float
+
+
+class LibraryCluster(Struct, frozen=True, kw_only=True):
+    """A cluster of a library, as `kineme.library.clusters.Cluster` tells it.
+
+    ``recordings`` are places in the list of all; ``unsure`` counts those of single recordings that
+    may as well be in another cluster.
+    """
+
+    cluster: int
+    label: str
+    vocabulary: str
+    recordings: list[int]
+    activities: int
+    repetitions: int
+    seconds: float
+    typical_s: float
+    example: str
+    start_s: float
+    stop_s: float
+    unsure: int
+
+
+class LibraryState(Struct, frozen=True, kw_only=True):
+    """A library: its recordings, its clusters, and what could not be read, with the reason."""
+
+    folder: str
+    hours: float
+    recordings: list[LibraryRecording]
+    clusters: list[LibraryCluster]
+    failed: dict[str, str]
+
+
+class LibraryHit(Struct, frozen=True, kw_only=True):
+    """Where a recording is like an example."""
+
+    recording: str
+    start_s: float
+    stop_s: float
+    distance: float
+    cluster: int
+    label: str
+
+
+class LibraryHits(Struct, frozen=True, kw_only=True):
+    """What a search found, the nearest first."""
+
+    hits: list[LibraryHit]
+
+
+class LibraryFigure(Struct, frozen=True, kw_only=True):
+    """A span of a recording to be drawn small: a motion, its numbers in base 64, or curves.
+
+    Curves are those of the first channels, from 0 to 1.
+    """
+
+    motion: MotionHead | None
+    numbers: str
+    curves: list[list[float]]
+
+
+class Span(Request, frozen=True, kw_only=True):
+    """A span of a recording of the library."""
+
+    recording: Path
+    start_s: Seconds
+    stop_s: Seconds
+
+
+class SearchRequest(Request, frozen=True, kw_only=True):
+    """What is searched for: any of the spans, or what is typical of a cluster; and unlike what."""
+
+    like: Annotated[list[Span], Meta(max_length=MOST_EXAMPLES)]
+    unlike: Annotated[list[Span], Meta(max_length=MOST_EXAMPLES)]
+    threshold: Annotated[float, Meta(gt=0, le=10)]
+    top: Annotated[int, Meta(ge=1, le=1000)]
+    mirror: bool
+    cluster: Whole | UnsetType = UNSET
+
+
+class CallCluster(EditBase, frozen=True, kw_only=True, tag="name"):
+    """A name for a cluster of the library; an empty one takes it away."""
+
+    cluster: Whole
+    name: Text
+
+
+class JoinClusters(EditBase, frozen=True, kw_only=True, tag="merge"):
+    """Others become part of a cluster of the library, which keeps its number and name."""
+
+    cluster: Whole
+    others: list[Whole]
+
+
+class PartCluster(EditBase, frozen=True, kw_only=True, tag="split"):
+    """What a cluster of the library has in some recordings becomes a cluster of its own."""
+
+    cluster: Whole
+    recordings: list[Path]
+
+
+LibraryEdit = CallCluster | JoinClusters | PartCluster

@@ -1,0 +1,142 @@
+/** The vocabulary of a library: a card for each cluster, with a name to type. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import { clusterColor } from "../../colors";
+import { NameInput } from "../../layout/NameInput";
+import type { LibraryCluster } from "../../messages";
+import { ChoiceDialog } from "./ChoiceDialog";
+import { Figure } from "./Figure";
+import { ordered, seconds, type Order } from "./hits";
+import type { LibraryPage } from "./libraryPage";
+
+const AT_ONCE = 120;
+
+export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
+  const order = useSignal<Order>("seconds");
+  const shown = useSignal(AT_ONCE);
+  const clusters = ordered(page.state.value?.clusters ?? [], order.value);
+  return (
+    <>
+      <div class="tools">
+        <label>
+          Order{" "}
+          <select
+            value={order.value}
+            onChange={(event) => (order.value = event.currentTarget.value as Order)}
+          >
+            <option value="seconds">by how long</option>
+            <option value="count">by how many</option>
+            <option value="name">by name</option>
+            <option value="unsure">by how unsure</option>
+          </select>
+        </label>
+        <span class="quiet">A name is kept at once, and stays through every build.</span>
+      </div>
+      {!clusters.length && <p class="quiet">Nothing repeats itself in these recordings.</p>}
+      <ul class="cards">
+        {clusters.slice(0, shown.value).map((cluster) => (
+          <ClusterCard key={cluster.cluster} page={page} cluster={cluster} />
+        ))}
+      </ul>
+      {clusters.length > shown.value && (
+        <button type="button" onClick={() => (shown.value += AT_ONCE)}>
+          Show more of {clusters.length}
+        </button>
+      )}
+    </>
+  );
+}
+
+function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX.Element {
+  const { page, cluster: it } = props;
+  const dialog = useSignal<"merge" | "split" | null>(null);
+  const called = it.label || `cluster ${it.cluster}`;
+  const close = (): void => void (dialog.value = null);
+  const n = it.recordings.length;
+  const others = (page.state.value?.clusters ?? []).filter(
+    (other) => other.cluster !== it.cluster && other.vocabulary === it.vocabulary,
+  );
+  return (
+    <li class="card">
+      <div class="card-head">
+        <span class="swatch" style={{ background: clusterColor(it.cluster) }} />
+        <span class="number">{it.cluster}</span>
+        <NameInput
+          key={it.label}
+          value={it.label}
+          label={`Name of cluster ${it.cluster}`}
+          onName={(name) => void page.edit({ kind: "name", cluster: it.cluster, name })}
+        />
+      </div>
+      <Strip page={page} cluster={it} />
+      <p class="quiet number">
+        {it.repetitions || it.activities} × {seconds(it.typical_s)}, {seconds(it.seconds)} in all,
+        in {n} {n === 1 ? "recording" : "recordings"}
+        {it.unsure > 0 && <span class="unsure"> · {it.unsure} unsure</span>}
+      </p>
+      <div class="card-tools">
+        <button
+          type="button"
+          aria-label={`Find more like this: ${called}`}
+          onClick={() =>
+            void page.ask({ title: called, like: [], unlike: [], cluster: it.cluster })
+          }
+        >
+          Find more like this
+        </button>
+        <button
+          type="button"
+          aria-label={`Merge others into ${called}`}
+          disabled={!others.length}
+          onClick={() => (dialog.value = "merge")}
+        >
+          Merge…
+        </button>
+        <button
+          type="button"
+          aria-label={`Split ${called}`}
+          disabled={n < 2}
+          title={n < 2 ? "It is in one recording only" : undefined}
+          onClick={() => (dialog.value = "split")}
+        >
+          Split…
+        </button>
+      </div>
+      {dialog.value === "merge" && (
+        <ChoiceDialog
+          title={`Merge into ${called}`}
+          say="Those chosen become part of it, in every recording; their own names and numbers go. This cannot be undone."
+          action="Merge"
+          close={close}
+          choices={others.map((other) => ({
+            value: other.cluster,
+            text: `${other.cluster} ${other.label}`,
+            picture: <Strip page={page} cluster={other} />,
+          }))}
+          choose={(chosen) => page.edit({ kind: "merge", cluster: it.cluster, others: chosen })}
+        />
+      )}
+      {dialog.value === "split" && (
+        <ChoiceDialog
+          title={`Split ${called}`}
+          say="What it has in the recordings chosen, some but not all, becomes a cluster of its own. This cannot be undone."
+          action="Split"
+          most={n - 1}
+          close={close}
+          choices={it.recordings.map((row) => {
+            const { recording } = page.state.value!.recordings[row]!;
+            return { value: recording, text: recording };
+          })}
+          choose={(recordings) => page.edit({ kind: "split", cluster: it.cluster, recordings })}
+        />
+      )}
+    </li>
+  );
+}
+
+/** The most typical segment of a cluster. */
+function Strip(props: { page: LibraryPage; cluster: LibraryCluster }): JSX.Element {
+  const { cluster, example, start_s, stop_s } = props.cluster;
+  const span = { recording: example, start_s, stop_s };
+  return <Figure sketches={props.page.sketches} span={span} cluster={cluster} />;
+}

@@ -1,0 +1,122 @@
+/** A small figure of a span: read when it comes into view, a strip, or one that plays. */
+import { useSignal, useSignalEffect } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import { clusterColor, onPage } from "../../colors";
+import type { Span } from "../../messages";
+import { unpackMotion } from "../../motion";
+import { theme } from "../../theme";
+import { drawCurves, drawPoses, sheet, type Sketch } from "./drawing";
+import { flattened } from "./flat";
+import { explain } from "../server/answers";
+import type { LibraryApi } from "./libraryApi";
+
+const POSES = [0, 1 / 6, 2 / 6, 3 / 6, 4 / 6, 5 / 6, 1];
+const MOST_KEPT = 600;
+
+/** The sketches of a page, each asked for once. */
+export class Sketches {
+  private readonly known = new Map<string, Promise<Sketch>>();
+
+  constructor(private readonly api: LibraryApi) {}
+
+  of(span: Span): Promise<Sketch> {
+    const key = JSON.stringify([span.recording, span.start_s, span.stop_s]);
+    const known = this.known.get(key) ?? this.ask(span);
+    this.known.delete(key);
+    this.known.set(key, known); // the last one is the newest
+    known.catch(() => this.known.delete(key));
+    for (const old of this.known.keys()) {
+      if (this.known.size <= MOST_KEPT) break;
+      this.known.delete(old);
+    }
+    return known;
+  }
+
+  private async ask(span: Span): Promise<Sketch> {
+    const { motion, numbers, curves } = await this.api.figure(span);
+    if (!motion) return { flat: null, curves };
+    const packed = Uint8Array.from(atob(numbers), (letter) => letter.charCodeAt(0));
+    return { flat: flattened(await unpackMotion(motion, packed.buffer)), curves };
+  }
+}
+
+interface Props {
+  sketches: Sketches;
+  span: Span;
+  cluster: number;
+  /** Whether it moves; a strip where it never does. */
+  playing?: boolean | undefined;
+}
+
+export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const sketch = useSignal<Sketch | null>(null);
+  const failure = useSignal("");
+  const visible = useRef(false);
+  const strip = playing === undefined;
+  const { recording, start_s, stop_s } = span;
+
+  const draw = (share: number): void => {
+    const shown = sketch.peek();
+    const pen = canvas.current && shown && sheet(canvas.current);
+    if (!pen) return;
+    const color = onPage(clusterColor(cluster), theme.peek());
+    if (shown.flat) drawPoses(pen, shown.flat, strip ? POSES : [share], color);
+    else drawCurves(pen, shown.curves, playing ? share : null, color);
+  };
+
+  useEffect(() => {
+    sketch.value = null;
+    failure.value = "";
+    let here = true;
+    const seen = new IntersectionObserver((entries) => {
+      visible.current = entries.at(-1)!.isIntersecting;
+      if (!visible.current || sketch.peek()) return;
+      sketches
+        .of({ recording, start_s, stop_s })
+        .then((found) => here && (sketch.value = found))
+        .catch((error: unknown) => here && (failure.value = explain(error)));
+    });
+    seen.observe(canvas.current!);
+    const sized = new ResizeObserver(() => draw(0.5));
+    sized.observe(canvas.current!);
+    return () => {
+      here = false;
+      seen.disconnect();
+      sized.disconnect();
+    };
+  }, [recording, start_s, stop_s]);
+
+  useSignalEffect(() => {
+    if (sketch.value && theme.value) draw(0.5);
+  });
+
+  useEffect(() => {
+    if (!playing) {
+      draw(0.5);
+      return;
+    }
+    let picture = 0;
+    const next = (now: number): void => {
+      const { flat } = sketch.peek() ?? {};
+      const shown_s = flat ? flat.poses.length / flat.fps : stop_s - start_s;
+      const lasts = 1000 * Math.max(shown_s, 0.1);
+      if (visible.current) draw((now % lasts) / lasts);
+      picture = requestAnimationFrame(next);
+    };
+    picture = requestAnimationFrame(next);
+    return () => cancelAnimationFrame(picture);
+  }, [playing, cluster]);
+
+  return (
+    <span class="figure" data-drawn={sketch.value !== null}>
+      <canvas ref={canvas} aria-hidden="true" />
+      {failure.value && (
+        <span class="quiet" title={failure.value}>
+          cannot be drawn
+        </span>
+      )}
+    </span>
+  );
+}

@@ -1,0 +1,97 @@
+/** A hit of a search: a figure that plays, where it is, how far, and whether it is right. */
+import { useSignal } from "@preact/signals";
+import type { JSX } from "preact";
+import type { LibraryHit } from "../../messages";
+import { Figure } from "./Figure";
+import { keyOf } from "./hits";
+import type { LibraryPage } from "./libraryPage";
+import { inStudio } from "./Recordings";
+
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+
+export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): JSX.Element {
+  const looked = useSignal(false);
+  const right = page.judged.value.get(keyOf(hit))?.right;
+  const { recording, start_s, stop_s, cluster, label } = hit;
+  const id = page.state.value?.recordings.find((each) => each.recording === recording)?.id;
+  const time = `${start_s.toFixed(2)} to ${stop_s.toFixed(2)} s`;
+  const look = (at: boolean) => (): void => void (looked.value = at && !calm.matches);
+  return (
+    <li
+      class={`card hit ${right === undefined ? "" : right ? "yes" : "no"}`}
+      tabIndex={0}
+      aria-label={`${recording}, ${time}`}
+      onPointerEnter={look(true)}
+      onPointerLeave={look(false)}
+      onFocus={look(true)}
+      onBlur={look(false)}
+      onKeyDown={(event) => onKey(event, page, hit)}
+    >
+      <Figure
+        sketches={page.sketches}
+        span={hit}
+        cluster={cluster}
+        playing={page.playing.value || looked.value}
+      />
+      <p class="name">{id ? <a href={inStudio(page, id, start_s)}>{recording}</a> : recording}</p>
+      <p class="quiet number">
+        {time}
+        <br />
+        distance {hit.distance.toFixed(2)}, {cluster < 0 ? "in no cluster" : `cluster ${cluster}`}{" "}
+        {label}
+      </p>
+      <div class="card-tools">
+        <button
+          type="button"
+          aria-pressed={right === true}
+          aria-label={`Yes: ${recording}, ${time}`}
+          onClick={() => page.judge(hit, true)}
+        >
+          ✓ Yes
+        </button>
+        <button
+          type="button"
+          aria-pressed={right === false}
+          aria-label={`No: ${recording}, ${time}`}
+          onClick={() => page.judge(hit, false)}
+        >
+          ✗ No
+        </button>
+        <button
+          type="button"
+          title="Find more like this one"
+          aria-label={`Find more like ${recording}, ${time}`}
+          onClick={() => {
+            page.span.value = { recording, start_s, stop_s };
+            void page.ask({
+              title: `${recording} ${time}`,
+              like: [{ recording, start_s, stop_s }],
+              unlike: [],
+            });
+          }}
+        >
+          More…
+        </button>
+      </div>
+    </li>
+  );
+}
+
+/** Y and N, after which the next card is in front; arrows go from card to card. */
+function onKey(
+  event: KeyboardEvent & { currentTarget: HTMLElement },
+  page: LibraryPage,
+  hit: LibraryHit,
+): void {
+  if (event.ctrlKey || event.altKey || event.metaKey) return;
+  const key = event.key.toLowerCase();
+  const next = event.currentTarget.nextElementSibling as HTMLElement | null;
+  const before = event.currentTarget.previousElementSibling as HTMLElement | null;
+  if (key === "y" || key === "n") {
+    page.judge(hit, key === "y");
+    next?.focus();
+  } else if (key === "arrowright" || key === "arrowdown") next?.focus();
+  else if (key === "arrowleft" || key === "arrowup") before?.focus();
+  else return;
+  event.preventDefault();
+}

@@ -1,0 +1,106 @@
+/** "Find more like this": what is searched for, and the hits as cards to say yes or no to. */
+import type { JSX } from "preact";
+import { NameInput } from "../../layout/NameInput";
+import { save } from "../server/save";
+import { HitCard } from "./HitCard";
+import { asCsv, asJson, keyOf } from "./hits";
+import type { LibraryPage } from "./libraryPage";
+import { SpanForm } from "./SpanForm";
+
+export function Search({ page }: { page: LibraryPage }): JSX.Element {
+  const { value: question } = page.question;
+  const { value: hits } = page.hits;
+  const said = page.confirmed.value.length + page.refused.value.length;
+  return (
+    <>
+      <SpanForm page={page} />
+      {question && (
+        <div class="tools" role="status">
+          {page.searching.value && <span class="busy" aria-label="Searching" />}
+          <strong>Like {question.title}</strong>
+          <span class="quiet">{page.searching.value ? "searching…" : `${hits.length} found`}</span>
+        </div>
+      )}
+      {hits.length > 0 && (
+        <div class="tools">
+          <button
+            type="button"
+            aria-pressed={page.playing.value}
+            onClick={() => (page.playing.value = !page.playing.value)}
+          >
+            {page.playing.value ? "Stop all" : "Play all"}
+          </button>
+          <Downloads page={page} />
+          <span class="quiet">
+            Is it one? <kbd>Y</kbd> yes, <kbd>N</kbd> no, arrow keys for the next.
+          </span>
+        </div>
+      )}
+      {said > 0 && <Said page={page} />}
+      {question && !page.searching.value && !hits.length && (
+        <p class="quiet">Nothing is that near: try a larger distance.</p>
+      )}
+      <ul class="cards hits">
+        {hits.map((hit) => (
+          <HitCard key={keyOf(hit)} page={page} hit={hit} />
+        ))}
+      </ul>
+    </>
+  );
+}
+
+/** What was said of the hits, and what may be done with that. */
+function Said({ page }: { page: LibraryPage }): JSX.Element {
+  const [yes, no] = [page.confirmed.value.length, page.refused.value.length];
+  return (
+    <section class="said" aria-label="What you said">
+      <p>
+        {yes} confirmed, {no} refused. Search again, with those confirmed as further examples and
+        without what is more like those refused?
+      </p>
+      <button type="button" class="primary" onClick={() => void page.refine()}>
+        Search again with these
+      </button>
+      {page.shares.value.map(([cluster, n]) =>
+        cluster < 0 ? (
+          <p key={cluster}>
+            {n} of the confirmed {n === 1 ? "is" : "are"} in no cluster, and cannot be named here: a
+            name is of a cluster.
+          </p>
+        ) : (
+          <label key={cluster}>
+            {n} of the confirmed {n === 1 ? "is" : "are"} in cluster {cluster}. Name all of it:{" "}
+            <NameInput
+              key={page.clusterName(cluster)}
+              value={page.clusterName(cluster)}
+              label={`Name of cluster ${cluster}, which has ${n} of the confirmed`}
+              onName={(name) => void page.edit({ kind: "name", cluster, name })}
+            />
+          </label>
+        ),
+      )}
+    </section>
+  );
+}
+
+function Downloads({ page }: { page: LibraryPage }): JSX.Element {
+  const write = (name: string, text: typeof asCsv): void => {
+    const judged = page.judged.peek();
+    const content = text(page.hits.peek(), (hit) => judged.get(keyOf(hit))?.right);
+    save({ name, data: new Blob([content], { type: "text/plain;charset=utf-8" }) });
+  };
+  return (
+    <span class="group">
+      <button type="button" onClick={() => write("hits.csv", asCsv)}>
+        CSV
+      </button>
+      <button
+        type="button"
+        title="One object a line, as kineme library search --json"
+        onClick={() => write("hits.jsonl", asJson)}
+      >
+        JSON
+      </button>
+    </span>
+  );
+}

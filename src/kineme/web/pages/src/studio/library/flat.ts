@@ -1,0 +1,66 @@
+/** Motions as flat figures, seen from the side from which they move most. Pure functions. */
+import { poseAt, rootOf, type Motion } from "../../motion";
+
+/** Poses of a body, to the right and up, around where it stands at each moment. */
+export interface Flat {
+  bones: readonly (readonly [number, number])[];
+  fps: number;
+  /** Right and up of each joint, metres; NaN where it was not seen. */
+  poses: Float32Array[];
+  low: [number, number];
+  high: [number, number];
+}
+
+export function flattened(motion: Motion): Flat {
+  const { n_samples, sample_fps, bones } = motion.head;
+  const joints = motion.head.joints.length;
+  const root = motion.head.effectors["pelvis"] ?? rootOf(motion.head);
+  const bodies = Array.from({ length: n_samples }, (_, sample) => {
+    const pose = new Float32Array(3 * joints);
+    poseAt(motion, sample / sample_fps, pose);
+    const [x, z] = [pose[3 * root]!, pose[3 * root + 2]!];
+    for (let joint = 0; joint < joints; joint++) {
+      pose[3 * joint]! -= x;
+      pose[3 * joint + 2]! -= z;
+    }
+    return pose;
+  });
+  const angle = sideOf(bodies);
+  const [right, deep] = [Math.cos(angle), Math.sin(angle)];
+  const low: [number, number] = [Infinity, Infinity];
+  const high: [number, number] = [-Infinity, -Infinity];
+  const poses = bodies.map((body) => {
+    const flat = new Float32Array(2 * joints);
+    for (let joint = 0; joint < joints; joint++) {
+      flat[2 * joint] = right * body[3 * joint]! + deep * body[3 * joint + 2]!;
+      flat[2 * joint + 1] = body[3 * joint + 1]!;
+    }
+    for (const joint of bones.flat())
+      for (const axis of [0, 1] as const) {
+        const at = flat[2 * joint + axis]!;
+        if (at < low[axis]) low[axis] = at;
+        if (at > high[axis]) high[axis] = at;
+      }
+    return flat;
+  });
+  return { bones, fps: sample_fps, poses, low, high };
+}
+
+/** The horizontal direction, radians from x towards z, in which the joints move most. */
+export function sideOf(bodies: readonly Float32Array[]): number {
+  let [xx, zz, xz] = [0, 0, 0];
+  const n = bodies[0]?.length ?? 0;
+  for (let at = 0; at < n; at += 3) {
+    const seen = bodies.filter((body) => !Number.isNaN(body[at]! + body[at + 2]!));
+    const mean = (axis: number): number =>
+      seen.reduce((sum, body) => sum + body[at + axis]!, 0) / (seen.length || 1);
+    const [x, z] = [mean(0), mean(2)];
+    for (const body of seen) {
+      const [dx, dz] = [body[at]! - x, body[at + 2]! - z];
+      xx += dx * dx;
+      zz += dz * dz;
+      xz += dx * dz;
+    }
+  }
+  return 0.5 * Math.atan2(2 * xz, xx - zz);
+}

@@ -1,0 +1,57 @@
+/** Hits of a search: told apart, counted by cluster, and as a table to take along. Pure functions. */
+import type { LibraryCluster, LibraryHit } from "../../messages";
+
+/** The same for the same span of the same recording. */
+export function keyOf(hit: LibraryHit): string {
+  return JSON.stringify([hit.recording, hit.start_s, hit.stop_s]);
+}
+
+/** How many hits lie in each cluster, most first; -1 is in none. */
+export function sharesOf(hits: readonly LibraryHit[]): [cluster: number, hits: number][] {
+  const counts = new Map<number, number>();
+  for (const { cluster } of hits) counts.set(cluster, (counts.get(cluster) ?? 0) + 1);
+  return [...counts].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
+}
+
+export type Order = "seconds" | "count" | "name" | "unsure";
+
+export function ordered(clusters: readonly LibraryCluster[], by: Order): LibraryCluster[] {
+  const times = (each: LibraryCluster): number => each.repetitions || each.activities;
+  const compare: Record<Order, (a: LibraryCluster, b: LibraryCluster) => number> = {
+    seconds: (a, b) => b.seconds - a.seconds,
+    count: (a, b) => times(b) - times(a),
+    name: (a, b) =>
+      Number(!a.label) - Number(!b.label) ||
+      a.label.localeCompare(b.label) ||
+      a.cluster - b.cluster,
+    unsure: (a, b) => b.unsure - a.unsure,
+  };
+  return [...clusters].sort(compare[by]);
+}
+
+const COLUMNS = ["recording", "start_s", "stop_s", "distance", "cluster", "label"] as const;
+
+type Said = (hit: LibraryHit) => boolean | undefined;
+
+/** The hits with what was said of them, as `kineme library search --json` has them. */
+export function asJson(hits: readonly LibraryHit[], said: Said): string {
+  return hits
+    .map((hit) => JSON.stringify({ ...hit, confirmed: said(hit) ?? null }) + "\n")
+    .join("");
+}
+
+export function asCsv(hits: readonly LibraryHit[], said: Said): string {
+  const cell = (value: unknown): string => {
+    const text = String(value ?? "");
+    return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  };
+  const rows = hits.map((hit) => [...COLUMNS.map((name) => hit[name]), said(hit)]);
+  return [[...COLUMNS, "confirmed"], ...rows].map((row) => row.map(cell).join(",") + "\n").join("");
+}
+
+export function seconds(value: number): string {
+  const minutes = Math.floor(value / 60);
+  return minutes
+    ? `${minutes}:${(value % 60).toFixed(0).padStart(2, "0")} min`
+    : `${value.toFixed(2)} s`;
+}

@@ -1,0 +1,141 @@
+/** The library that is shown: what it holds, what is searched for, what was said of the hits. */
+import { computed, signal } from "@preact/signals";
+import type { LibraryEdit, LibraryHit, LibraryState, Span } from "../../messages";
+import { explain, Refused } from "../server/answers";
+import { keyOf, sharesOf } from "./hits";
+import { Sketches } from "./Figure";
+import type { LibraryApi } from "./libraryApi";
+
+/** What is searched for, and how far from it. */
+export interface Question {
+  title: string;
+  like: Span[];
+  unlike: Span[];
+  cluster?: number;
+}
+
+export class LibraryPage {
+  readonly state = signal<LibraryState | null>(null);
+  readonly tab = signal("clusters");
+  /** What went wrong last; empty once something went well. */
+  readonly problem = signal("");
+  readonly question = signal<Question | null>(null);
+  readonly searching = signal(false);
+  readonly hits = signal<LibraryHit[]>([]);
+  readonly threshold = signal(0.85);
+  readonly mirror = signal(false);
+  readonly playing = signal(false);
+  /** The span that the form of the search shows. */
+  readonly span = signal<Span | null>(null);
+  /** The hits of which somebody has said whether they are right, by `keyOf`. */
+  readonly judged = signal<ReadonlyMap<string, { hit: LibraryHit; right: boolean }>>(new Map());
+  readonly confirmed = computed(() => this.said(true));
+  readonly refused = computed(() => this.said(false));
+  readonly shares = computed(() => sharesOf(this.confirmed.value));
+  readonly sketches: Sketches;
+  private asked = 0;
+
+  constructor(readonly api: LibraryApi) {
+    this.sketches = new Sketches(api);
+  }
+
+  async start(): Promise<void> {
+    await this.trying(async () => (this.state.value = await this.api.library()));
+  }
+
+  /** The library as it is now, others may have named clusters; what went wrong stays shown. */
+  async refresh(): Promise<void> {
+    if (this.state.value && !this.problem.value) await this.start();
+  }
+
+  /** The edit is on the disk once this has ended; whether it was made. */
+  async edit(edit: LibraryEdit): Promise<boolean> {
+    const made = await this.trying(async () => {
+      this.state.value = await this.api.editLibrary(edit);
+    });
+    if (made) this.relabel();
+    else this.problem.value = `Not saved: ${this.problem.value}`;
+    return made;
+  }
+
+  /** Searches anew; what was said of the hits before is forgotten. */
+  async ask(question: Question): Promise<void> {
+    this.judged.value = new Map();
+    this.tab.value = "search";
+    this.hits.value = [];
+    await this.search(question);
+  }
+
+  /** The same question with what was confirmed and refused as examples and counter-examples. */
+  async refine(): Promise<void> {
+    const asked = this.question.value;
+    if (!asked) return;
+    const like = [...asked.like, ...this.confirmed.value.map(spanOf)];
+    await this.search({ ...asked, like, unlike: this.refused.value.map(spanOf) }, asked);
+  }
+
+  async searchAgain(): Promise<void> {
+    if (this.question.value) await this.search(this.question.value);
+  }
+
+  /** Says of a hit whether it is right; the same again takes that back. */
+  judge(hit: LibraryHit, right: boolean): void {
+    const judged = new Map(this.judged.value);
+    if (judged.get(keyOf(hit))?.right === right) judged.delete(keyOf(hit));
+    else judged.set(keyOf(hit), { hit, right });
+    this.judged.value = judged;
+  }
+
+  clusterName(cluster: number): string {
+    return this.state.value?.clusters.find((each) => each.cluster === cluster)?.label ?? "";
+  }
+
+  private async search(question: Question, shown = question): Promise<void> {
+    const mine = ++this.asked;
+    this.question.value = shown;
+    this.searching.value = true;
+    await this.trying(async () => {
+      const { like, unlike, cluster } = question;
+      const found = await this.api.search({
+        like,
+        unlike,
+        ...(cluster === undefined ? {} : { cluster }),
+        threshold: this.threshold.value,
+        mirror: this.mirror.value,
+        top: 60,
+      });
+      if (mine === this.asked) this.hits.value = found.hits;
+    });
+    if (mine === this.asked) this.searching.value = false;
+  }
+
+  /** Clusters of hits have other names, or are others, after an edit. */
+  private relabel(): void {
+    this.hits.value = this.hits.value.map((hit) => ({
+      ...hit,
+      label: this.clusterName(hit.cluster),
+    }));
+  }
+
+  private said(which: boolean): LibraryHit[] {
+    return [...this.judged.value.values()]
+      .filter(({ right }) => right === which)
+      .map(({ hit }) => hit);
+  }
+
+  private async trying(work: () => Promise<unknown>): Promise<boolean> {
+    try {
+      await work();
+      this.problem.value = "";
+      return true;
+    } catch (error) {
+      const newer = error instanceof Refused && error.status === 409;
+      if (!newer) this.problem.value = explain(error);
+      return false;
+    }
+  }
+}
+
+function spanOf({ recording, start_s, stop_s }: LibraryHit): Span {
+  return { recording, start_s, stop_s };
+}

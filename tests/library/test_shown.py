@@ -1,0 +1,123 @@
+"""A library in the studio: what its addresses answer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from kineme.library import Library
+from kineme.studio.app import create_app
+from kineme.studio.events import Hub
+from kineme.studio.library.searches import Searches
+from kineme.studio.library.shown import ShownLibrary
+from kineme.studio.open_recordings import OpenRecordings, SupersededError
+from kineme.web.library_messages import SearchRequest, Span
+
+TOKEN, PORT = "the token", 8750
+WALK = {"recording": "walk.bvh", "start_s": 0.5, "stop_s": 1.6}
+
+
+@pytest.fixture
+def client(folder: Path) -> Iterator[TestClient]:
+    shown, hub = ShownLibrary(folder), Hub()
+    recordings = OpenRecordings(shown.as_folder(), hub.tell, shown.options())
+    app = create_app(recordings, token=TOKEN, port=PORT, hub=hub, library=shown)
+    with TestClient(
+        app, base_url=f"http://127.0.0.1:{PORT}", headers={"x-kineme-token": TOKEN}
+    ) as client:
+        yield client
+
+
+def search(client: TestClient, *like: dict[str, Any], **rest: Any) -> Any:
+    sent = {"like": like, "unlike": [], "threshold": 0.85, "top": 50, "mirror": False, **rest}
+    return client.post("/api/library/search", json=sent)
+
+
+def test_a_library_is_told_with_its_recordings_and_clusters(client, folder, takes):
+    assert client.get("/api/library", headers={"x-kineme-token": "no"}).status_code == 403
+    told = client.get("/api/library").json()
+    own = Library(folder)
+    assert [each["cluster"] for each in told["clusters"]] == [c.cluster for c in own.clusters()]
+    by_name = {each["recording"]: each for each in told["recordings"]}
+    assert by_name.keys() == {"walk.bvh", "jacks.bvh", "wrist.csv"}
+    assert by_name["walk.bvh"]["status"] == "as found"
+    assert [Path(path).name for path in told["failed"]] == ["broken.bvh"]
+    listed = client.get("/api/state").json()
+    assert listed["of_library"]
+    assert {each["id"] for each in listed["recordings"]} == {e["id"] for e in by_name.values()}
+    page = client.get("/", params={"token": TOKEN}).text
+    assert page != client.get("/", params={"token": TOKEN, "open": "none"}).text
+
+
+def test_clusters_are_named_merged_and_split_as_on_the_command_line(client, folder):
+    bodies = [
+        c for c in client.get("/api/library").json()["clusters"] if c["vocabulary"] == "bodies"
+    ]
+    wide = next(c["cluster"] for c in bodies if len(c["recordings"]) == 2)
+    other = next(c["cluster"] for c in bodies if c["cluster"] != wide)
+
+    def edit(kind: str, **rest: Any) -> Any:
+        return client.post("/api/library/edits", json={"kind": kind, **rest})
+
+    told = edit("name", cluster=wide, name=" 7 ").json()
+    assert {c["label"] for c in told["clusters"] if c["cluster"] == wide} == {"7"}
+    assert Library(folder).numbers("7") == [wide]
+    parted = edit("split", cluster=wide, recordings=["walk.bvh"]).json()
+    assert len(parted["clusters"]) == len(told["clusters"]) + 1
+    Library(folder).name(other, "said elsewhere")  # on the command line, meanwhile
+    joined = edit("merge", cluster=other, others=[wide]).json()
+    assert wide not in [c["cluster"] for c in joined["clusters"]]
+    assert "said elsewhere" in [c["label"] for c in joined["clusters"]]
+    refused = edit("split", cluster=other, recordings=["none"])
+    assert refused.status_code == 400
+    assert "is split by naming some" in refused.json()["error"]
+
+
+def test_more_like_this_takes_examples_and_counterexamples_of_the_library_alone(client, takes):
+    found = search(client, WALK).json()["hits"]
+    own = Library(client.get("/api/library").json()["folder"])
+    assert [hit["distance"] for hit in found] == [
+        hit.distance for hit in own.search("walk.bvh", 0.5, 1.6)
+    ]
+    assert found[0]["recording"] == "walk.bvh"
+    assert found[0]["distance"] < 0.1
+    last = {name: found[-1][name] for name in WALK}
+    fewer = search(client, WALK, unlike=[last]).json()["hits"]
+    assert last not in [{name: hit[name] for name in WALK} for hit in fewer]
+    assert len(fewer) < len(found)
+    refused = search(client, {**WALK, "recording": str(takes / "walk.bvh")})
+    assert refused.status_code == 400
+    assert "no recording" in refused.json()["error"]
+    assert "nothing to search for" in search(client).json()["error"]
+
+
+def test_figures_are_of_bodies_or_channels_and_only_of_what_is_there(client, takes, folder):
+    def figure(**asked: Any) -> Any:
+        return client.get("/api/library/figure", params=asked)
+
+    body = figure(recording="walk.bvh", start=0.5, stop=1.6).json()
+    assert body["motion"]["n_samples"] in (33, 34)
+    assert len(body["numbers"]) > 100
+    wrist = figure(recording="wrist.csv", start=0, stop=2).json()
+    assert wrist["motion"] is None
+    assert all(0 <= value <= 1 for curve in wrist["curves"] for value in curve)
+    assert figure(recording="/etc/hostname", start=0, stop=1).status_code == 400
+    assert figure(recording="walk.bvh", start=2, stop=1).status_code == 400
+    assert figure(recording="walk.bvh").status_code == 400
+
+
+def test_a_newer_search_ends_the_one_before(library):
+    searches = Searches()
+    sent = SearchRequest(like=[Span(**WALK)], unlike=[], threshold=0.85, top=5, mirror=False)
+
+    class Newer(Library):
+        def search(self, *args: Any, client: Any, **rest: Any) -> Any:
+            searches._newest += 1
+            return super().search(*args, client=client, **rest)
+
+    with pytest.raises(SupersededError):
+        searches.search(Newer(library.folder), sent)
