@@ -42,6 +42,7 @@ class Robot:
         self.future: dict[Path, list[Rows]] = {take: [] for take in takes}
         self.left: dict[Path, list[Rows]] = {take: [] for take in takes}
         self.edits = 0
+        self.steps: list[str] = []
         self.open()
 
     def open(self) -> None:
@@ -54,6 +55,7 @@ class Robot:
     def step(self) -> str:
         """Do something at random; what it was."""
         what = self.chance.choice(STEPS)
+        self.steps.append(what)
         before, revision = self.rows(), self.revision()
         if what in EDITS:
             self.edit(what)
@@ -140,6 +142,8 @@ class Robot:
         self.screen.opened()
         self.screen.wait("k.unsent.length === 0")
         if hasty:
+            if (now := self.revision()) != revision + 1:
+                raise RuntimeError(f"an edit sent before a kill was made {now - revision} times")
             self.changed(before, "kill", revision)
         else:
             self.must_be(before, "kill")
@@ -190,7 +194,8 @@ class Robot:
         shown = self.rows()
         if shown != rows:
             differ = [row for row in shown if row not in rows][:3]
-            said = f"after {self.edits} edits, {what}: another table is shown"
+            last = ", ".join(self.steps[-8:])
+            said = f"after {self.edits} edits ({last}), {what}: another table is shown"
             raise RuntimeError(f"{said}: {differ} of {len(shown)}, not of {len(rows)}")
 
     def on_the_disk(self, what: str) -> None:

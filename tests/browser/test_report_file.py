@@ -12,6 +12,13 @@ import kineme
 from kineme.datasets import bundled_recording
 from kineme.report.page import write_report
 
+MEAN_RED = """() => {
+    dispatchEvent(new Event("beforeprint"));
+    const canvas = document.querySelector(".matrix canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    dispatchEvent(new Event("afterprint"));
+    return data.reduce((sum, value, i) => sum + (i % 4 ? 0 : value), 0) / (data.length / 4);
+}"""
 NASTY = "</script><img src=x onerror=alert(1)><b>squat</b>"
 
 
@@ -46,6 +53,8 @@ def test_it_plays_without_a_network(chromium, segments, tmp_path: Path) -> None:
     screen.wait("!k.playing")
     after = screen.pixels()
     shown = screen.state
+    page.emulate_media(color_scheme="dark")
+    printed = page.evaluate(MEAN_RED)
     assert page.locator("img").count() == 0
     context.close()
     assert said == []
@@ -54,6 +63,7 @@ def test_it_plays_without_a_network(chromium, segments, tmp_path: Path) -> None:
     assert shown["name"] == NASTY
     assert shown["n_segments"] == len(segments)
     assert all(before[place] != after[place] for place in before)
+    assert printed > 200  # light, though the screen is dark
 
 
 def test_signals_have_no_figure_but_lanes_and_matrix(chromium, tmp_path: Path) -> None:

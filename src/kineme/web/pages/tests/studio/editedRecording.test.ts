@@ -217,6 +217,19 @@ describe("when somebody else changes the table", () => {
     expect(told).toHaveLength(1);
   });
 
+  it("a table asked for before an edit, and told after it, does not hide the edit", async () => {
+    const edited = await open();
+    const old = server.now;
+    let answer: (recording: Recording) => void = () => undefined;
+    vi.spyOn(server, "recording").mockReturnValueOnce(new Promise((done) => (answer = done)));
+    const asked = edited.resume();
+    await edited.edit(SPLIT);
+    answer(old);
+    await asked;
+    expect(edited.confirmed.value.revision).toBe(server.now.revision);
+    expect(starts(edited.confirmed.value.segmentation)).toContain(45);
+  });
+
   it("a server that counts anew but has the same table just gets the edit", async () => {
     const edited = await open();
     server.now = { ...server.now, revision: 7 };

@@ -199,7 +199,10 @@ export class EditedRecording {
 
   private async reload(): Promise<boolean> {
     try {
-      this.confirmed.value = await this.around.api.recording(this.id);
+      const before = this.confirmed.peek();
+      const now = await this.around.api.recording(this.id);
+      const since = this.confirmed.peek(); // an edit may have been confirmed on the way
+      if (since === before || now.revision >= since.revision) this.confirmed.value = now;
       return true;
     } catch (error) {
       if (error instanceof Unreachable) this.around.lost();
