@@ -7,7 +7,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from hypothesis import given, settings
 
-from kineme._colors import cluster_color
+from kineme._colors import cluster_color, label_colors
 from kineme.segments import timeline
 from kineme.segments.notebook import ROWS
 from kineme.segments.segmentation import Segmentation
@@ -37,7 +37,8 @@ def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None
     assert len(page.findall(".//tbody/tr")) == min(ROWS, len(result.activities))
     bars = page.findall(".//rect")
     colors = {bar.get("fill") for bar in bars}
-    assert colors <= {timeline.segment_color(segment) for segment in result}
+    labels = label_colors(result)
+    assert colors <= {timeline.segment_color(segment, labels) for segment in result}
     assert len(bars) == len(result)
     for table in (result.table, result.activities, result.table[:0]):
         parsed(table._repr_html_())

@@ -52,6 +52,11 @@ class Division:
         """By which it is told how sure the division is."""
         return evidence(self.recurring, self.preset, self.segments)
 
+    @property
+    def actions(self) -> int:
+        """How many are told apart."""
+        return len(set(self.segments.labels.tolist()) - {-1})
+
     @cached_property
     def sureness(self) -> float:
         """How probably the counts are right, over the whole time, and the borders: their mean."""
@@ -63,6 +68,9 @@ class Division:
 
 def surest(recurring: Recurrence, preset: RecurrenceConstants, stage: Stage) -> Division:
     """The division with the preset as it is or hurried, whichever is surer.
+
+    Shorter times must tell at least as many actions apart: one action with one long chain of
+    repetitions has no borders to be unsure of.
 
     Parameters
     ----------
@@ -79,6 +87,8 @@ def surest(recurring: Recurrence, preset: RecurrenceConstants, stage: Stage) -> 
             return usual
         short = preset.hurried()
         other = _divided(_windowed(recurring, short), short)
+        if other.actions < usual.actions:
+            return usual
         return other if other.sureness > usual.sureness else usual
 
 
