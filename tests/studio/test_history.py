@@ -14,7 +14,7 @@ from studio_clients import Studio
 
 import kineme
 from kineme.segments.history import LONGEST
-from kineme.studio import journal
+from kineme.studio import journal, records
 
 
 def named(studio: Studio, label: str = "hop") -> dict[str, Any]:
@@ -237,3 +237,9 @@ def _random_edit(
         "undo": {},
     }
     return studio.edit(revision, kind, **rest[kind])
+
+
+@pytest.mark.parametrize("damaged", [b'{"a":' * 100_000, b"[", b"null", b""])
+def test_a_damaged_history_is_an_empty_one(tmp_path: Path, damaged: bytes) -> None:
+    (tmp_path / records.HISTORY).write_bytes(damaged)
+    assert records.read_record(tmp_path) == records.Record()

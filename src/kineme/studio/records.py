@@ -57,7 +57,7 @@ def read_record(folder: Path) -> Record:
     """The history in a folder; an empty one where there is none that can be read."""
     try:
         record = msgspec.json.decode((folder / HISTORY).read_bytes(), type=Record)
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return Record()
     needed = needed_by(record)
     whole = record.schema == SCHEMA and needed <= record.steps.keys()
