@@ -17,7 +17,7 @@ from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Library, Settings, build
 from kineme.library import work as work_module
 from kineme.library.executors.processes import Processes
-from library_folders import contents
+from library_folders import contents, write_channels
 
 
 def test_one_bad_file_costs_itself_only(built: Path, takes: Path) -> None:
@@ -25,6 +25,22 @@ def test_one_bad_file_costs_itself_only(built: Path, takes: Path) -> None:
     assert library.recordings["recording"] == ["jacks.bvh", "walk.bvh", "wrist.csv"]
     assert list(library.failed) == [str(takes / "broken.bvh")]
     assert "broken.bvh" in library.failed[str(takes / "broken.bvh")]
+
+
+def test_a_name_that_no_table_holds_costs_its_file_only(tmp_path: Path) -> None:
+    takes = tmp_path / "takes"
+    takes.mkdir()
+    write_channels(takes / "sound.csv")
+    odd = takes / os.fsdecode(b"odd\xff.csv")
+    try:
+        write_channels(odd)
+    except OSError:
+        pytest.skip("this file system takes text for names only")
+    made = build(takes, tmp_path / "library", jobs=1)
+    assert "is not UTF-8" in made.failed[odd]
+    library = Library(tmp_path / "library")
+    assert library.recordings["recording"] == ["sound.csv"]
+    assert list(library.failed) == [str(odd)]
 
 
 def test_an_unchanged_library_is_left_as_it_is(folder: Path) -> None:

@@ -18,6 +18,8 @@ from kineme.library.sources import Glances
 from kineme.library.work import executor_for, outcomes_of, tasks_for
 
 Progress = Callable[[str], None]
+UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
+"""What is said of such a file."""
 
 
 @dataclass
@@ -63,15 +65,22 @@ def gather(
     """
     seen = read_json(plan.folder / SEEN)
     glances = Glances(plan.settings.options().skeleton)
-    looks = {path: glances.at(path) for path in found}
-    there = Gathered(_unchanged(plan, looks, seen))
-    waiting = [path for path in found if path not in there.digests]
+    named = [path for path in found if _is_text(str(path))]
+    looks = {path: glances.at(path) for path in named}
+    unnamed = [path for path in found if path not in looks]
+    there = Gathered(_unchanged(plan, looks, seen), failed=dict.fromkeys(unnamed, UNNAMED))
+    waiting = [path for path in named if path not in there.digests]
     if waiting:
         _make(plan, waiting, executor, progress, there)
     told = {str(path): [looks[path], digest] for path, digest in there.digests.items()}
     if told != seen:
         write_json(plan.folder / SEEN, told)
     return there
+
+
+def _is_text(name: str) -> bool:
+    """Whether tables can hold a name: that of a file may be any bytes."""
+    return not any("\ud800" <= letter <= "\udfff" for letter in name)
 
 
 def _unchanged(

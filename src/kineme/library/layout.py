@@ -108,7 +108,8 @@ def read_json(path: Path) -> dict[str, Any]:
 
 def write_json(path: Path, content: dict[str, Any]) -> None:
     """Leave an object at ``path``, whole or not at all."""
-    text = json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False)
+    # Escaped, for names of files need not be UTF-8.
+    text = json.dumps(content, indent=1, sort_keys=True)
     with written(path) as draft:
         draft.write_text(text + "\n", encoding="utf-8")
 
