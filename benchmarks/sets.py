@@ -23,10 +23,9 @@ from pathlib import Path
 
 from _figures import add_option, record
 from _rival_presets import register_rivals
-from kineme.evaluation.comparison import Comparison, compare
-from kineme.evaluation.jobs import Answer, Job, sides_of
+from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.jobs import Answer, Job, worked_out
 from kineme.evaluation.joining import joined_comparisons
-from kineme.evaluation.methods import segment_by
 from kineme.evaluation.recordings import Reading, recordings_below
 from kineme.evaluation.score import over_all, scores
 from kineme.evaluation.tables import markdown
@@ -42,25 +41,12 @@ READING = Reading(without=("emg*", "time*"))
 
 def scored(job: Job) -> Answer:
     """A method on a recording, or why it failed; processor time is that of this process."""
+    warnings.simplefilter("ignore")
     try:
-        return _scored(job)
+        register_rivals()
+        return worked_out(job, time.process_time)
     except Exception as error:  # noqa: BLE001 (a rival that fails is a result)
         return Answer(error=f"{type(error).__name__}: {error}")
-
-
-def _scored(job: Job) -> Answer:
-    warnings.simplefilter("ignore")
-    register_rivals()
-    recording = job.reading.read(job.path)
-    truth = job.source.of(n_frames=recording.n_frames, fps=recording.fps)
-    classes: dict[str, int] = {}
-    compare(truth, truth, classes=classes)
-    start = time.process_time()
-    found = segment_by(job.method, recording, n_classes=len(classes))
-    seconds = time.process_time() - start
-    compared = compare(truth, found, classes=classes)
-    sides = sides_of(recording, truth, found) if job.joins else None
-    return Answer(compared, sides, classes, seconds, recording.duration)
 
 
 def with_one_mapping(answers: Mapping[Job, Answer], *, told: bool) -> list[Comparison]:

@@ -34,6 +34,11 @@ def is_number(value: object) -> bool:
         return False
 
 
+def is_text(name: str) -> bool:
+    """Whether a name can be written as UTF-8; that of a file or a joint may hold half a pair."""
+    return not any("\ud800" <= letter <= "\udfff" for letter in name)
+
+
 def check_flag(value: object, name: str) -> None:
     """ParameterError unless the value is True or False."""
     if not isinstance(value, bool | np.bool_):

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._checks import is_text
 from kineme._files import atomic_write
 from kineme.errors import KinemeWarning, ReadError, WriteError
 from kineme.recordings import Note, Provenance
@@ -137,7 +138,7 @@ def spelled(path: Path, names: Sequence[str], spelling: Callable[[str], str]) ->
     WriteError for a name that is no text: half of a pair of UTF-16.
     """
     for name in names:
-        if any("\ud800" <= letter <= "\udfff" for letter in name):
+        if not is_text(name):
             raise WriteError(path, f"the name {name!r:.60} cannot be written: it is not text")
     given = unique(map(spelling, names))
     changed = [pair for pair in zip(names, given, strict=True) if pair[0] != pair[1]]

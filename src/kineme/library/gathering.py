@@ -9,6 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from threading import Thread
 
+from kineme._checks import is_text
 from kineme.errors import WriteError
 from kineme.library.executors import Executor
 from kineme.library.executors.here import Here
@@ -65,7 +66,7 @@ def gather(
     """
     seen = read_json(plan.folder / SEEN)
     glances = Glances(plan.settings.options().skeleton)
-    named = [path for path in found if _is_text(str(path))]
+    named = [path for path in found if is_text(str(path))]
     looks = {path: glances.at(path) for path in named}
     unnamed = [path for path in found if path not in looks]
     there = Gathered(_unchanged(plan, looks, seen), failed=dict.fromkeys(unnamed, UNNAMED))
@@ -76,11 +77,6 @@ def gather(
     if told != seen:
         write_json(plan.folder / SEEN, told)
     return there
-
-
-def _is_text(name: str) -> bool:
-    """Whether tables can hold a name: that of a file may be any bytes."""
-    return not any("\ud800" <= letter <= "\udfff" for letter in name)
 
 
 def _unchanged(

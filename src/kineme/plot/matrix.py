@@ -27,7 +27,7 @@ from kineme._colors import NO_CLUSTER, cluster_color, label_colors
 from kineme.segmentation.spans import in_time
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
-from kineme.segments.timeline import segment_color
+from kineme.segments.timeline import new_axes, segment_color
 
 if TYPE_CHECKING:
     from kineme.graph import NeighborGraph
@@ -79,7 +79,7 @@ def plot_matrix(
     """
     check_type(segmentation, Segmentation, "plot_matrix", "kineme.segment gives one")
     graph = graph_of(graph, "plot_matrix")
-    axes = _new_axes() if ax is None else ax
+    axes = new_axes(9.4, 8.2) if ax is None else ax
     seconds = segmentation.n_frames / segmentation.fps
     bar = 0.022 * seconds
     gaps = segmentation.provenance.get("gaps", ())
@@ -220,9 +220,3 @@ def graph_of(graph: Any, door: str) -> NeighborGraph:
     check_type(given, NeighborGraph, door, "kineme.neighbor_graph gives one")
     found: NeighborGraph = given
     return found
-
-
-def _new_axes() -> Axes:
-    from matplotlib import pyplot as plt  # its figures a notebook shows unasked
-
-    return plt.subplots(figsize=(9.4, 8.2), layout="constrained")[1]

@@ -17,6 +17,7 @@ from kineme._checks import check_type, is_number
 from kineme._colors import cluster_color
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
+from kineme.segments.timeline import new_axes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -80,7 +81,7 @@ def plot_strip(
         raise ParameterError(f"poses must be a whole number above 0, not {poses!r:.60}")
     first, last = _frames(recording, start_s, stop_s)
     drawn = cluster_color(0) if color is None else color
-    axes = _new_axes() if ax is None else ax
+    axes = new_axes(6.0, 1.4) if ax is None else ax
     if isinstance(recording, Motion):
         at = np.linspace(first, last - 1, int(poses)).round().astype(np.int64)
         seen = _from_the_side(recording.positions[first:last], recording.positions[at])
@@ -148,9 +149,3 @@ def _draw_channels(axes: Axes, signals: Signals, first: int, last: int, color: s
     for row in range(len(chosen)):
         axes.plot(seconds, shares[:, row] - 1.1 * row, color=color, linewidth=1.0)
     axes.margins(0.01)
-
-
-def _new_axes() -> Axes:
-    from matplotlib import pyplot as plt  # its figures a notebook shows unasked
-
-    return plt.subplots(figsize=(6.0, 1.4), layout="constrained")[1]

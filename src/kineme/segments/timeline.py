@@ -65,7 +65,7 @@ def draw_timeline(
     -------
     Axes
     """
-    axes = _new_axes(len(rows)) if ax is None else ax
+    axes = new_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
     if colors is None:
         labels = label_colors(segment for table in rows.values() for segment in table)
         colors = [[segment_color(segment, labels) for segment in table] for table in rows.values()]
@@ -154,7 +154,8 @@ def _write_label(axes: Axes, segment: Segment, row: int, color: str) -> None:
     )
 
 
-def _new_axes(rows: int) -> Axes:
+def new_axes(width: float, height: float) -> Axes:
+    """Axes of a new figure of pyplot, so many inches wide and high."""
     from matplotlib import pyplot as plt  # its figures a notebook shows unasked
 
-    return plt.subplots(figsize=(9, 0.9 + 0.4 * rows), layout="constrained")[1]
+    return plt.subplots(figsize=(width, height), layout="constrained")[1]
