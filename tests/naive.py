@@ -1014,3 +1014,11 @@ def warpings(distances):
 
     ends = [cheapest(j, m - 1) for j in range(n)]
     return [total / m for total, _ in ends], [begin for _, begin in ends]
+
+
+def least_squares(windows, wanted, finer):
+    """The least of the squared distances of each window from what is wanted."""
+    return [
+        min(sum((finer * a - b) ** 2 for a, b in zip(window, one)) for one in wanted)
+        for window in windows
+    ]
