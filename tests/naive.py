@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations, pairwise
 from math import comb
 
@@ -121,6 +121,22 @@ def cloud_distance(points, i, j, *, half):
 
 
 # --- formats: positions straight from the text of a file, one joint and frame at a time -------
+
+
+def amc_rows(text: str, counts: Mapping[str, int]) -> list[list[float]] | None:
+    """Number and values of each frame, whose bones come in this order; None if they do not."""
+    words, rows = text.split(), []
+    try:
+        while words:
+            row = [float(words.pop(0))]
+            for name, count in counts.items():
+                if words.pop(0) != name:
+                    return None
+                row += [float(words.pop(0)) for _ in range(count)]
+            rows.append(row)
+    except (IndexError, ValueError):
+        return None
+    return rows
 
 
 def amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, Floats]]:
@@ -1087,3 +1103,11 @@ def warpings(distances):
 
     ends = [cheapest(j, m - 1) for j in range(n)]
     return [total / m for total, _ in ends], [begin for _, begin in ends]
+
+
+def least_squares(windows, wanted, finer):
+    """The least of the squared distances of each window from what is wanted."""
+    return [
+        min(sum((finer * a - b) ** 2 for a, b in zip(window, one)) for one in wanted)
+        for window in windows
+    ]
