@@ -187,17 +187,22 @@ class LoadedRecording:
         return said["sha256"] == self.provenance.sha256 or name == self.path.name
 
     def _one_segment(self, kind: Kind) -> Segmentation:
-        columns: dict[str, Sequence[str] | Sequence[int]] = {
-            "level": ["activity"],
-            "kind": [str(kind)],
-            "start_frame": [0],
-            "stop_frame": [self.n_frames],
-        }
         read = self.provenance
         provenance = {
             "input": {"path": read.path, "format": read.format, "sha256": read.sha256},
             "notes": [*read.notes],
         }
-        return Segmentation.from_columns(
-            columns, n_frames=self.n_frames, fps=self.fps, provenance=provenance
-        )
+        return one_segment(kind, self.n_frames, self.fps, provenance)
+
+
+def one_segment(
+    kind: Kind, n_frames: int, fps: float, provenance: Mapping[str, Any] | None = None
+) -> Segmentation:
+    """A table of one segment for all."""
+    columns: dict[str, Sequence[str] | Sequence[int]] = {
+        "level": ["activity"],
+        "kind": [str(kind)],
+        "start_frame": [0],
+        "stop_frame": [n_frames],
+    }
+    return Segmentation.from_columns(columns, n_frames=n_frames, fps=fps, provenance=provenance)
