@@ -58,8 +58,10 @@ def main() -> None:
                     for i in range(RECORDINGS)
                 ]
                 robot = Robot(context, server, takes, seed)
-                while robot.edits < options.edits:
-                    steps[robot.step()] += 1
+                for wanted in [*range(100, options.edits, 100), options.edits]:
+                    while robot.edits < wanted:
+                        steps[robot.step()] += 1
+                    print(f"seed {seed}: {robot.edits} edits so far", flush=True)
                 robot.finish()
             context.close()
             told = ", ".join(f"{count} {what}" for what, count in steps.most_common())
