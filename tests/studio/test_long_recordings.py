@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import queue
 import shutil
 import threading
+import weakref
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from kineme.studio.folder import Folder
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.reading import RecordingCache
+from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
 
 
@@ -93,3 +96,16 @@ def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypa
     assert told.get(timeout=60)[0] == name
     with pytest.raises(ReadError, match="not a number"):
         recordings.message(name)
+
+
+def test_what_is_drawn_of_recordings_left_long_ago_is_not_kept(tmp_path, monkeypatch):
+    monkeypatch.setattr("kineme.studio.open_recordings.MOST_DRAWN", 2)
+    for number in range(3):
+        shutil.copy(kineme.bundled_recording(), tmp_path / f"take_{number}.bvh")
+    recordings = OpenRecordings(Folder(tmp_path), lambda *_: None)
+    names = list(recordings.folder.recordings())
+    first = recordings.message(names[0])
+    drawn = [weakref.ref(recordings.get(name).loaded.page_data()) for name in names]
+    gc.collect()
+    assert [each() is None for each in drawn] == [True, False, False]
+    assert to_json(recordings.message(names[0])) == to_json(first)

@@ -94,6 +94,11 @@ class LoadedRecording:
                 self._page_data = page_data(self.recording, effectors=self.effectors)
             return self._page_data
 
+    def forget_pictures(self) -> None:
+        """Let go of what pages draw, until one asks again."""
+        with self._lock:
+            self._page_data = self._curves = None
+
     def curves(self) -> Curves:
         """What is drawn over time."""
         from kineme.web.curves import Curves

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
@@ -21,6 +22,8 @@ from kineme.web.messages import Edited, Recording
 from kineme.web.requests import EditRequest, SegmentAgain
 
 Listener = Callable[[str, int], None]
+MOST_DRAWN = 6
+"""Recordings whose pictures stay in memory: those asked for last."""
 NO_OPTIONS = ReadingOptions()
 
 
@@ -49,6 +52,7 @@ class OpenRecordings:
         self._changed = changed
         self._cache = RecordingCache(options)
         self._open: dict[str, OpenRecording] = {}
+        self._asked: OrderedDict[str, None] = OrderedDict()
         self._sketches: dict[str, Sketched | None] = {}
         self._sketching = threading.Lock()
         self._lock = threading.Lock()
@@ -73,6 +77,7 @@ class OpenRecordings:
         ReadError
             It cannot be read.
         """
+        self._forget_others(name)
         known = self._open.get(name)
         if known is not None and not known.loaded.changed():
             return known
@@ -90,6 +95,18 @@ class OpenRecordings:
                 if opened.finding:
                     self._in_background(lambda: self._find(opened))
             return self._open[name]
+
+    def _forget_others(self, name: str) -> None:
+        """Let go of the pictures of recordings that nobody has asked for since many others."""
+        with self._lock:
+            self._asked[name] = None
+            self._asked.move_to_end(name)
+            while len(self._asked) > MOST_DRAWN:
+                last, _ = self._asked.popitem(last=False)
+                gone = self._open.get(last)
+                if gone is not None:
+                    gone.loaded.forget_pictures()
+                    self._sketches.pop(last, None)
 
     def _in_background(self, work: Callable[[], None]) -> None:
         def run() -> None:
