@@ -17,6 +17,7 @@ import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Library, Settings, build
 from kineme.library import work as work_module
+from kineme.library.duplicates import Group
 from kineme.library.executors.processes import Processes
 from library_folders import contents, write_channels
 
@@ -254,3 +255,30 @@ def test_progress_tells_how_far_it_is_and_what_is_left(takes: Path, tmp_path: Pa
     assert told[1].startswith("1 of 4, ")
     assert told[1].endswith(" left")
     assert told[4:] == ["4 of 4", "clusters in common"]
+
+
+def test_what_is_there_several_times_is_worked_on_once(
+    takes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = tmp_path / "takes"
+    own.mkdir()
+    for name in ("a", "b", "c"):
+        shutil.copy(takes / "wrist.csv", own / f"{name}.csv")
+        shutil.copy(takes / "broken.bvh", own / f"{name}.bvh")
+    read: list[str] = []
+    whole = work_module.read_quietly
+    monkeypatch.setattr(
+        work_module,
+        "read_quietly",
+        lambda path, options: read.append(path.name) or whole(path, options),
+    )
+    made = build(own, tmp_path / "once", jobs=1)
+    assert [name for name in read if name.endswith("csv")] == ["a.csv"]
+    assert made.new == 1
+    assert all(f"{path.name}: " in said for path, said in made.failed.items())
+    monkeypatch.setattr(
+        "kineme.library.gathering.by_content",
+        lambda tasks, _: [Group([task], "") for task in tasks],
+    )
+    build(own, tmp_path / "each", jobs=1)
+    assert contents(tmp_path / "once") == contents(tmp_path / "each")
