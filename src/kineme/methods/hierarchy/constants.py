@@ -105,6 +105,12 @@ class HierarchyConstants(CountingPreset):
         """What a cluster costs in a stretch of so many samples, in samples.
 
         The longer it is, the more of it differs from the rest by chance.
+
+        Examples
+        --------
+        >>> from kineme.methods.hierarchy.preset import SENSORS
+        >>> [round(SENSORS.cluster_price(samples), 1) for samples in (300, 1200)]
+        [3.3, 4.4]
         """
         minutes = min(samples / self.rate, self.part) / 60
         return self.samples(self.cluster_cost) * float(minutes**self.cluster_growth)
