@@ -24,6 +24,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import find_peaks
+from scipy.spatial.distance import cdist
 
 import kineme
 from _corpora import WALKS, Take, corpora, poses_of
@@ -31,7 +32,6 @@ from _measure import interleaved
 from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
 from kineme.features.canonical.matching import OFFSETS_S, basis, directions
 from kineme.matching import THRESHOLD, search, two_way_distance
-from kineme.matching.subsequences import distances_between
 from kineme.matching.whole_segments import axes_of_embeddings, embedded
 
 Floats = NDArray[np.float64]
@@ -77,7 +77,7 @@ def segments(of: Basis) -> Figures:
     for name in ("hdm05", "utkinect"):
         labels, people = actions(name)
         whole = np.array([embedded(each, *of) for each in sliced(name, poses(name))])
-        apart = distances_between(whole, whole).astype(np.float64)
+        apart = cdist(whole, whole)
         warped = warped_distances(sliced(name, features(name, basis())), people)
         for how, distances in (("alone", apart), ("joined", apart + warped)):
             ranks = ranked(distances, labels, people)
