@@ -41,6 +41,7 @@ class Robot:
         self.past: dict[Path, list[Rows]] = {take: [] for take in takes}
         self.future: dict[Path, list[Rows]] = {take: [] for take in takes}
         self.left: dict[Path, list[Rows]] = {take: [] for take in takes}
+        self.last: dict[Path, int] = {}
         self.edits = 0
         self.steps: list[str] = []
         self.open()
@@ -57,18 +58,19 @@ class Robot:
         what = self.chance.choice(STEPS)
         self.steps.append(what)
         before, revision = self.rows(), self.revision()
+        self.nothing_late(revision)
         if what in EDITS:
             self.edit(what)
             self.changed(before, what, revision)
         elif what == "undo":
             self.screen.page.keyboard.press("Control+z")
-            self.settled()
+            self.settled(revision + bool(self.past[self.take]))
             if self.past[self.take]:
                 self.future[self.take].append(before)
                 self.must_be(self.past[self.take].pop(), what)
         elif what == "redo":
             self.screen.page.keyboard.press("Control+Shift+z")
-            self.settled()
+            self.settled(revision + bool(self.future[self.take]))
             if self.future[self.take]:
                 self.past[self.take].append(before)
                 self.must_be(self.future[self.take].pop(), what)
@@ -86,6 +88,7 @@ class Robot:
             self.take = self.chance.choice(self.takes)
             self.open()
         self.on_the_disk(what)
+        self.last[self.take] = self.revision()
         return what
 
     def edit(self, what: str) -> None:
@@ -170,17 +173,24 @@ class Robot:
         )
         return answer.json()
 
-    def settled(self) -> None:
-        """Until the server has confirmed or refused everything."""
+    def settled(self, revision: int = 0) -> None:
+        """Until the server has confirmed or refused everything, and has that revision or more."""
         self.screen.page.wait_for_timeout(30)
-        self.screen.wait("k.unsent.length === 0")
+        self.screen.wait(f"k.unsent.length === 0 && k.revision >= {revision}")
         self.screen.wait(f"k.revision === {self.revision()}")
+
+    def nothing_late(self, revision: int) -> None:
+        """RuntimeError where something was made after it had counted as refused."""
+        if revision != self.last.get(self.take, revision):
+            raise RuntimeError(f"{self.steps[-2]} was made after it had counted as refused")
 
     def changed(self, before: Rows, what: str, revision: int) -> None:
         """Count what an edit of that revision did; nothing, where it was refused."""
-        if self.revision() == revision:
+        if (now := self.revision()) == revision:
             self.must_be(before, f"refused {what}")
             return
+        if now != revision + 1:
+            raise RuntimeError(f"{what} was made {now - revision} times")
         self.edits += 1
         if self.future[self.take]:
             self.left[self.take].append(self.future[self.take][0])
@@ -196,7 +206,8 @@ class Robot:
             differ = [row for row in shown if row not in rows][:3]
             last = ", ".join(self.steps[-8:])
             said = f"after {self.edits} edits ({last}), {what}: another table is shown"
-            raise RuntimeError(f"{said}: {differ} of {len(shown)}, not of {len(rows)}")
+            wanted = [row for row in rows if row not in shown][:3]
+            raise RuntimeError(f"{said}: {differ} of {len(shown)}, not {wanted} of {len(rows)}")
 
     def on_the_disk(self, what: str) -> None:
         """RuntimeError where the saved table is not the one that the page shows."""
@@ -221,13 +232,13 @@ class Robot:
             for rows in self.left[take][-50:]:
                 if rows not in kept:
                     raise RuntimeError(f"a table of {take.name} that was replaced is gone")
-            last, keys = self.rows(), self.screen.page.keyboard
-            for rows in reversed(self.past[take]):
+            last, keys, revision = self.rows(), self.screen.page.keyboard, self.revision()
+            for i, rows in enumerate(reversed(self.past[take])):
                 keys.press("Control+z")
-                self.settled()
+                self.settled(revision + i + 1)
                 self.must_be(rows, "undo")
-            for _ in self.past[take]:
+            for i in range(len(self.past[take])):
                 keys.press("Control+Shift+z")
-                self.settled()
+                self.settled(revision + len(self.past[take]) + i + 1)
             self.must_be(last, "redo")
             self.future[take].clear()

@@ -1,18 +1,24 @@
-"""A long recording is shown before its segments are found."""
+"""A long recording is shown before it is read, and before its segments are found."""
 
 from __future__ import annotations
 
+import gc
 import queue
 import shutil
 import threading
+import weakref
 
+import numpy as np
 import pytest
 
 import kineme
-from kineme.errors import ParameterError
+from kineme.errors import ParameterError, ReadError
+from kineme.formats import ReadOptions, sketch
 from kineme.studio.folder import Folder
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
+from kineme.studio.reading import RecordingCache
+from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
 
 
@@ -38,3 +44,68 @@ def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatc
     assert not then.finding
     assert len(then.segmentation.segments) > 10
     assert not (tmp_path / "take.segments.json").exists()
+
+
+def test_a_large_file_shows_some_of_its_poses_while_it_is_read(tmp_path, monkeypatch):
+    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
+    wanted, read = threading.Event(), RecordingCache.read
+    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
+    monkeypatch.setattr(
+        RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
+    )
+    told: queue.Queue[tuple[str, int]] = queue.Queue()
+    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
+    (name,) = recordings.folder.recordings()
+    few = recordings.message(name)
+    assert few.finding
+    assert few.n_frames == 2898
+    assert few.motion.n_samples == 2898 // 15 + 1
+    assert few.motion.sample_fps == pytest.approx(60 / 15)
+    poses = recordings.poses(name, few.motion.n_samples)
+    split = EditRequest(revision=few.revision, edit=Split(level="activity", frame=100))
+    with pytest.raises(ParameterError, match="still being found"):
+        recordings.edit(name, split)
+    wanted.set()
+    assert told.get(timeout=60)[0] == name
+    whole = recordings.message(name)
+    assert not whole.finding
+    assert whole.motion.n_samples == 1449
+    assert recordings.poses(name, few.motion.n_samples) == poses
+    assert len(recordings.poses(name, 1449)) > 5 * len(poses)
+
+
+def test_poses_of_a_sketch_are_those_of_the_recording():
+    path = kineme.bundled_recording()
+    found, whole = sketch(path, ReadOptions(), 300), kineme.read(path)
+    assert (found.n_frames, found.fps) == (whole.n_frames, whole.fps)
+    np.testing.assert_allclose(found.motion.positions, whole.positions[::10], atol=1e-9)
+    assert sketch(path, ReadOptions(), 2898) is None
+
+
+def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypatch):
+    text = kineme.bundled_recording().read_text().splitlines()
+    text[-7] = text[-7].replace(text[-7].split()[3], "x", 1)
+    (tmp_path / "take.bvh").write_text("\n".join(text))
+    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
+    told: queue.Queue[tuple[str, int]] = queue.Queue()
+    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
+    (name,) = recordings.folder.recordings()
+    assert recordings.message(name).finding
+    assert told.get(timeout=60)[0] == name
+    with pytest.raises(ReadError, match="not a number"):
+        recordings.message(name)
+
+
+def test_what_is_drawn_of_recordings_left_long_ago_is_not_kept(tmp_path, monkeypatch):
+    monkeypatch.setattr("kineme.studio.open_recordings.MOST_DRAWN", 2)
+    for number in range(3):
+        shutil.copy(kineme.bundled_recording(), tmp_path / f"take_{number}.bvh")
+    recordings = OpenRecordings(Folder(tmp_path), lambda *_: None)
+    names = list(recordings.folder.recordings())
+    first = recordings.message(names[0])
+    drawn = [weakref.ref(recordings.get(name).loaded.page_data()) for name in names]
+    gc.collect()
+    assert [each() is None for each in drawn] == [True, False, False]
+    assert to_json(recordings.message(names[0])) == to_json(first)

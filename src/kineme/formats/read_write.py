@@ -12,7 +12,7 @@ from kineme._doors import reading
 from kineme.errors import ReadError, WriteError
 from kineme.formats.files import FileContent, load, warn
 from kineme.formats.options import AnyPath, ReadOptions
-from kineme.formats.registry import recognise, supported_formats
+from kineme.formats.registry import Sketch, recognise, supported_formats
 from kineme.recordings import Motion, Signals
 
 _BLANK = re.compile(rb"(\xef\xbb\xbf)?\s*\Z")
@@ -106,6 +106,30 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
         if Path(path).is_dir():
             return _read_folder(Path(path), options)
         return _read_file(load(path), options)
+
+
+def sketch(path: AnyPath, options: ReadOptions, most: int) -> Sketch | None:
+    """A pose here and there of a long file, to look at while it is read.
+
+    Parameters
+    ----------
+    path : str or PathLike
+    options : ReadOptions
+        As it will be read.
+    most : int
+        Poses.
+
+    Returns
+    -------
+    Sketch or None
+        None where the format has none, or the file no more frames than that.
+    """
+    with reading(path):
+        if Path(path).is_dir():
+            return None
+        content = load(path)
+        known = recognise(content)
+        return known.sketch(content, options, most) if known.sketch else None
 
 
 def read_motion(path: AnyPath, **options: Any) -> Motion:

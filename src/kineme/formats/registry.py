@@ -26,6 +26,25 @@ from kineme.recordings import Motion, Signals
 
 
 @dataclass(frozen=True)
+class Sketch:
+    """What a long file shows of itself before it is read.
+
+    Parameters
+    ----------
+    motion : Motion
+        Of few frames, evenly apart.
+    n_frames : int
+        That the file says it has.
+    fps : float
+        Those in a second.
+    """
+
+    motion: Motion
+    n_frames: int
+    fps: float
+
+
+@dataclass(frozen=True)
 class Format:
     """One file format.
 
@@ -48,6 +67,9 @@ class Format:
         are none of this format in it.
     channels : bool
         Whether files can hold channels, so that ``read`` minds ``columns`` and ``emg``.
+    sketch : callable, optional
+        From `FileContent`, `ReadOptions` and a number of frames to a `Sketch` of so many at most,
+        much sooner than ``read``; None where that cannot be.
     """
 
     name: str
@@ -58,6 +80,7 @@ class Format:
     write_signals: Callable[[Signals, Path], None] | None = None
     read_folder: Callable[[Path, ReadOptions], Motion | Signals | None] | None = None
     channels: bool = False
+    sketch: Callable[[FileContent, ReadOptions, int], Sketch | None] | None = None
 
 
 _formats: list[Format] = []

@@ -94,6 +94,11 @@ class LoadedRecording:
                 self._page_data = page_data(self.recording, effectors=self.effectors)
             return self._page_data
 
+    def forget_pictures(self) -> None:
+        """Let go of what pages draw, until one asks again."""
+        with self._lock:
+            self._page_data = self._curves = None
+
     def curves(self) -> Curves:
         """What is drawn over time."""
         from kineme.web.curves import Curves
@@ -187,17 +192,22 @@ class LoadedRecording:
         return said["sha256"] == self.provenance.sha256 or name == self.path.name
 
     def _one_segment(self, kind: Kind) -> Segmentation:
-        columns: dict[str, Sequence[str] | Sequence[int]] = {
-            "level": ["activity"],
-            "kind": [str(kind)],
-            "start_frame": [0],
-            "stop_frame": [self.n_frames],
-        }
         read = self.provenance
         provenance = {
             "input": {"path": read.path, "format": read.format, "sha256": read.sha256},
             "notes": [*read.notes],
         }
-        return Segmentation.from_columns(
-            columns, n_frames=self.n_frames, fps=self.fps, provenance=provenance
-        )
+        return one_segment(kind, self.n_frames, self.fps, provenance)
+
+
+def one_segment(
+    kind: Kind, n_frames: int, fps: float, provenance: Mapping[str, Any] | None = None
+) -> Segmentation:
+    """A table of one segment for all."""
+    columns: dict[str, Sequence[str] | Sequence[int]] = {
+        "level": ["activity"],
+        "kind": [str(kind)],
+        "start_frame": [0],
+        "stop_frame": [n_frames],
+    }
+    return Segmentation.from_columns(columns, n_frames=n_frames, fps=fps, provenance=provenance)

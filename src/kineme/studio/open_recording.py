@@ -29,6 +29,8 @@ from kineme.studio.storage import ChangedOnDiskError, saved_table
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
 from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 
+STILL_FINDING = "the segments are still being found: try again once they are"
+
 
 class ConflictError(Exception):
     """The edit was made on another table than the present one, which comes along."""
@@ -163,7 +165,7 @@ class OpenRecording:
         """
         with self._lock:
             if self._finding:
-                raise ParameterError("the segments are still being found: try again once they are")
+                raise ParameterError(STILL_FINDING)
             if self._journal.knows(name):
                 return self._edited([])
             if revision != self.revision:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
@@ -10,16 +11,19 @@ from typing import Any
 
 from msgspec import UNSET
 
-from kineme.errors import KinemeError
+from kineme.errors import KinemeError, ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.studio.folder import Folder
 from kineme.studio.kept.reading_of_one import keep_options, said_of
-from kineme.studio.open_recording import OpenRecording
+from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.reading import ReadingOptions, RecordingCache
+from kineme.studio.sketches import OF_SKETCH, Sketched, sketched
 from kineme.web.messages import Edited, Recording
 from kineme.web.requests import EditRequest, SegmentAgain
 
 Listener = Callable[[str, int], None]
+MOST_DRAWN = 6
+"""Recordings whose pictures stay in memory: those asked for last."""
 NO_OPTIONS = ReadingOptions()
 
 
@@ -48,6 +52,9 @@ class OpenRecordings:
         self._changed = changed
         self._cache = RecordingCache(options)
         self._open: dict[str, OpenRecording] = {}
+        self._asked: OrderedDict[str, None] = OrderedDict()
+        self._sketches: dict[str, Sketched | None] = {}
+        self._sketching = threading.Lock()
         self._lock = threading.Lock()
         self._opening: dict[str, threading.Lock] = {}
 
@@ -70,6 +77,7 @@ class OpenRecordings:
         ReadError
             It cannot be read.
         """
+        self._forget_others(name)
         known = self._open.get(name)
         if known is not None and not known.loaded.changed():
             return known
@@ -85,25 +93,75 @@ class OpenRecordings:
                 opened = OpenRecording(name, path, self._cache, tables, revision)
                 self._open[name] = opened
                 if opened.finding:
-                    threading.Thread(target=self._find, args=[opened], daemon=True).start()
+                    self._in_background(lambda: self._find(opened))
             return self._open[name]
+
+    def _forget_others(self, name: str) -> None:
+        """Let go of the pictures of recordings that nobody has asked for since many others."""
+        with self._lock:
+            self._asked[name] = None
+            self._asked.move_to_end(name)
+            while len(self._asked) > MOST_DRAWN:
+                last, _ = self._asked.popitem(last=False)
+                gone = self._open.get(last)
+                if gone is not None:
+                    gone.loaded.forget_pictures()
+                    self._sketches.pop(last, None)
+
+    def _in_background(self, work: Callable[[], None]) -> None:
+        def run() -> None:
+            try:
+                work()
+            except Exception:
+                if threading.main_thread().is_alive():  # else the server has ended
+                    raise
+
+        threading.Thread(target=run, daemon=True).start()
 
     def _find(self, opened: OpenRecording) -> None:
         """Segment a long recording, and say when its table is there."""
-        try:
-            opened.find()
-        except Exception:
-            if threading.main_thread().is_alive():  # else the server has ended
-                raise
-        else:
-            self._changed(opened.id, opened.revision)
+        opened.find()
+        self._changed(opened.id, opened.revision)
+
+    def _sketch(self, name: str) -> Sketched | None:
+        """What there is to show of a recording that is being read; made once, and read then."""
+        if name in self._open:
+            return None
+        path = _found(self.folder.recordings(), name, "recording")
+        with self._sketching:
+            if name not in self._sketches:
+                made = self._sketches[name] = sketched(name, path, self._cache.options)
+                if made is not None:
+                    self._in_background(lambda: self._read(name, made))
+            present = self._sketches[name]
+        return present if present is not None and present.reading else None
+
+    def _read(self, name: str, instead: Sketched) -> None:
+        """Open a recording that is shown as a sketch, and say when it is there, or cannot be."""
+        revision = 1
+        with suppress(KinemeError, UnknownError):
+            opened = self.get(name)
+            opened.loaded.page_data()
+            revision = opened.revision
+        instead.reading = False
+        self._changed(name, revision)
 
     def message(self, name: str) -> Recording:
         """All that a page shows of the recording of that id."""
+        if instead := self._sketch(name):
+            return instead.message
         message, anew = self.get(name).message()
         if anew:
             self._changed(name, message.revision)
         return message
+
+    def poses(self, name: str, n_samples: int) -> bytes:
+        """The poses that a message named so many of; those of all it has, otherwise."""
+        instead = self._sketches.get(name)
+        head = instead.message.motion if instead else None
+        if instead is not None and head is not None and head.n_samples == n_samples:
+            return instead.binary
+        return self.get(name).loaded.page_data().binary
 
     def prepare(self, names: Iterable[str]) -> None:
         """Open recordings before they are asked for; what is wrong with one is said then."""
@@ -113,6 +171,8 @@ class OpenRecordings:
 
     def edit(self, name: str, sent: EditRequest) -> Edited:
         """The recording's table after an edit, as `OpenRecording.edit` makes it."""
+        if sent.revision == OF_SKETCH:
+            raise ParameterError(STILL_FINDING)
         called = "" if sent.name is UNSET else sent.name
         result = self.get(name).edit(sent.revision, sent.edit, self, name=called)
         self._changed(name, result.revision)

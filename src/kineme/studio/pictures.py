@@ -27,10 +27,9 @@ class Pictures:
         self._recordings = recordings
 
     async def motion(self, request: Request) -> Response:
-        def work() -> bytes:
-            return self._loaded(request).page_data().binary
-
-        return Response(await run_in_threadpool(work), media_type=BINARY)
+        wanted = number_in(request.query_params.get("poses", ""))
+        name, poses = request.path_params["id"], self._recordings.poses
+        return Response(await run_in_threadpool(poses, name, wanted), media_type=BINARY)
 
     async def tile(self, request: Request) -> Response:
         place = [number_in(request.path_params[name]) for name in ("level", "row", "column")]

@@ -30,6 +30,7 @@ Floats = NDArray[np.float64]
 RATE = 30.0  # poses per second: what a page plays without visible steps
 MOST_BYTES = 11_000_000  # so that the report of an hour, with all else in it, is under 30 MB
 MISSING = -32768
+BLOCK = 1000  # poses that stay in the processor's cache
 FINE, COARSE = 1e-4, 5e-4  # steps, as shares of the body's largest extent
 
 
@@ -139,14 +140,20 @@ def encode(positions: Floats, share: float) -> tuple[tuple[float, float, float],
         The compressed columns.
     """
     seen = np.asarray(np.isfinite(positions).all(axis=2))
-    points = positions[seen]
+    everywhere = bool(seen.all())
+    points = positions.reshape(-1, 3) if everywhere else positions[seen]  # without a copy of hours
     if not len(points):
         points = np.zeros((1, 3))
     low, high = points.min(axis=0), points.max(axis=0)
     origin = (low + high) / 2
     step = max(share * _extent(positions, seen), float((high - low).max()) / 65000) or 1.0
     numbers = np.full(positions.shape, MISSING, np.int16)
-    numbers[seen] = np.rint((points[: seen.sum()] - origin) / step)
+    if everywhere:
+        for first in range(0, len(positions), BLOCK):
+            span = slice(first, first + BLOCK)
+            numbers[span] = np.rint((positions[span] - origin) / step)
+    else:
+        numbers[seen] = np.rint((points[: seen.sum()] - origin) / step)
     columns = np.ascontiguousarray(numbers.reshape(len(numbers), -1).T)
     columns[:, 1:] -= columns[:, :-1].copy()
     x, y, z = origin.tolist()
@@ -184,10 +191,10 @@ def bones(motion: Motion) -> list[tuple[int, int]]:
 
 def _extent(positions: Floats, seen: NDArray[np.bool_]) -> float:
     """Largest extent of the median pose along an axis, in metres."""
-    whole = positions[seen.all(axis=1)]
+    whole = np.flatnonzero(seen.all(axis=1))
     if not len(whole):
         return 0.0
-    few = whole[:: max(1, len(whole) // 1000)]
+    few = positions[whole[:: max(1, len(whole) // 1000)]]
     return float(np.median(np.ptp(few, axis=1).max(axis=1)))
 
 

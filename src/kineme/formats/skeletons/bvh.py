@@ -21,6 +21,7 @@ University of Sheffield CS-01-11, 2001, section 3.
 from __future__ import annotations
 
 import re
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,8 +29,8 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.options import ReadOptions
-from kineme.formats.registry import Format
-from kineme.formats.skeletons.bvh_frames import read_frames
+from kineme.formats.registry import Format, Sketch
+from kineme.formats.skeletons.bvh_frames import read_frames, read_some
 from kineme.formats.skeletons.bvh_hierarchy import Joint, read_joints
 from kineme.formats.skeletons.bvh_writer import write_bvh
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
@@ -45,25 +46,65 @@ _HEADER = re.compile(rb"[ \t]*(\d{1,18})\s+Frame\s*Time\s*:[ \t]*(\S*)[^\r\n]*",
 
 def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     """The motion of a BVH file."""
-    joints, values, fps, provenance = _taken(content, options)
+    head = _head(content, options)
+    values = read_frames(content, head.start, head.width, head.declared)
+    n_joints = len(head.joints)
+    if len(values) != head.declared:
+        content.warn(f"{head.declared} frames declared, {len(values)} found and kept", head.line)
+    content.claim(
+        BYTES_PER_JOINT * n_joints * len(values), f"{n_joints} joints in {len(values)} frames"
+    )
+    provenance = content.provenance("BVH", head.notes)
     content.let_go()
-    rotations, slides = _local(joints, values)
+    rotations, slides = _local(head.joints, values)
     del values  # before as much again is made of it
     return place(
-        _skeleton(joints),
+        _skeleton(head.joints),
         rotations,
         slides,
-        fps,
+        head.fps,
         unit=options.unit,
         up=options.up,
         provenance=provenance,
     )
 
 
-def _taken(
-    content: FileContent, options: ReadOptions
-) -> tuple[list[Joint], Floats, float, Provenance]:
-    """All that the text holds: joints, channel values (frames, width), frame rate, notes."""
+def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch | None:
+    """So many frames of a BVH file at most, evenly apart; None where it has no more than those."""
+    head = _head(content, options)
+    every = -(-head.declared // most)
+    values = read_some(content.data, head.start, head.width, every) if every > 1 else None
+    if values is None or len(values) != -(-head.declared // every):
+        return None
+    rotations, slides = _local(head.joints, values)
+    motion = place(
+        _skeleton(head.joints),
+        rotations,
+        slides,
+        head.fps / every,
+        unit=options.unit,
+        up=options.up,
+        provenance=Provenance(str(content.path), "BVH"),
+    )
+    return Sketch(motion, head.declared, head.fps)
+
+
+class _Head(NamedTuple):
+    """All that stands before the frames."""
+
+    joints: list[Joint]
+    declared: int
+    fps: float
+    notes: list[str]
+    line: int
+    start: int
+
+    @property
+    def width(self) -> int:
+        return sum(len(joint.channels) for joint in self.joints)
+
+
+def _head(content: FileContent, options: ReadOptions) -> _Head:
     split = _MOTION.search(content.data)
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a whole BVH file")
@@ -72,20 +113,12 @@ def _taken(
     header = _HEADER.match(content.data, split.end())
     if header is None:
         raise content.error("'Frames:' is not followed by a number and 'Frame Time:'", line)
-    declared = int(header.group(1))
     notes: list[str] = []
     fps = options.fps
     if fps is None:
         fps, note = _rate(content, header.group(2), content.line_at(header.start(2)))
         notes += [note] if note else []
-    width = sum(len(joint.channels) for joint in joints)
-    values = read_frames(content, header.end(), width, declared)
-    if len(values) != declared:
-        content.warn(f"{declared} frames declared, {len(values)} found and kept", line)
-    content.claim(
-        BYTES_PER_JOINT * len(joints) * len(values), f"{len(joints)} joints in {len(values)} frames"
-    )
-    return joints, values, fps, content.provenance("BVH", notes)
+    return _Head(joints, int(header.group(1)), fps, notes, line, header.end())
 
 
 def _skeleton(joints: list[Joint]) -> Skeleton:
@@ -138,5 +171,10 @@ def _rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | No
 
 
 FORMAT = Format(
-    "BVH", (".bvh",), lambda head: _HIERARCHY.search(head) is not None, read_bvh, write_bvh
+    "BVH",
+    (".bvh",),
+    lambda head: _HIERARCHY.search(head) is not None,
+    read_bvh,
+    write_bvh,
+    sketch=sketch_bvh,
 )

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from array import array
 from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +63,16 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     if glued:
         content.warn(f"blanks before minus signs are missing in {glued} frames: put there")
     return np.frombuffer(values).reshape(-1, width)
+
+
+def read_some(data: bytes, start: int, width: int, every: int) -> Floats | None:
+    """The values of each ``every``-th frame only; None where lines are not one per frame."""
+    lines = (line for line in _lines(data, start) if line.strip())
+    try:
+        rows = [numbers(line.split()) for line in islice(lines, 0, None, every)]
+    except ValueError:
+        return None
+    return np.array(rows) if rows and all(len(row) == width for row in rows) else None
 
 
 def _lines(data: bytes, start: int) -> Iterator[bytes]:

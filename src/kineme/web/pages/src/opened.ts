@@ -1,6 +1,6 @@
 /** Recordings on a page: their data, and how they come. */
 import { signal, type Signal } from "@preact/signals";
-import type { Recording } from "./messages";
+import type { MotionHead, Recording } from "./messages";
 import { unpackMotion, type Motion } from "./motion";
 import type { RecordingData } from "./recordingData";
 
@@ -18,8 +18,16 @@ export async function openRecording(data: RecordingData): Promise<OpenRecording>
   return { data, recording, motion: signal<Motion | null>(null) };
 }
 
-/** Loads the motion of an opened recording. */
+/**
+ * Loads the motion of an opened recording, unless it has come: a large one shows few poses of
+ * itself until all of it is read.
+ */
 export async function loadMotion(opened: OpenRecording): Promise<void> {
-  const { motion: head } = opened.recording.value;
-  if (head) opened.motion.value = await unpackMotion(head, await opened.data.motion());
+  const { motion: head } = opened.recording.peek();
+  if (!head || isOf(head, opened.motion.peek())) return;
+  opened.motion.value = await unpackMotion(head, await opened.data.motion(head.n_samples));
+}
+
+function isOf({ n_samples, step }: MotionHead, motion: Motion | null): boolean {
+  return motion?.head.n_samples === n_samples && motion.head.step === step;
 }

@@ -3,8 +3,8 @@ import type { CurveList, Recording } from "./messages";
 
 export interface RecordingData {
   recording(): Promise<Recording>;
-  /** The binary motion as it was sent: deflated, see motion.ts; empty where there is no skeleton. */
-  motion(): Promise<ArrayBuffer>;
+  /** The binary motion as it was sent: deflated, see motion.ts; of as many poses as were told. */
+  motion(n_samples: number): Promise<ArrayBuffer>;
   /** A tile of the similarity matrix as PNG, or null where there is none. */
   tile(level: number, row: number, column: number): Promise<Blob | null>;
   /** The curves there are to draw; null where none can be had. */

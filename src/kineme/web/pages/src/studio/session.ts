@@ -130,7 +130,11 @@ export class Session {
     this.retrying = 0;
     this.trouble.value = null;
     if (!this.begun) await this.begin();
-    else for (const edited of this.recordings.value) await edited.resume();
+    else
+      for (const edited of this.recordings.value) {
+        await edited.resume();
+        await this.renewMotion(edited.id);
+      }
   }
 
   /** Opens what was open before, and listens for changes from then on. */
@@ -150,7 +154,7 @@ export class Session {
   }
 
   private async fetch(id: string): Promise<OpenRecording> {
-    const data = new ServerData(this.api, id).askAhead();
+    const data = new ServerData(this.api, id);
     const edited =
       this.recordings.value.find((each) => each.id === id) ??
       (await EditedRecording.open(id, {
@@ -181,7 +185,18 @@ export class Session {
 
   private async changed(change: Changed): Promise<void> {
     const edited = this.recordings.value.find((each) => each.id === change.recording);
-    if (edited) await edited.changed(change.revision);
-    else await this.refresh();
+    if (!edited) return void (await this.refresh());
+    await edited.changed(change.revision);
+    await this.renewMotion(edited.id);
+  }
+
+  /** The poses of a recording as it is now: those of a large one come bit by bit. */
+  private async renewMotion(id: string): Promise<void> {
+    const opened = this.store.opened.value.find((each) => each.recording.value.id === id);
+    try {
+      if (opened?.motion.value) await loadMotion(opened);
+    } catch (error) {
+      this.bulletin.problem(explain(error), "open");
+    }
   }
 }

@@ -99,7 +99,8 @@ export class EditedRecording {
     if (revision === this.confirmed.peek().revision) return;
     const { finding } = this.confirmed.peek();
     if (!(await this.reload())) return;
-    const { segmentation } = this.confirmed.peek();
+    const { segmentation, finding: still, saved } = this.confirmed.peek();
+    if (still || (finding && saved)) return; // it was saved, and only read late
     this.around.tell(
       finding ? found(segmentation) : "Another tab changed this table; this is how it is now.",
     );

@@ -57,8 +57,9 @@ export class Api {
     return this.json(`/api/recordings/${encodeURIComponent(id)}`);
   }
 
-  async motion(id: string): Promise<ArrayBuffer> {
-    const answer = await this.ask(`/api/recordings/${encodeURIComponent(id)}/motion`);
+  async motion(id: string, poses: number): Promise<ArrayBuffer> {
+    const path = `/api/recordings/${encodeURIComponent(id)}/motion?poses=${poses}`;
+    const answer = await this.ask(path);
     return unbroken(answer.arrayBuffer());
   }
 

@@ -4,28 +4,17 @@ import type { RecordingData } from "../../recordingData";
 import type { Api } from "./api";
 
 export class ServerData implements RecordingData {
-  private coming: Promise<ArrayBuffer> | undefined;
-
   constructor(
     private readonly api: Api,
     private readonly id: string,
   ) {}
 
-  /** Asks for the motion, which then is on its way while the page shows the rest. */
-  askAhead(): this {
-    this.coming = this.api.motion(this.id);
-    this.coming.catch(() => undefined); // whoever waits for it is told
-    return this;
-  }
-
   recording(): Promise<Recording> {
     return this.api.recording(this.id);
   }
 
-  motion(): Promise<ArrayBuffer> {
-    const { coming } = this;
-    this.coming = undefined;
-    return coming ?? this.api.motion(this.id);
+  motion(n_samples: number): Promise<ArrayBuffer> {
+    return this.api.motion(this.id, n_samples);
   }
 
   tile(level: number, row: number, column: number): Promise<Blob | null> {
