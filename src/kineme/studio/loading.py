@@ -105,8 +105,15 @@ class LoadedRecording:
 
         with self._lock:
             if self._curves is None:
-                self._curves = Curves(self.recording)
+                found = self.recording
+                analog = self._cache.analog(self.path) if isinstance(found, Motion) else None
+                self._curves = Curves(found, analog)
             return self._curves
+
+    def source(self, analog: bool) -> Motion | Signals:
+        """What a curve is of: the recording, or the channels beside it."""
+        found = self._cache.analog(self.path) if analog else None
+        return self.recording if found is None else found
 
     def segment(
         self,

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError
-from kineme.formats import ReadOptions, read_quietly
+from kineme.formats import ReadOptions, read_analog, read_quietly
 from kineme.studio.kept.reading_of_one import read_options
 
 if TYPE_CHECKING:
@@ -83,6 +83,10 @@ class RecordingCache:
                     self._known.popitem(last=False)
                 self._reading.pop(key, None)
         return found
+
+    def analog(self, path: Path) -> Signals | None:
+        """The channels beside the motion in a file, read each time; None where there are none."""
+        return read_analog(path, read_options(path, self.options.file))
 
 
 def stamp_of(path: Path) -> Stamp:
