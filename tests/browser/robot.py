@@ -42,6 +42,7 @@ class Robot:
         self.future: dict[Path, list[Rows]] = {take: [] for take in takes}
         self.left: dict[Path, list[Rows]] = {take: [] for take in takes}
         self.last: dict[Path, int] = {}
+        self.client = httpx.Client(timeout=300)  # one: to make it takes longer than a step
         self.edits = 0
         self.steps: list[str] = []
         self.open()
@@ -168,10 +169,8 @@ class Robot:
         """What the server answers of the present recording."""
         root, token = self.server.address.split("?token=")
         name = file_id(self.take)
-        answer = httpx.get(
-            f"{root}api/recordings/{name}{address}", headers={"x-kineme-token": token}, timeout=300
-        )
-        return answer.json()
+        headers = {"x-kineme-token": token, "connection": "close"}  # servers are killed here
+        return self.client.get(f"{root}api/recordings/{name}{address}", headers=headers).json()
 
     def settled(self, revision: int = 0) -> None:
         """Until the server has confirmed or refused everything, and has that revision or more."""
