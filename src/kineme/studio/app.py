@@ -15,7 +15,7 @@ from starlette.responses import FileResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from kineme.errors import KinemeError, WriteError
+from kineme.errors import KinemeError, ReadError, SeveralPeopleError, WriteError
 from kineme.studio.answers import MessageResponse
 from kineme.studio.bodies import TooSlowError
 from kineme.studio.events import Hub
@@ -117,7 +117,9 @@ def library_routes(library: ShownLibrary | None) -> list[Route]:
 
 def _refused(_: Request, error: Exception) -> Response:
     status = next(STATUS[kind] for kind in type(error).__mro__ if kind in STATUS)
-    return _failure(str(error), status)
+    people = error.people if isinstance(error, SeveralPeopleError) else ()
+    reading = isinstance(error, ReadError)
+    return MessageResponse(Failure(error=str(error), people=[*people], reading=reading), status)
 
 
 def _conflict(_: Request, error: Exception) -> Response:

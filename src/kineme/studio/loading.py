@@ -53,6 +53,7 @@ class LoadedRecording:
         self._stamp = stamp_of(path)
         found = cache.read(path)
         self.n_frames, self.fps = found.n_frames, found.fps
+        self.is_motion = isinstance(found, Motion)
         self.provenance = found.provenance
         self._lock = threading.Lock()
         self._page_data: PageData | None = None

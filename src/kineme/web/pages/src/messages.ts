@@ -205,9 +205,15 @@ export interface Changed {
   revision: number;
 }
 
-/** Why a request was refused, in one sentence. */
+/**
+ * Why a request was refused, in one sentence; `people` are those one of whom is to be chosen.
+ *
+ * `reading` says that the recording could not be read as it was told to be.
+ */
 export interface Failure {
   error: string;
+  people?: string[];
+  reading?: boolean;
 }
 
 /** A constant of a preset that the page offers to change. */
