@@ -1,8 +1,14 @@
-"""The lowest versions that pyproject.toml allows, as constraints for pip: one line each."""
+"""The lowest versions that pyproject.toml allows, as constraints for pip: one line each.
+
+    python .ci/lowest_versions.py tables library
+
+Of what kineme needs always, and of the extras that are named.
+"""
 
 from __future__ import annotations
 
 import re
+import sys
 import tomllib
 from pathlib import Path
 
@@ -14,4 +20,5 @@ def lowest(requirements: list[str]) -> list[str]:
 
 
 project = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text())["project"]
-print("\n".join(lowest([*project["dependencies"], *project["optional-dependencies"]["tables"]])))
+extras = [each for name in sys.argv[1:] for each in project["optional-dependencies"][name]]
+print("\n".join(dict.fromkeys(lowest([*project["dependencies"], *extras]))))

@@ -18,9 +18,9 @@ def write_channels(path: Path) -> None:
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """The bytes of every file, by its place in the folder."""
+    """The bytes of every file, by its place in the folder; drafts of killed writers are none."""
     return {
         path.relative_to(folder).as_posix(): path.read_bytes()
         for path in folder.rglob("*")
-        if path.is_file()
+        if path.is_file() and not path.name.startswith(".kineme-")
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations, pairwise
 from math import comb
 
@@ -121,6 +121,22 @@ def cloud_distance(points, i, j, *, half):
 
 
 # --- formats: positions straight from the text of a file, one joint and frame at a time -------
+
+
+def amc_rows(text: str, counts: Mapping[str, int]) -> list[list[float]] | None:
+    """Number and values of each frame, whose bones come in this order; None if they do not."""
+    words, rows = text.split(), []
+    try:
+        while words:
+            row = [float(words.pop(0))]
+            for name, count in counts.items():
+                if words.pop(0) != name:
+                    return None
+                row += [float(words.pop(0)) for _ in range(count)]
+            rows.append(row)
+    except (IndexError, ValueError):
+        return None
+    return rows
 
 
 def amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, Floats]]:
@@ -872,6 +888,95 @@ def mean_distances(features, segments, unit):
     ]
 
 
+def smoothed(rows, smoothing):
+    """Means of the rows so near, and by how much these change per frame."""
+    n = len(rows)
+    around = [(max(f - smoothing, 0), min(f + smoothing, n - 1)) for f in range(n)]
+    poses = np.array([rows[a : b + 1].mean(axis=0) for a, b in around])
+    return poses, [np.linalg.norm(poses[b] - poses[a]) / max(b - a, 1) for a, b in around]
+
+
+def judged(poses, path, visits, places, near, followed_for):
+    """Ends before the first visit and after the last, and what is unexplained of an activity."""
+    whole, at = path[-1], np.array([path[visit] for visit in visits])
+    lengths = np.diff(at)
+    length = sorted(lengths)[len(lengths) // 2]
+    inner = [
+        poses_at(poses, path, a + (b - a) * ((np.arange(places) + 0.5) / places))
+        for a, b in pairwise(at)
+    ]
+    steps = (np.arange(int(places * followed_for)) + 0.5) / places
+    ends, mean = [], np.mean(inner, axis=0)
+    for there, expected in ((at[0] - steps * length, mean[::-1]), (at[-1] + steps * length, mean)):
+        inside = there[(there >= 0) & (there <= whole)]
+        there = poses_at(poses, path, inside)
+        gains = near - ((there[:, None] - expected) ** 2).sum(axis=2) if len(there) else []
+        ends.append(_longest(gains) / places)
+    before, after = ends
+    outside = max(at[0] - before * length, 0) + max(whole - at[-1] - after * length, 0)
+    if len(inner) == 1:
+        ahead = at[-1] + (whole - length) * steps[:places]
+        inner.append(poses_at(poses, path, [a if a < whole else a - whole for a in ahead]))
+    shares = np.array(unexplained(inner)[: len(lengths)])
+    known = max(whole - outside - lengths.sum(), 0)
+    weights = np.maximum(lengths / whole, 1 / (len(lengths) + before + after))
+    return before, after, weights @ shares + (shares.mean() * known + outside) / whole
+
+
+def _longest(gains):
+    """The length of the best warped path, as `matched_lengths` but row by row."""
+    best, length, sums = 0.0, 0, {(-1, -1): 0.0}
+    for i in range(len(gains)):
+        for j in range(len(gains[i])):
+            steps = ((1, 1), (1, 2), (2, 1))
+            sums[i, j] = max(
+                sums.get((i - a, j - b), -np.inf) + (a + b) * gains[i][j] for a, b in steps
+            )
+            if sums[i, j] > best:
+                best, length = sums[i, j], j + 1
+    return length
+
+
+# --- ends: stretches beside a mean repetition --------------------------------------------------
+
+
+def evenly_in_time(rows, start, length, places):
+    at = start + length * ((np.arange(places) + 0.5) / places) - 0.5
+    return np.array([np.interp(at, np.arange(len(rows)), column) for column in rows.T]).T
+
+
+def best_length(rows, stop, shortest, longest, mean):
+    """How long the stretch up to a frame is that is nearest to the mean."""
+    return min(
+        range(shortest, longest + 1),
+        key=lambda n: ((evenly_in_time(rows, stop - n, n, len(mean)) - mean) ** 2).sum(),
+    )
+
+
+def distances_from_mean(rows, start, stop, first, length, mean, reach):
+    """How far each row is from the places of the mean that are near its phase."""
+    found = []
+    for f in range(start, stop):
+        at = int(np.floor((f + 0.5 - first) / length * len(mean)))
+        near = [mean[place % len(mean)] for place in range(at - reach, at + reach + 1)]
+        found.append(min(np.linalg.norm(rows[f] - place) for place in near))
+    return found
+
+
+def distances_to_others(rows, cuts, repetitions, reach):
+    found = []
+    for k, (start, stop) in enumerate(pairwise(cuts)):
+        others = np.mean([*repetitions[:k], *repetitions[k + 1 :]], axis=0)
+        found += distances_from_mean(rows, start, stop, start, stop - start, others, reach)
+    return found
+
+
+def mean_in_band(similarity, rows, columns, gap, width):
+    """Mean of the pairs farther apart than the gap and within the width; 0 if there is none."""
+    known = [similarity[i, j] for i in rows for j in columns if gap < abs(i - j) < width]
+    return np.mean(known) if known else 0.0
+
+
 # --- occurrences ------------------------------------------------------------------------------
 
 PATH_STEPS = ((1, 1, 1.0), (1, 2, 1.5), (2, 1, 1.5))
@@ -998,3 +1103,11 @@ def warpings(distances):
 
     ends = [cheapest(j, m - 1) for j in range(n)]
     return [total / m for total, _ in ends], [begin for _, begin in ends]
+
+
+def least_squares(windows, wanted, finer):
+    """The least of the squared distances of each window from what is wanted."""
+    return [
+        min(sum((finer * a - b) ** 2 for a, b in zip(window, one)) for one in wanted)
+        for window in windows
+    ]

@@ -64,11 +64,16 @@ def from_euler(angles: Floats, axes: str) -> Floats:
     half = np.asarray(angles, dtype=np.float64).T / 2
     product = np.zeros((4, half.shape[1]))
     product[0] = 1.0
-    for angle, axis in zip(half, axes, strict=True):
-        factor = np.zeros_like(product)
-        factor[0] = np.cos(angle)
-        factor["xyz".index(axis) + 1] = np.sin(angle)
-        product = multiply(product.T, factor.T).T
+    for number, (angle, axis) in enumerate(zip(half, axes, strict=True)):
+        cos, sin = np.cos(angle), np.sin(angle)
+        i = 1 + "xyz".index(axis)
+        if number == 0:
+            product[0], product[i] = cos, sin
+            continue
+        j, k = 1 + i % 3, 1 + (i + 1) % 3
+        w, x, y, z = product[[0, i, j, k]]  # the axis first, as x
+        product[0], product[i] = w * cos - x * sin, w * sin + x * cos
+        product[j], product[k] = y * cos + z * sin, z * cos - y * sin
     return product.T
 
 

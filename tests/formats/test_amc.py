@@ -9,6 +9,7 @@ from format_samples import AMC, ASF
 import naive
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read
+from kineme.formats.skeletons.amc_frames import _compiled_rows, _Layout
 from kineme.recordings import Motion
 
 CMU_UNIT = 0.0254 / 0.45
@@ -83,6 +84,34 @@ def test_values_may_come_in_any_order_and_layout(tmp_path: Path) -> None:
     assert_same(read(pair(tmp_path, asf=asf)), plain)
     with_hip = AMC.replace("back", "hip\nback")
     assert_same(read(pair(tmp_path, amc=with_hip)), plain)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1\nroot -0 +.5 12.\nhip\nleg 0.1\n2\nroot 1 2 3\nhip\nleg 123456789.012345\n",
+        "1 root 1 2 3\thip leg 4\r\n",
+        "1\nroot 1 2 3\nhip\nleg 4",
+        "1root 1 2 3 hip leg 4\n",
+        "1\nroot 1 2 3\nhips\nleg 4\n",
+        "1\nroot 1 2 3\nhip\nleg4\n",
+        "1\nroot 1 2 3\nhip\nleg 4-5\n",
+        "1\nroot 1 2 3\nhip\nleg . \n",
+        "1\nroot 1 2\nhip\nleg 4\n",
+        "1\nroot 1 2 3\nhip\nleg",
+    ],
+)
+def test_compiled_reading_of_frames(text: str) -> None:
+    counts = {"root": 3, "hip": 0, "leg": 1}
+    found = _compiled_rows(text.encode(), _Layout(counts))
+    assert (None if found is None else found.tolist()) == naive.amc_rows(text, counts)
+    if found is not None:  # a minus before nothing is kept, too
+        assert np.array_equal(np.signbit(found), np.signbit(naive.amc_rows(text, counts)))
+
+
+@pytest.mark.parametrize("number", ["1e-3", "9007199254740993", "0.12345678901234567890123", "nan"])
+def test_numbers_that_compiled_reading_leaves_to_another(number: str) -> None:
+    assert _compiled_rows(f"1\nleg {number}\n".encode(), _Layout({"leg": 1})) is None
 
 
 def test_order_of_root_channels(tmp_path: Path) -> None:

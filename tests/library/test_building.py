@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -16,6 +17,7 @@ import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Library, Settings, build
 from kineme.library import work as work_module
+from kineme.library.duplicates import Group
 from kineme.library.executors.processes import Processes
 from library_folders import contents, write_channels
 
@@ -147,19 +149,24 @@ def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:
         assert work_module.executor_for(tasks, 4) == Processes(jobs)
 
 
+def pieces_in(folder: Path) -> list[str]:
+    """Those that are whole: what a killed worker was writing has another name."""
+    return [name for name in contents(folder) if re.fullmatch(r"pieces/\w+\.parquet", name)]
+
+
 def test_a_build_that_was_killed_goes_on_to_the_same_bytes(
     built: Path, takes: Path, tmp_path: Path
 ) -> None:
     folder = tmp_path / "library"
     command = [sys.executable, "-m", "kineme", "library", "build", takes, "--into", folder]
     process = subprocess.Popen([*map(str, command), "--jobs", "2"], start_new_session=True)
-    while process.poll() is None and not list(folder.glob("pieces/*.parquet")):
+    while process.poll() is None and not pieces_in(folder):
         time.sleep(0.01)
     os.kill(process.pid, signal.SIGKILL)  # its workers end by themselves
     process.wait()
     with pytest.raises(ReadError, match="is no library"):
         Library(folder)
-    made = len(list(folder.glob("pieces/*.parquet")))
+    made = len(pieces_in(folder))
     deadline = time.monotonic() + 60
     while made < 3:  # the worker may be at its next piece: it ends before or after it
         try:
@@ -168,7 +175,7 @@ def test_a_build_that_was_killed_goes_on_to_the_same_bytes(
             break
         assert time.monotonic() < deadline, "workers outlive the build"
         time.sleep(0.05)
-    made = len(list(folder.glob("pieces/*.parquet")))
+    made = len(pieces_in(folder))
     assert build(takes, folder).new == 3 - made
     assert contents(folder) == contents(built)
 
@@ -248,3 +255,30 @@ def test_progress_tells_how_far_it_is_and_what_is_left(takes: Path, tmp_path: Pa
     assert told[1].startswith("1 of 4, ")
     assert told[1].endswith(" left")
     assert told[4:] == ["4 of 4", "clusters in common"]
+
+
+def test_what_is_there_several_times_is_worked_on_once(
+    takes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = tmp_path / "takes"
+    own.mkdir()
+    for name in ("a", "b", "c"):
+        shutil.copy(takes / "wrist.csv", own / f"{name}.csv")
+        shutil.copy(takes / "broken.bvh", own / f"{name}.bvh")
+    read: list[str] = []
+    whole = work_module.read_quietly
+    monkeypatch.setattr(
+        work_module,
+        "read_quietly",
+        lambda path, options: read.append(path.name) or whole(path, options),
+    )
+    made = build(own, tmp_path / "once", jobs=1)
+    assert [name for name in read if name.endswith("csv")] == ["a.csv"]
+    assert made.new == 1
+    assert all(f"{path.name}: " in said for path, said in made.failed.items())
+    monkeypatch.setattr(
+        "kineme.library.gathering.by_content",
+        lambda tasks, _: [Group([task], "") for task in tasks],
+    )
+    build(own, tmp_path / "each", jobs=1)
+    assert contents(tmp_path / "once") == contents(tmp_path / "each")

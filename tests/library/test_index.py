@@ -7,10 +7,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import naive
 from kineme.library import Example, Library
 from kineme.library.index import kept, nearest
+from kineme.library.index._kernels import least_squares
 from kineme.library.index.parts import Parts
-from kineme.library.index.windows import LENGTHS, all_windows, by_length, count, wanted, windows_of
+from kineme.library.index.windows import (
+    FINER,
+    LENGTHS,
+    all_windows,
+    by_length,
+    count,
+    wanted,
+    windows_of,
+)
 
 
 def test_what_is_searched_first_holds_what_an_exact_search_finds(
@@ -50,8 +60,14 @@ def test_the_window_that_is_the_example_is_the_nearest() -> None:
     features = np.random.default_rng(1).normal(size=(300, 40)).astype(np.float32)
     step = LENGTHS[1] // 2
     example = features[4 * step : 4 * step + LENGTHS[1]]
-    products = windows_of(features, LENGTHS[1]).astype(np.float32) @ wanted(example)
-    assert products.min(axis=1).argmin() == 4
+    windows, parts = windows_of(features, LENGTHS[1]), wanted(example)
+    least = np.empty(len(windows), np.int32)
+    least_squares(windows, parts, np.int32(FINER), least)
+    assert least.tolist() == naive.least_squares(windows.tolist(), parts.tolist(), FINER)
+    assert least.argmin() == 4
+    windows[:], parts[:] = -127, 127 * FINER  # the farthest there is
+    least_squares(windows, parts, np.int32(FINER), least)
+    assert least.tolist() == naive.least_squares(windows.tolist(), parts.tolist(), FINER)
 
 
 def test_parts_that_overlap_are_one_within_a_recording() -> None:

@@ -35,9 +35,10 @@ def _chain(motion: Motion, joint: int) -> float:
     length = 0.0
     parent = motion.skeleton.parents[joint]
     while parent >= 0:
-        bone = motion.skeleton.offsets[joint]
         if motion.rotations is None:
             bone = motion.positions[:, joint] - motion.positions[:, parent]
-        length += float(np.median(np.linalg.norm(bone, axis=-1)))
+            length += float(np.median(np.linalg.norm(bone, axis=-1)))
+        else:
+            length += float(np.linalg.norm(motion.skeleton.offsets[joint]))
         joint, parent = parent, motion.skeleton.parents[parent]
     return length

@@ -11,12 +11,13 @@ from threading import Thread
 
 from kineme._checks import is_text
 from kineme.errors import WriteError
+from kineme.library.duplicates import by_content
 from kineme.library.executors import Executor
 from kineme.library.executors.here import Here
 from kineme.library.layout import SEEN, read_json, write_json
 from kineme.library.planning import Plan
 from kineme.library.sources import Glances
-from kineme.library.work import executor_for, outcomes_of, tasks_for
+from kineme.library.work import Outcome, Task, executor_for, outcomes_of, tasks_for
 
 Progress = Callable[[str], None]
 UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
@@ -101,26 +102,54 @@ def _make(
 ) -> None:
     """Make the pieces of recordings; what came of each is noted."""
     tasks = tasks_for(waiting, plan.pieces, plan.settings)
+    groups = {
+        group.tasks[0]: group for group in by_content(tasks, plan.settings.options().skeleton)
+    }
     if isinstance(executor, int):
-        executor = executor_for(tasks, executor)
+        executor = executor_for(list(groups), executor)
     if not isinstance(executor, Here):  # what comes next is imported while others work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
-    started, done = time.monotonic(), 0
-    whole = sum(task.size for task in tasks)
-    for number, (task, outcome) in enumerate(outcomes_of(tasks, executor), 1):
-        if outcome.fatal:
-            raise WriteError(plan.folder, outcome.error)
-        if outcome.error:
-            into.failed[task.path] = outcome.error
-        else:
-            into.digests[task.path] = outcome.digest
-        into.new += outcome.new
-        done += task.size
-        left = (time.monotonic() - started) * (whole - done) / max(done, 1)
-        progress(_told(number, len(tasks), left))
+    watch = _Watch(tasks, progress)
+    alone: list[Task] = []
+    for task, outcome in outcomes_of(list(groups), executor):
+        _note(plan, task, outcome, into)
+        (_, *others), digest = groups[task]
+        if outcome.digest == digest:
+            into.digests.update((other.path, digest) for other in others)
+        else:  # it failed, and says so of this one, or has changed since
+            alone += others
+            others = []
+        watch.done([task, *others])
+    for task, outcome in outcomes_of(alone, executor):
+        _note(plan, task, outcome, into)
+        watch.done([task])
 
 
-def _told(number: int, of: int, left: float) -> str:
-    """How far it is, and for how many seconds it goes on."""
-    shown = f"{left:.0f} s" if left < 90 else f"{left / 60:.0f} min"
-    return f"{number} of {of}" + (f", {shown} left" if number < of else "")
+def _note(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
+    """What came of a task; WriteError where others will fail alike."""
+    if outcome.fatal:
+        raise WriteError(plan.folder, outcome.error)
+    if outcome.error:
+        into.failed[task.path] = outcome.error
+    else:
+        into.digests[task.path] = outcome.digest
+    into.new += outcome.new
+
+
+class _Watch:
+    """Tells how far it is, and for how many seconds it goes on."""
+
+    def __init__(self, tasks: Sequence[Task], progress: Progress):
+        self._progress = progress
+        self._started = time.monotonic()
+        self._tasks, self._bytes = len(tasks), sum(task.size for task in tasks)
+        self._tasks_done = self._bytes_done = 0
+
+    def done(self, tasks: Sequence[Task]) -> None:
+        self._tasks_done += len(tasks)
+        self._bytes_done += sum(task.size for task in tasks)
+        left = self._bytes - self._bytes_done
+        left_s = (time.monotonic() - self._started) * left / max(self._bytes_done, 1)
+        shown = f"{left_s:.0f} s" if left_s < 90 else f"{left_s / 60:.0f} min"
+        more = f", {shown} left" if self._tasks_done < self._tasks else ""
+        self._progress(f"{self._tasks_done} of {self._tasks}{more}")

@@ -22,7 +22,7 @@ from kineme.library.storage.places import is_remote, place, written
 if sys.platform != "win32":
     import fcntl
 
-SCHEMA = "kineme.library/2"
+SCHEMA = "kineme.library/3"
 """Of the folder; a change that old readers would misunderstand gets the next number."""
 HEAD, EDITS, SEEN = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"

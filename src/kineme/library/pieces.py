@@ -111,9 +111,9 @@ def read_features(folder: Path, key: str) -> NDArray[np.float32]:
     return features
 
 
-def read_windows(folder: Path, key: str) -> NDArray[np.float16]:
+def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
     """The windows of these features, as `kineme.library.index.windows.all_windows` gives them."""
-    windows: NDArray[np.float16] = _read_array(folder / f"{key}{WINDOWS}", np.float16)
+    windows: NDArray[np.int8] = _read_array(folder / f"{key}{WINDOWS}", np.int8)
     return windows
 
 
@@ -139,16 +139,16 @@ def read_parts(
     return found
 
 
-def _read_array(path: Path, kind: type[np.floating[Any]]) -> NDArray[Any]:
+def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
     with _opening(path):
         return _sound(np.load(near(path), allow_pickle=False), kind)
 
 
-def _sound(rows: NDArray[Any], kind: type[np.floating[Any]]) -> NDArray[Any]:
+def _sound(rows: NDArray[Any], kind: type[np.number[Any]]) -> NDArray[Any]:
     """These rows, or a ValueError where they are not what a build writes."""
     if rows.ndim != 2 or rows.dtype != kind:
         raise ValueError("not rows of features")
-    if kind is np.float32:  # half precision cannot hold what overflows a distance
+    if kind is np.float32:  # whole numbers hold nothing that overflows a distance
         with np.errstate(all="ignore"):
             squares = float(np.vdot(rows, rows))  # one pass, and not finite if any of them is not
         if not squares < LARGEST:

@@ -7,32 +7,36 @@ from numba import njit
 
 from kineme._compiled import OPTIONS
 
-HALF = np.float32(0.5)
+HALF, NOTHING = np.float32(0.5), np.float32(0)
 
 
 @njit(
-    "void(float32[:, ::1], int64, float32[:, ::1], int32[:, ::1], float32[::1], "
-    "float32[::1], int32[::1])",
+    "void(float32[:, ::1], float32[::1], float32[::1], int64, float32[:, ::1], int32[:, ::1], "
+    "float32[:, ::1], float32[::1], int32[::1])",
     **OPTIONS,
 )
-def warp_along(distances, first, sums, begins, last, costs, starts):
+def warp_along(products, squares, own_squares, first, sums, begins, rows, costs, starts):
     """Cost and start of the cheapest warping of an example that ends at each sample.
 
-    ``distances[j, i]`` is that of sample first + j of a recording and sample i of an example of
-    m. ``sums``, ``begins`` (3, m + 1) and ``last`` (m) are what goes on from one call to the
-    next: sums of distances up to each sample of the example, for the last three samples of the
-    recording in turn, where their warpings begin, and the last row of distances. The first column
-    of ``sums`` is infinite, and before the first call all of it.
+    ``products[j, i]`` is -2 times that of sample first + j of a recording and sample i of an
+    example of m, ``squares`` those of the recording and ``own_squares`` of the example: the sum of
+    the three is the square of their distance. ``sums``, ``begins`` (3, m + 1) and ``rows`` (2, m)
+    are what goes on from one call to the next: sums of distances up to each sample of the example,
+    for the last three samples of the recording in turn, where their warpings begin, and the
+    distances from the last two of its samples in turn. The first column of ``sums`` is infinite,
+    and before the first call all of it.
     """
-    n, m = distances.shape
+    n, m = products.shape
     for j in range(n):
         now, one, two = (first + j) % 3, (first + j - 1) % 3, (first + j - 2) % 3
-        here, next_one = distances[j], distances[j, 1:]
+        here, before = rows[(first + j) % 2], rows[(first + j - 1) % 2, 1:]
+        for i in range(m):
+            here[i] = np.sqrt(max(products[j, i] + squares[j] + own_squares[i], NOTHING))
+        next_one = here[1:]
         quick_sums, quick_begins = sums[one], begins[one]
         even_sums, even_begins = sums[one, 1:], begins[one, 1:]
         slow_sums, slow_begins = sums[two, 1:], begins[two, 1:]
         new_sums, new_begins = sums[now, 2:], begins[now, 2:]
-        before = last[1:]
         for i in range(m - 1):
             # No branches: these run eight at a time.
             even = even_sums[i] + next_one[i]
@@ -43,10 +47,8 @@ def warp_along(distances, first, sums, begins, last, costs, starts):
             best = min(even, slow)
             new_begins[i] = begin_quick if quick < best else begin
             new_sums[i] = min(best, quick)
-        sums[now, 1] = distances[j, 0]
+        sums[now, 1] = here[0]
         begins[now, 1] = first + j
-        for i in range(m):
-            last[i] = distances[j, i]
         costs[j] = sums[now, m] / np.float32(m)
         starts[j] = begins[now, m]
 

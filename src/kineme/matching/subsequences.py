@@ -116,22 +116,18 @@ def warped(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[
     n, m = len(long), len(short)
     costs, starts = np.empty(n, np.float32), np.empty(n, np.int32)
     sums = np.full((3, m + 1), np.inf, np.float32)
-    begins, last = np.zeros((3, m + 1), np.int32), np.zeros(m, np.float32)
+    begins, rows = np.zeros((3, m + 1), np.int32), np.zeros((2, m), np.float32)
+    twice, own_squares = -2 * short.T, _squares(short)
     for first in range(0, n, BLOCK):
-        span = slice(first, first + BLOCK)
-        between = distances_between(long[span], short)
-        warp_along(between, first, sums, begins, last, costs[span], starts[span])
+        part, span = long[first : first + BLOCK], slice(first, first + BLOCK)
+        products = part @ twice
+        found = costs[span], starts[span]
+        warp_along(products, _squares(part), own_squares, first, sums, begins, rows, *found)
     return costs, starts
 
 
-def distances_between(one: Float32s, other: Float32s) -> Float32s:
-    """Distance of every sample of one from every sample of the other."""
-    squares: Float32s = one @ other.T
-    squares *= -2
-    squares += np.einsum("ij,ij->i", one, one)[:, None]
-    squares += np.einsum("ij,ij->i", other, other)
-    np.maximum(squares, 0, out=squares)
-    np.sqrt(squares, out=squares)
+def _squares(features: Float32s) -> Float32s:
+    squares: Float32s = np.einsum("ij,ij->i", features, features)
     return squares
 
 

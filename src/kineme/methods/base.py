@@ -28,6 +28,7 @@ from kineme.methods.constants import (
     check,
     constant,
     constants_of,
+    values_of,
 )
 
 if TYPE_CHECKING:
@@ -83,6 +84,8 @@ class Leveled(Protocol):
 
     def levels(self, columns: Columns) -> Mapping[float, Columns]:
         """Columns of a segment table by their detail: below 1 coarser, above 1 finer.
+
+        A detail may be left out where it is like the next coarser one.
 
         Every border at one detail is one at any finer one, those of `columns` at detail 1
         among them.
@@ -185,7 +188,7 @@ class Preset(ABC):
 
     def parameters(self) -> Mapping[str, Any]:
         """The value of each constant by name, for the provenance."""
-        return {known.name: known.value for known in self.constants()}
+        return values_of(self)
 
     def replace(self, **overrides: Any) -> Self:
         """The same preset with some constants changed.
@@ -201,10 +204,10 @@ class Preset(ABC):
         >>> kineme.PRESETS["kineme"].replace(min_action=2.0).min_action
         2.0
         """
-        known = [each.name for each in self.constants()]
+        known = list(self.parameters())
         for name in overrides:
             if name not in known:
                 raise ParameterError(
                     f"{self.name} has no parameter {name!r:.60}; there are {', '.join(known)}"
                 )
-        return replace(self, **overrides)
+        return replace(self, **overrides) if overrides else self

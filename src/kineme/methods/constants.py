@@ -152,6 +152,11 @@ def constants_of(preset: Any) -> tuple[Constant, ...]:
     )
 
 
+def values_of(preset: Any) -> dict[str, Any]:
+    """The value of each constant of a preset by name."""
+    return {name: getattr(preset, name) for name in _told(preset.__class__)}
+
+
 def check(preset: Any) -> None:
     """ParameterError for the first constant whose value it cannot take; a count of 3.0 is 3."""
     for known in constants_of(preset):

@@ -17,8 +17,8 @@ from kineme.methods.samples import spread
 
 Floats = NDArray[np.float64]
 Samples = NDArray[np.int64]
-Similar = Callable[[Samples, Samples], Floats]
-"""Similarities (rows, columns) of two sets of samples, nan where they are not compared."""
+Alike = Callable[[Samples, Samples], float]
+"""Mean similarity of two sets of samples; 0 where none of them are compared."""
 
 COMPARED = 32
 """Samples that stand for a segment."""
@@ -76,7 +76,7 @@ def link_statistics(labels: Samples, alike: Floats, own: Floats) -> Floats:
 
 
 def border_statistics(
-    borders: Samples, labels: Samples, alike: Floats, similar: Similar, near: int
+    borders: Samples, labels: Samples, alike: Floats, similar: Alike, near: int
 ) -> Floats:
     """What tells how sure the start of each segment is.
 
@@ -108,7 +108,7 @@ def border_statistics(
         before = np.arange(max(at - near, 0), at)
         after = np.arange(at, min(at + near, int(borders[-1])))
         sharpness = [
-            mean(similar(side, spans[its])) - mean(similar(side, spans[other]))
+            similar(side, spans[its]) - similar(side, spans[other])
             for side, its, other in ((before, left, right), (after, right, left))
         ]
         found[g] = sum(sharpness), across[left, right]
@@ -192,9 +192,3 @@ def relative(alike: Floats) -> Floats:
 def clear(correlation: Floats | float) -> Floats:
     """Fisher's z of correlations."""
     return np.asarray(np.arctanh(np.clip(correlation, -CLEAREST, CLEAREST)), np.float64)
-
-
-def mean(similarities: Floats) -> float:
-    """Of those that are known; 0 where none is."""
-    known = similarities[np.isfinite(similarities)]
-    return float(known.mean()) if known.size else 0.0

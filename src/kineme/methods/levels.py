@@ -16,6 +16,7 @@ union of finer ones.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -81,13 +82,38 @@ def clusters_at(
     return found
 
 
-def at_detail(
-    columns: Columns, borders: Ints, labels: Ints, longest: float | None = None
-) -> Columns:
+def tables_at(
+    columns: Columns, borders: Ints, clusters: Mapping[float, Ints], longest: float
+) -> dict[float, Columns]:
+    """The table at each detail; of neighbours that are one and the same, the coarsest.
+
+    Parameters
+    ----------
+    columns : dict of str to array
+        Of detail 1.
+    borders : (pieces + 1,) array
+        As in `Pieces`.
+    clusters : mapping of float to array
+        See `clusters_at`.
+    longest : float
+        Samples: below 1, neighbours of one cluster are one activity even with a transition
+        between them that is no longer than this over the detail.
+    """
+    found: dict[float, Columns] = {}
+    same: dict[tuple[bool, bytes], float] = {}
+    for detail in sorted(clusters):
+        labels = clusters[detail]
+        if detail < 1:
+            labels = _over_transitions(borders, labels, longest / detail)
+        if same.setdefault((detail < 1, labels.tobytes()), detail) == detail:
+            found[detail] = at_detail(columns, borders, labels, finer=detail > 1)
+    return found
+
+
+def at_detail(columns: Columns, borders: Ints, labels: Ints, *, finer: bool) -> Columns:
     """The columns of a table with other activities: pieces joined, repetitions kept.
 
-    Neighbours of one cluster are one activity, with a transition between them if that
-    is no longer than `longest`. Every primitive border stays.
+    Neighbours of one cluster are one activity. Every primitive border stays.
 
     Parameters
     ----------
@@ -95,8 +121,8 @@ def at_detail(
         Of detail 1.
     borders, labels : array of int
         Of the pieces, as in `Pieces`.
-    longest : float, optional
-        Samples; None for a detail above 1, at which every border of activities stays, too.
+    finer : bool
+        Whether every border of activities stays, too.
 
     Returns
     -------
@@ -105,9 +131,7 @@ def at_detail(
     level = columns["level"] == "activity"
     before = {name: column[level] for name, column in columns.items()}
     inner = {name: column[~level] for name, column in columns.items()}
-    begins = np.isin(borders[:-1], before["start_frame"] if longest is None else 0)
-    if longest is not None:
-        labels = _over_transitions(borders, labels, longest)
+    begins = np.isin(borders[:-1], before["start_frame"] if finer else 0)
     first = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | begins)
     starts, clusters = borders[:-1][first], by_first_appearance(labels[first])
     cuts = np.unique(np.concatenate([starts, inner["start_frame"]]))
@@ -191,11 +215,9 @@ def _weakest(
 def _over_transitions(borders: Ints, labels: Ints, longest: float) -> Ints:
     """The labels with short transitions between neighbours of one cluster as part of it."""
     joined = labels.copy()
-    lengths = np.diff(borders)
-    for at in np.flatnonzero(labels < 0):
-        between = 0 < at < len(labels) - 1
-        if between and labels[at - 1] == labels[at + 1] >= 0 and lengths[at] <= longest:
-            joined[at] = labels[at - 1]
+    before, after, short = labels[:-2], labels[2:], np.diff(borders)[1:-1] <= longest
+    between = (labels[1:-1] < 0) & (before == after) & (after >= 0) & short
+    joined[1:-1][between] = before[between]
     return joined
 
 

@@ -7,7 +7,6 @@ they meet here.
 from __future__ import annotations
 
 import time
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -27,7 +26,7 @@ from kineme.segmentation.outside import as_channels, on_recording
 from kineme.segmentation.spans import gaps_between, in_frames
 from kineme.segmentation.views import View
 from kineme.segments.columns import segment_table
-from kineme.segments.hierarchy import Hierarchy
+from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy
 from kineme.segments.segmentation import Segmentation
 
 
@@ -235,15 +234,11 @@ def _result(
     }
     if gaps := gaps_between(view.seen, n_frames):
         provenance["gaps"] = [list(gap) for gap in gaps]
-    hierarchy = None
+    table, hierarchy = segment_table(columns, fps), None
     if isinstance(found, Leveled):
         with stopwatch(spent, None)("levels"):
-            tables = {
-                detail: segment_table(placed(level), fps)
-                for detail, level in {1.0: samples, **found.levels(samples)}.items()
-            }
+            tables = {DEFAULT_DETAIL: table}
+            for detail, level in found.levels(samples).items():
+                tables[detail] = segment_table(placed(level), fps)
             hierarchy = Hierarchy.of(tables)
-    result = Segmentation.from_columns(
-        columns, n_frames=n_frames, fps=fps, provenance=provenance, timings=spent
-    )
-    return replace(result, hierarchy=hierarchy)
+    return Segmentation(table, int(n_frames), float(fps), provenance, spent, hierarchy)

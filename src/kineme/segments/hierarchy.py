@@ -173,5 +173,5 @@ def _same_spans(a: SegmentTable, b: SegmentTable) -> bool:
     )
     if not same:
         return False
-    pairs = np.unique(np.column_stack([a.cluster, b.cluster]), axis=0)
-    return len(pairs) == len(np.unique(pairs[:, 0])) == len(np.unique(pairs[:, 1]))
+    ours, theirs = a.cluster.tolist(), b.cluster.tolist()
+    return len({*zip(ours, theirs, strict=True)}) == len({*ours}) == len({*theirs})

@@ -27,12 +27,11 @@ def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
         return
     if not len(rows) or rows.start_frame[0] != 0 or rows.stop_frame[-1] != n_frames:
         raise ParameterError(f"the {level} level must cover frames 0 to {n_frames}")
-    for before, after in zip(rows.stop_frame[:-1], rows.start_frame[1:], strict=True):
-        if before != after:
-            raise ParameterError(
-                f"one {level} stops at frame {before}, the next starts at {after}: "
-                "segments of a level must touch and not overlap"
-            )
+    for row in np.flatnonzero(rows.stop_frame[:-1] != rows.start_frame[1:])[:1].tolist():
+        raise ParameterError(
+            f"one {level} stops at frame {rows.stop_frame[row]}, the next starts at "
+            f"{rows.start_frame[row + 1]}: segments of a level must touch and not overlap"
+        )
     if (rows.stop_frame <= rows.start_frame).any():
         empty = rows[int(np.argmax(rows.stop_frame <= rows.start_frame))]
         raise ParameterError(f"the {level} at frame {empty.start_frame} has no frames")

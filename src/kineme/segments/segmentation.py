@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, get_args, overload
+from typing import Any, overload
 
 from numpy.typing import ArrayLike
 
@@ -69,13 +69,16 @@ class Segmentation(Levels):
             self.table, SegmentTable, "Segmentation", "Segmentation.from_columns takes columns"
         )
         check_recording(self.n_frames, self.fps)
-        for level in get_args(Level):
-            check_tiles(self.of_level(level), level, self.n_frames)
-        check_parents(self.activities, self.primitives)
+        activities, primitives = self.activities, self.primitives
+        check_tiles(activities, "activity", self.n_frames)
+        check_tiles(primitives, "primitive", self.n_frames)
+        check_parents(activities, primitives)
         object.__setattr__(self, "provenance", plain_json(self.provenance, "provenance"))
         object.__setattr__(self, "timings", plain_json(self.timings, "timings"))
-        if self.hierarchy is not None and self.hierarchy.table != self.table:
-            object.__setattr__(self, "hierarchy", None)
+        if self.hierarchy is not None:
+            looked_at = self.hierarchy.table
+            if looked_at is not self.table and looked_at != self.table:
+                object.__setattr__(self, "hierarchy", None)
 
     @classmethod
     def from_columns(

@@ -7,6 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import naive
+from kineme.methods.recurrence import _end_kernels as kernels
 from kineme.methods.recurrence.analysis import analyze_actions
 from kineme.methods.recurrence.ends import Ends, fitted_ends
 from kineme.methods.recurrence.preset import KINEME
@@ -30,6 +32,32 @@ def shaken(seed: int) -> np.ndarray:
     """Eight swings between two rests elsewhere, no two alike."""
     rows = np.concatenate([AWAY, swing(8, period=PERIOD / 30), AWAY])
     return rows + np.random.default_rng(seed).normal(0, 0.02, rows.shape)
+
+
+@given(st.integers(0, 10_000), st.integers(1, 5))
+@settings(max_examples=60)
+def test_stretches_are_compared_as_by_the_naive_versions(seed: int, reach: int) -> None:
+    rng = np.random.default_rng(seed)
+    rows = np.cumsum(rng.normal(0, 1, (60, 3)), axis=0).astype(np.float32)
+    cuts = np.sort(rng.choice(np.arange(20, 60), 4, replace=False))
+    lengths, places = np.diff(cuts), 7
+    inner = kernels.evenly_in_time(rows, cuts[:-1], lengths, places)
+    for found, start, length in zip(inner, cuts, lengths):
+        expected = naive.evenly_in_time(rows, start, length, places)
+        np.testing.assert_allclose(found, expected, atol=1e-5)
+    mean = inner.mean(axis=0)
+    assert kernels.best_length(rows, cuts[0], 4, 20, mean) == naive.best_length(
+        rows, cuts[0], 4, 20, mean
+    )
+    found = np.empty(10)
+    kernels.distances(rows, 3, 13, 5, 9, mean, reach, found)
+    expected = naive.distances_from_mean(rows, 3, 13, 5, 9, mean, reach)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+    np.testing.assert_allclose(
+        kernels.distances_to_others(rows, cuts, inner, reach),
+        naive.distances_to_others(rows, cuts, inner, reach),
+        rtol=1e-6,
+    )
 
 
 CUTS = [60 + PERIOD * k for k in range(1, 8)]

@@ -73,7 +73,8 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     rng = np.random.default_rng(seed)
     n, cover = 30, 0.8
     paths = paths_of(rng, n)
-    free = np.ones(n, np.bool_)
+    free = rng.random(n) < 0.9
+    room = np.append(0, np.cumsum(free))
     starts = np.array([first for first, _, _ in paths])
     sizes = np.array([len(sums) for _, _, sums in paths])
     ptr = np.append(0, np.cumsum(sizes))
@@ -87,12 +88,12 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     for start in range(n):
         for stop in start + lengths[start + lengths <= n]:
             total, count = kernels.recurrences(
-                start, stop, starts, ptr, *flat, row_ptr, row_paths, free, cover, spans, gains
+                start, stop, starts, ptr, *flat, row_ptr, row_paths, room, cover, spans, gains
             )
             expected = naive.recurrences_of(start, stop, paths, free, cover)
             assert [tuple(span) for span in spans[:count].tolist()] == [e[:2] for e in expected]
             assert total == pytest.approx(sum(gain for *_, gain in expected))
-            totals[start, int(stop)] = total
+            totals[start, int(stop)] = total if free[start:stop].all() else 0
     places, _, ranks = kernels.best_sets(
         lengths, starts, ptr, *flat, row_ptr, row_paths, free, cover
     )

@@ -113,6 +113,15 @@ def test_stretches_are_as_alike_as_in_the_naive_version(poses, reaches, gap, dat
     )
 
 
+@given(points(), WIDTHS, GAPS, st.data())
+@seconds
+def test_means_within_a_band_are_those_of_the_naive_version(features, width, gap, data) -> None:
+    similarity = np.exp(-naive.nearest_frames(features, 1, len(features)))
+    rows, columns = (np.array(part(data, len(features))) for _ in range(2))
+    found = kernels.mean_in_band(one_sided(similarity, width), rows, columns, gap)
+    assert found == pytest.approx(naive.mean_in_band(similarity, rows, columns, gap, width + 1))
+
+
 def part(data: st.DataObject, samples: int) -> range:
     start = data.draw(st.integers(0, samples - 1))
     return range(start, data.draw(st.integers(start + 1, samples)))

@@ -183,3 +183,17 @@ def test_ways_are_judged_as_by_the_naive_versions(seed: int) -> None:
     ):
         places = a + (b - a) * (np.arange(4) + 0.5) / 4
         np.testing.assert_array_equal(part, naive.poses_at(poses, path, places))
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(2, 5), st.integers(1, 3))
+@settings(max_examples=60)
+def test_divisions_are_judged_as_by_the_naive_version(seed: int, count: int, smooth: int) -> None:
+    rng = np.random.default_rng(seed)
+    rows = np.sin(np.arange(40)[:, None] / (2, 3, 5)) + rng.normal(0, 0.3, (40, 3))
+    poses, speeds = candidate_kernels.smoothed(rows.astype(np.float32), smooth)
+    for found, expected in zip((poses, speeds), naive.smoothed(rows.astype(np.float32), smooth)):
+        np.testing.assert_allclose(found, expected, atol=1e-5)
+    path = np.append(0, np.cumsum(speeds))
+    visits = np.sort(rng.choice(np.arange(2, 39, 6), count, replace=False))
+    found = candidate_kernels.judged(poses, path, visits, 6, 1.0, 1.5)
+    np.testing.assert_allclose(found, naive.judged(poses, path, visits, 6, 1.0, 1.5), atol=1e-9)

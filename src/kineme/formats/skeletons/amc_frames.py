@@ -7,7 +7,9 @@ that no more than its numbers is held.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+import sys
+from collections.abc import Iterator
+from itertools import chain, islice, pairwise, repeat, starmap
 from typing import NamedTuple
 
 import numpy as np
@@ -32,33 +34,29 @@ def read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, F
 
 
 class _Layout(NamedTuple):
-    """Words of a frame, and which of them is each bone's name."""
+    """How many values each bone of a frame has, in the order of the file."""
 
-    n_words: int
-    names: dict[str, int]
+    counts: dict[str, int]
 
 
 def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floats] | None:
     """The values if every frame is laid out as the first, else None."""
-    found: dict[str, list[Floats]] = {name: [] for name in figure.bones}
+    blocks: list[Floats] = []
     layout: _Layout | None = None
-    following: int | None = None
+    following = np.nan
     for piece in _pieces(content.data, start):
-        words = (_COMMENT.sub(b"", piece) if b"#" in piece else piece).split()
-        layout = layout or _layout(words, figure)
-        if layout is None or len(words) % layout.n_words:
+        text = _COMMENT.sub(b"", piece) if b"#" in piece else piece
+        layout = layout or _layout(text, figure)
+        rows = None if layout is None else _rows(text, layout)
+        if rows is None:
             return None
-        try:
-            labels = list(map(int, words[:: layout.n_words]))
-            first = labels[0] if following is None else following
-            following = first + len(labels)
-            if labels != list(range(first, following)):
-                return None
-            for name, bone in figure.bones.items():
-                found[name].append(_values(words, layout, name, len(bone.dof)))
-        except ValueError:
+        labels = rows[:, 0]
+        first = following if blocks else labels[0]
+        following = first + len(labels)
+        if not np.array_equal(labels, np.arange(first, following)):
             return None
-    return {name: np.concatenate(blocks) for name, blocks in found.items()}
+        blocks.append(rows)
+    return None if layout is None else _by_bone(blocks, layout, figure)
 
 
 def _pieces(data: bytes, start: int) -> Iterator[bytes]:
@@ -70,34 +68,78 @@ def _pieces(data: bytes, start: int) -> Iterator[bytes]:
         start = stop
 
 
-def _layout(words: Sequence[bytes], figure: Figure) -> _Layout | None:
+def _layout(text: bytes, figure: Figure) -> _Layout | None:
     """That of the first frame; None where a bone is unknown, named twice, or missing."""
-    names: dict[str, int] = {}
-    at = 1
-    while at < len(words) and not words[at].isdigit():
+    first, second = islice(chain(_FRAME.finditer(text), repeat(None)), 2)
+    if first is None:
+        return None
+    words = text[first.end() : None if second is None else second.start()].split()
+    counts: dict[str, int] = {}
+    at = 0
+    while at < len(words):
         name = words[at].decode("utf-8", "replace")
-        if name not in figure.bones or name in names:
+        if name not in figure.bones or name in counts:
             return None
-        names[name] = at
-        at += 1 + len(figure.bones[name].dof)
-    whole = all(name in names or not bone.dof for name, bone in figure.bones.items())
-    return _Layout(at, names) if whole else None
+        counts[name] = len(figure.bones[name].dof)
+        at += 1 + counts[name]
+    whole = all(name in counts or not bone.dof for name, bone in figure.bones.items())
+    return _Layout(counts) if whole else None
 
 
-def _values(words: Sequence[bytes], layout: _Layout, name: str, n_values: int) -> Floats:
-    """(frames, values) of a bone; ValueError if it is not where it is in the first frame."""
-    n_frames = len(words) // layout.n_words
-    values = np.zeros((n_frames, n_values))
-    if name not in layout.names:
-        return values
-    at = layout.names[name]
-    if words[at :: layout.n_words].count(words[at]) != n_frames:
-        raise ValueError(f"{name} is not in every frame")
-    for i in range(n_values):
-        values[:, i] = list(map(float, words[at + 1 + i :: layout.n_words]))
-    if not np.isfinite(values).all():
-        raise ValueError(f"{name} has values that are not finite")
-    return values
+def _rows(text: bytes, layout: _Layout) -> Floats | None:
+    """A row per frame: its number, and the values of its bones; None where it is laid out else.
+
+    By compiled code where there is some already: to load it takes longer than a recording.
+    """
+    if "numba" in sys.modules:
+        rows = _compiled_rows(text, layout)
+        if rows is not None:
+            return rows
+    words = text.split()
+    n_words = 1 + sum(1 + count for count in layout.counts.values())
+    if len(words) % n_words:
+        return None
+    rows = np.empty((len(words) // n_words, 1 + sum(layout.counts.values())))
+    try:
+        rows[:, 0] = list(map(int, words[::n_words]))
+        at, column = 1, 1
+        for name, count in layout.counts.items():
+            if words[at::n_words].count(name.encode()) != len(rows):
+                return None
+            for i in range(count):
+                rows[:, column + i] = list(map(float, words[at + 1 + i :: n_words]))
+            at, column = at + 1 + count, column + count
+    except (ValueError, OverflowError):
+        return None
+    return rows if np.isfinite(rows).all() else None
+
+
+def _compiled_rows(text: bytes, layout: _Layout) -> Floats | None:
+    """The same, unless there are numbers among them that only ``float`` reads."""
+    from kineme.formats.skeletons._amc_kernels import read_rows
+
+    counts = np.array([*layout.counts.values()], np.int64)
+    names = [name.encode() for name in layout.counts]
+    shortest = 2 * (1 + len(names) + int(counts.sum()))  # a word is a sign and a space at least
+    rows = np.empty((len(text) // shortest + 1, 1 + int(counts.sum())))
+    found = read_rows(
+        np.frombuffer(bytearray(b"\n" + text + b"\n"), np.uint8),
+        np.frombuffer(bytearray(b"".join(names)), np.uint8),
+        np.cumsum([len(name) for name in names], dtype=np.int64),
+        counts,
+        rows,
+    )
+    return rows[:found].copy() if found > 0 else None
+
+
+def _by_bone(blocks: list[Floats], layout: _Layout, figure: Figure) -> dict[str, Floats]:
+    """The values of each bone, none where it is not named."""
+    ends = np.cumsum([1, *layout.counts.values()])
+    columns = dict(zip(layout.counts, starmap(slice, pairwise(ends.tolist())), strict=True))
+    return {
+        name: np.concatenate([rows[:, columns.get(name, slice(0))] for rows in blocks])
+        for name in figure.bones
+    }
 
 
 def _line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:

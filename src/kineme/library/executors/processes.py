@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import threading
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
@@ -10,9 +11,13 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import wait as wait_for
+from multiprocessing.context import BaseContext
 
 from kineme._threads import n_threads
 from kineme.library.executors import Outcome, Task
+
+SHARED = ("kineme.library.making", "kineme.methods.recurrence.analysis", "pyarrow.parquet")
+"""What takes long to import."""
 
 
 @dataclass(frozen=True)
@@ -39,10 +44,9 @@ def _in_a_pool(
 ) -> Generator[tuple[Task, Outcome], None, list[Task]]:
     """Work on tasks from the end of the list; those in work when a process died are returned."""
     share = max(1, n_threads() // jobs)
-    # Started anew, for a copy of this process could wait forever for threads that it lacks.
     pool = ProcessPoolExecutor(
         min(jobs, len(waiting)),
-        mp_context=get_context("spawn"),
+        mp_context=_context(),
         initializer=_prepare,
         initargs=(share,),
     )
@@ -60,6 +64,19 @@ def _in_a_pool(
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
     return []
+
+
+def _context() -> BaseContext:
+    """How processes are started.
+
+    A copy of this one could wait forever for threads that it lacks. Where that can be, they are
+    copies of one that has none, and has imported what all need.
+    """
+    if sys.platform != "linux":
+        return get_context("spawn")
+    context = get_context("forkserver")
+    context.set_forkserver_preload([*SHARED])
+    return context
 
 
 def _prepare(threads: int) -> None:

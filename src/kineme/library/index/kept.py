@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kineme.errors import ReadError
-from kineme.library.index.windows import LENGTHS, NUMBERS, Halves, Ints, by_length, count
+from kineme.library.index.windows import LENGTHS, NUMBERS, Bytes, Ints, by_length, count
 from kineme.library.layout import BODIES, PIECES, TABLES
 from kineme.library.pieces import read_windows
 from kineme.library.storage.places import near, written
@@ -28,7 +28,7 @@ class Windows(NamedTuple):
     Attributes
     ----------
     length : int
-    embedded : (windows, 32) array of float16
+    embedded : (windows, 32) array of int8
         In a file that is mapped.
     firsts : (recordings + 1,) array
         The first window of each recording, and the end.
@@ -37,7 +37,7 @@ class Windows(NamedTuple):
     """
 
     length: int
-    embedded: Halves
+    embedded: Bytes
     firsts: Ints
     samples: Ints
 
@@ -66,7 +66,7 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
             length: np.lib.format.open_memmap(
                 stack.enter_context(written(_place(home, length))),
                 mode="w+",
-                dtype=np.float16,
+                dtype=np.int8,
                 shape=(int(count(samples, length).sum()), NUMBERS),
             )
             for length in LENGTHS
@@ -93,14 +93,14 @@ def open_index(
     """
     path = _place(folder / TABLES / named, length)
     try:
-        embedded: Halves = np.load(near(path), mmap_mode="r", allow_pickle=False)
+        embedded: Bytes = np.load(near(path), mmap_mode="r", allow_pickle=False)
     except FileNotFoundError:
         return None
     except (OSError, ValueError) as error:
         raise ReadError(path, "is damaged: remove it and build the library again") from error
     samples = _indexed(recordings)
     firsts = np.concatenate([[0], np.cumsum(count(samples, length))])
-    if len(embedded) != firsts[-1]:
+    if embedded.shape != (firsts[-1], NUMBERS) or embedded.dtype != np.int8:
         raise ReadError(path, "is damaged: remove it and build the library again")
     return Windows(length, embedded, firsts, samples)
 

@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import map_threads
+from kineme.library.index._kernels import least_squares
 from kineme.library.index.kept import Windows
 from kineme.library.index.parts import Parts
-from kineme.library.index.windows import Float32s, Ints, step, wanted
+from kineme.library.index.windows import FINER, Float32s, Ints, step, wanted
 
 SHARE = 0.01
 """Of the windows, that are searched sample by sample."""
@@ -52,16 +53,16 @@ def joined(parts: Parts) -> Parts:
     return Parts(rows[first], starts[first], reached[last] - rows[first] * far)
 
 
-def _nearest(windows: Windows, weights: Float32s, top: int) -> Ints:
-    """The windows with the least product with any of the weights, in their order."""
+def _nearest(windows: Windows, wanted: NDArray[np.int32], top: int) -> Ints:
+    """The windows that are nearest to any of what is wanted, in their order."""
     n = len(windows.embedded)
-    distances = np.empty(n, np.float32)
+    least = np.empty(n, np.int32)
 
     def compare(first: int) -> None:
-        block = windows.embedded[first : first + BLOCK].astype(np.float32)
-        distances[first : first + BLOCK] = (block @ weights).min(axis=1)
+        block = slice(first, first + BLOCK)
+        least_squares(np.asarray(windows.embedded[block]), wanted, np.int32(FINER), least[block])
 
     map_threads(compare, range(0, n, BLOCK))
     most = min(max(round(SHARE * n), MORE * top), n)
-    chosen: NDArray[np.int64] = np.sort(np.argpartition(distances, most - 1)[:most])
+    chosen: NDArray[np.int64] = np.sort(np.argpartition(least, most - 1)[:most])
     return chosen

@@ -2,7 +2,8 @@
 
 A search compares samples along a warping. The mean of a window, and how its second half differs
 from the first (the first two terms of a cosine transform), are near where all samples are. Features
-are ordered by how much they tell, so the first of them do.
+are ordered by how much they tell, so the first of them do. Each number takes a byte: those of unit
+vectors lie between -1 and 1, and what rounding adds is little beside what is left out.
 """
 
 from __future__ import annotations
@@ -15,15 +16,19 @@ from numpy.typing import NDArray
 from kineme._interpolation import at_frames
 
 Float32s = NDArray[np.float32]
-Halves = NDArray[np.float16]
+Bytes = NDArray[np.int8]
 Ints = NDArray[np.int64]
 
 LENGTHS = (15, 30, 60)
 """Samples of a window: 1, 2 and 4 s of a body. Each begins half a window after the last one."""
 SPEEDS = (0.7, 1.0, 1.4)
 """Of an example, as it is compared with windows: others may be slower or faster."""
-NUMBERS = 32
-_MEANS, _SLOPES = 16, 15  # and one for half their squares
+MEANS, SLOPES = 16, 16
+NUMBERS = MEANS + SLOPES
+LARGEST = 127
+"""What 1 becomes in a window."""
+FINER = 16
+"""As many times finer is an example."""
 
 
 def step(length: int) -> int:
@@ -40,7 +45,7 @@ def count(samples: Ints, length: int) -> Ints:
     return np.where(samples > 0, whole, 0)
 
 
-def windows_of(features: Float32s, length: int) -> Halves:
+def windows_of(features: Float32s, length: int) -> Bytes:
     """The windows of a recording in 32 numbers each.
 
     Parameters
@@ -51,27 +56,23 @@ def windows_of(features: Float32s, length: int) -> Halves:
 
     Returns
     -------
-    (windows, 32) array of float16
-        31 that tell of the window, and half the sum of their squares: the product with
-        `wanted` orders windows by their distance.
+    (windows, 32) array of int8
+        Means, and what tells of the two halves.
     """
     if len(features) == 0:
-        return np.empty((0, NUMBERS), np.float16)
+        return np.empty((0, NUMBERS), np.int8)
     if len(features) < length:
         features = _of_length(features, length)
     seen = np.lib.stride_tricks.sliding_window_view(features, length, axis=0)[:: step(length)]
-    told = _numbers(seen)
-    return np.concatenate([told, (told**2).sum(axis=1, keepdims=True) / 2], axis=1).astype(
-        np.float16
-    )
+    return np.clip(np.rint(LARGEST * _numbers(seen)), -LARGEST, LARGEST).astype(np.int8)
 
 
-def all_windows(features: Float32s) -> Halves:
+def all_windows(features: Float32s) -> Bytes:
     """The windows of all `LENGTHS`, one length after the other."""
     return np.concatenate([windows_of(features, length) for length in LENGTHS])
 
 
-def by_length(windows: Halves, samples: int) -> Iterator[tuple[int, Halves]]:
+def by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]:
     """Each of `LENGTHS` and its part of `all_windows`."""
     first = 0
     for length in LENGTHS:
@@ -85,27 +86,27 @@ def length_for(example: Float32s) -> int:
     return min(LENGTHS, key=lambda length: abs(np.log(length / max(len(example), 1))))
 
 
-def wanted(example: Float32s) -> Float32s:
-    """The middle of an example at each of `SPEEDS`, (32, speeds), for the product with windows."""
+def wanted(example: Float32s) -> NDArray[np.int32]:
+    """The middle of an example at each of `SPEEDS`, (speeds, 32), to compare windows with."""
     length = length_for(example)
     parts = []
     for speed in SPEEDS:
         n = min(round(length * speed), len(example))
         first = (len(example) - n) // 2
         parts.append(_of_length(example[first : first + n], length).T)
-    told = _numbers(np.array(parts))
-    return np.concatenate([-told, np.ones((len(told), 1), np.float32)], axis=1).T
+    most = FINER * LARGEST
+    return np.clip(np.rint(most * _numbers(np.array(parts))), -most, most).astype(np.int32)
 
 
 def _numbers(seen: Float32s) -> Float32s:
-    """Means and slopes (windows, 31) of windows (windows, dims, length)."""
+    """Means and slopes (windows, 32) of windows (windows, dims, length)."""
     length = seen.shape[2]
     slope = np.cos(np.pi / length * (np.arange(length) + 0.5)).astype(np.float32)
     slope *= np.float32(np.sqrt(2) / length)
-    told = np.zeros((len(seen), _MEANS + _SLOPES), np.float32)
-    means, slopes = seen[:, :_MEANS].mean(axis=2), seen[:, :_SLOPES] @ slope
+    told = np.zeros((len(seen), NUMBERS), np.float32)
+    means, slopes = seen[:, :MEANS].mean(axis=2), seen[:, :SLOPES] @ slope
     told[:, : means.shape[1]] = means
-    told[:, _MEANS : _MEANS + slopes.shape[1]] = slopes
+    told[:, MEANS : MEANS + slopes.shape[1]] = slopes
     return told
 
 

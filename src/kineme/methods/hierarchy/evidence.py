@@ -42,10 +42,11 @@ def evidence(
     preset : HierarchyConstants
     """
 
-    def similar(rows: Frames, columns: Frames) -> Floats:
+    def similar(rows: Frames, columns: Frames) -> float:
         apart = features[rows][:, None] - features[columns]
         distances = np.sqrt(np.square(apart).sum(axis=2, dtype=np.float64))
-        return np.where(np.not_equal.outer(rows, columns), np.exp(-distances / unit), np.nan)
+        known = np.exp(-distances / unit)[np.not_equal.outer(rows, columns)]
+        return float(known.mean()) if known.size else 0.0
 
     lengths = np.diff(borders)
     alike = np.exp(-between_segments(features, borders, unit) / np.outer(lengths, lengths))

@@ -31,7 +31,7 @@ def levels_of(
     unit: float,
     preset: HierarchyConstants,
 ) -> Mapping[float, Columns]:
-    """The table at each detail but 1.
+    """The table at each detail but 1, those left out that are like their coarser neighbour.
 
     Parameters
     ----------
@@ -52,10 +52,7 @@ def levels_of(
         border_price=preset.samples(preset.segment_cost),
         cluster_price=preset.samples(preset.cluster_cost),
     )
-    return {
-        detail: levels.at_detail(columns, frames, at[detail], 0.0 if detail < 1 else None)
-        for detail in levels.DETAILS
-    }
+    return levels.tables_at(columns, frames, at, longest=0.0)
 
 
 def _pieces(

@@ -14,6 +14,29 @@ from kineme._compiled import OPTIONS
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 
 
+@njit("Tuple((float64[:, ::1], float64[::1]))(float32[:, ::1], int64)", **OPTIONS)
+def smoothed(rows, smoothing):
+    """Rows averaged over so many before and after, and by how much these then change per frame."""
+    n, dims = rows.shape
+    sums = np.zeros((n + 1, dims))
+    for f in range(n):
+        for d in range(dims):
+            sums[f + 1, d] = sums[f, d] + rows[f, d]
+    poses, speeds = np.empty((n, dims)), np.empty(n)
+    for f in range(n):
+        before, after = max(f - smoothing, 0), min(f + smoothing, n - 1)
+        for d in range(dims):
+            poses[f, d] = (sums[after + 1, d] - sums[before, d]) / (after + 1 - before)
+    for f in range(n):
+        before, after = max(f - smoothing, 0), min(f + smoothing, n - 1)
+        square = 0.0
+        for d in range(dims):
+            difference = poses[after, d] - poses[before, d]
+            square += difference * difference
+        speeds[f] = np.sqrt(square) / max(after - before, 1)
+    return poses, speeds
+
+
 @njit("int64(float64[:, ::1])", **OPTIONS)
 def matched_length(gains):
     """Columns up to which the rows follow them: the warped path of the largest gain.
@@ -116,3 +139,53 @@ def repetitions_between(poses, path, visits, places):
             for d in range(poses.shape[1]):
                 found[k, p, d] = there[p, d]
     return found
+
+
+@njit("float64[::1](float64[::1], float64)", **OPTIONS)
+def inside(lengths, whole):
+    """Those that lie on a path of this length."""
+    return lengths[(lengths >= 0) & (lengths <= whole)]
+
+
+@njit(
+    "Tuple((float64, float64, float64))(float64[:, ::1], float64[::1], int64[::1], int64, float64,"
+    " float64)",
+    **OPTIONS,
+)
+def judged(poses, path, visits, places, near, followed_for):
+    """Shares of a repetition before the first visit and after the last, and what is unexplained.
+
+    Ends are followed for so many repetitions, by poses nearer than ``near``, a squared
+    distance, to the mean of those between the visits. Unexplained is a share of the activity.
+    """
+    whole = path[-1]
+    count = len(visits) - 1
+    lengths = np.empty(count)
+    for k in range(count):
+        lengths[k] = path[visits[k + 1]] - path[visits[k]]
+    length = max(np.sort(lengths)[count // 2], 1e-12)
+    inner = repetitions_between(poses, path, visits, places)
+    mean = np.zeros(inner.shape[1:])
+    for k in range(count):
+        mean += inner[k]
+    mean /= count
+    first, last = path[visits[0]], path[visits[-1]]
+    steps = (np.arange(int(places * followed_for)) + 0.5) / places
+    before = inside(first - steps * length, whole)
+    after = inside(last + steps * length, whole)
+    head = followed(poses, path, before, np.ascontiguousarray(mean[::-1]), near) / places
+    tail = followed(poses, path, after, mean, near) / places
+    outside = max(first - head * length, 0.0) + max(whole - last - tail * length, 0.0)
+    number = count + head + tail
+    if count == 1:  # compared with what comes after it, and goes on at the beginning
+        ahead = last + (whole - length) * steps[:places]
+        ahead = np.where(ahead < whole, ahead, ahead - whole)
+        both = np.empty((2, places, poses.shape[1]))
+        both[0], both[1] = inner[0], poses_at(poses, path, ahead)
+        inner = both
+    shares = unexplained(inner)[:count]
+    known = max(whole - outside - lengths.sum(), 0.0)
+    total = (shares.sum() / count * known + outside) / whole
+    for k in range(count):  # what lies between two visits counts as a repetition, however short
+        total += max(lengths[k] / whole, 1 / number) * shares[k]
+    return head, tail, total

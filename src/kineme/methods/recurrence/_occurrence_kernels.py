@@ -94,7 +94,9 @@ def follow(samples, costs, ends, scale, worst):
     steps = np.zeros((rows, columns), np.int8)
     scores[0, 0] = pair_score(samples, costs, i0, j0, scale, worst)
     for i in range(1, rows):
-        for j in range(max(1, (i - 1) // 2), min(columns, 2 * i + 2)):
+        ahead = rows - 1 - i  # only what can be reached, and from where the end can be
+        first = max(1, (i + 1) // 2, columns - 1 - 2 * ahead)
+        for j in range(first, min(columns, 2 * i + 1, columns - (ahead + 1) // 2)):
             score = pair_score(samples, costs, i0 + i, j0 + j, scale, worst)
             scores[i, j], steps[i, j] = scores[i - 1, j - 1] + score, 1
             if j > 1 and scores[i - 1, j - 2] + 1.5 * score > scores[i, j]:
@@ -124,28 +126,27 @@ def follow(samples, costs, ends, scale, worst):
 
 @njit(
     "Tuple((float64, int64))(int64, int64, int64[::1], int64[::1], float64[::1], float64[::1],"
-    " int64[::1], int64[::1], boolean[::1], float64, int64[:, ::1], float64[::1])",
+    " int64[::1], int64[::1], int64[::1], float64, int64[:, ::1], float64[::1])",
     **OPTIONS,
 )
 def recurrences(
-    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
+    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, room, cover, spans, gains
 ):
     """Where ``[start, stop)`` recurs, written to spans and gains: their sum and their number.
 
     Each is the partner of what a path covers of it, ``cover`` at least; the
     strongest come first, none reaches into another, into itself or into
-    samples that are not free.
+    samples that are not free. ``room`` is how many are before each.
     """
     length = stop - start
     middle = (start + stop) // 2
-    candidates = row_paths[row_ptr[middle] : row_ptr[middle + 1]]
-    found = np.empty((len(candidates), 2), np.int64)
-    scores = np.empty(len(candidates))
     n = 0
-    for path in candidates:
+    for path in row_paths[row_ptr[middle] : row_ptr[middle + 1]]:
         first = starts[path]
         base = ptr[path] - first
         low, high = max(start, first), min(stop, first + ptr[path + 1] - ptr[path])
+        if high - low < cover * length:
+            continue
         while low < high and low > first and sums[base + low] <= sums[base + low - 1]:
             low += 1
         while high - 1 > low and sums[base + high - 1] <= sums[base + high - 2]:
@@ -155,17 +156,21 @@ def recurrences(
         score = sums[base + high - 1] - (sums[base + low - 1] if low > first else 0.0)
         begin, end = round(partners[base + low]), round(partners[base + high - 1]) + 1
         if score > 0 and (end <= start or begin >= stop) and 2 * (end - begin) >= length:
-            found[n, 0], found[n, 1], scores[n] = begin, end, score
+            place = n  # among those found before, the strongest first
+            while place > 0 and gains[place - 1] < score:
+                spans[place], gains[place] = spans[place - 1], gains[place - 1]
+                place -= 1
+            spans[place, 0], spans[place, 1], gains[place] = begin, end, score
             n += 1
     total, count = 0.0, 0
-    for k in np.argsort(-scores[:n], kind="mergesort"):
-        begin, end = found[k]
-        clear = 5 * free[begin:end].sum() >= 4 * (end - begin)
+    for k in range(n):
+        begin, end = spans[k]
+        clear = 5 * (room[end] - room[begin]) >= 4 * (end - begin)
         for other in range(count):
             clear = clear and (end <= spans[other, 0] or begin >= spans[other, 1])
         if clear:
-            spans[count, 0], spans[count, 1], gains[count] = begin, end, scores[k]
-            total += scores[k]
+            spans[count, 0], spans[count, 1], gains[count] = begin, end, gains[k]
+            total += gains[k]
             count += 1
     return total, count
 
@@ -182,7 +187,10 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
     best (lazy greedy, after Minoux 1978). Changes ``free``.
     """
     n = len(free)
-    spans, gains = np.empty((n, 2), np.int64), np.empty(n)
+    paths = row_ptr[1:] - row_ptr[:-1]
+    most = paths.max() if n > 0 else 0
+    spans, gains = np.empty((most, 2), np.int64), np.empty(most)
+    room = np.append(0, np.cumsum(free))
     of_stretch = np.zeros((n, len(lengths)))
     known = np.zeros((n, len(lengths)), np.int64)
     best = np.zeros(n)
@@ -191,23 +199,21 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
     for start in range(n):
         for k in range(len(lengths)):
             stop = start + lengths[k]
-            if stop <= n and free[start:stop].all():
+            if stop <= n and room[stop] - room[start] == lengths[k]:
                 of_stretch[start, k] = recurrences(
-                    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover,
+                    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, room, cover,
                     spans, gains,
                 )[0]  # fmt: skip
         best[start] = of_stretch[start].max()
-    while n > 0 and best.max() > 0:
+    while n > 0:
         start = int(best.argmax())
+        if best[start] <= 0:
+            break
         k = int(of_stretch[start].argmax())
         stop = start + lengths[k]
-        count = 0
-        total = 0.0
-        if free[start:stop].all():
-            total, count = recurrences(
-                start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans,
-                gains,
-            )  # fmt: skip
+        total, count = recurrences(
+            start, stop, starts, ptr, partners, sums, row_ptr, row_paths, room, cover, spans, gains
+        )
         if known[start, k] == rank and count > 0:
             found.append((start, stop, gains[:count].max(), rank))
             free[start:stop] = False
@@ -215,8 +221,16 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
                 found.append((spans[other, 0], spans[other, 1], gains[other], rank))
                 free[spans[other, 0] : spans[other, 1]] = False
             rank += 1
-        of_stretch[start, k], known[start, k] = total, rank
-        best[start] = of_stretch[start].max()
+            room[1:] = np.cumsum(free)
+            for begin in range(n):
+                for size in range(len(lengths)):
+                    if of_stretch[begin, size] > 0:
+                        taken = lengths[size] - room[begin + lengths[size]] + room[begin]
+                        of_stretch[begin, size] *= taken == 0
+                best[begin] = of_stretch[begin].max()
+        else:
+            of_stretch[start, k], known[start, k] = total, rank
+            best[start] = of_stretch[start].max()
     places = np.empty((len(found) - 1, 2), np.int64)
     scores, ranks = np.empty(len(places)), np.empty(len(places), np.int64)
     for k in range(len(places)):

@@ -43,27 +43,34 @@ def nearest_frames(features, step, width, start, stop, near):
             near[i, lag + width] = np.sqrt(nearest)
 
 
+@njit("void(float32[::1], float32[::1], int64, float32[::1])", **OPTIONS)
+def lesser(one, other, n, found):
+    """The lesser of each of the first n values of both."""
+    for i in range(n):
+        found[i] = min(one[i], other[i])
+
+
 @njit("void(float32[:, ::1], int64, int64, int64, float32[:, ::1])", **OPTIONS)
 def blur_rows(near, blur, start, stop, blurred):
     """Least value of each row within ``blur`` lags, in rows ``[start, stop)``.
 
-    The window is cut into blocks of its own size: every window is the end of
-    one block and the start of the next (van Herk 1992).
+    The least of two values, of four, of eight, ... from each lag on; the window is two
+    such stretches that overlap.
     """
     lags = near.shape[1]
     size = 2 * blur + 1
-    padded = np.empty(lags + 2 * size, np.float32)
-    from_start = np.empty(len(padded), np.float32)
-    to_end = np.empty(len(padded), np.float32)
+    least = np.full(lags + 2 * blur, FAR)
+    other = np.empty_like(least)
     for i in range(start, stop):
-        for p in range(len(padded)):
-            padded[p] = near[i, p - blur] if blur <= p < blur + lags else FAR
-            from_start[p] = padded[p] if p % size == 0 else min(from_start[p - 1], padded[p])
-        for p in range(len(padded) - 1, -1, -1):
-            last = p % size == size - 1 or p == len(padded) - 1
-            to_end[p] = padded[p] if last else min(to_end[p + 1], padded[p])
-        for lag in range(lags):
-            blurred[i, lag] = min(to_end[lag], from_start[lag + size - 1])
+        least[:blur] = FAR
+        least[blur : blur + lags] = near[i]
+        least[blur + lags :] = FAR
+        length = 1  # of the stretch that each value is the least of
+        while 2 * length <= size:
+            lesser(least, least[length:], len(least) - 2 * length + 1, other)
+            least, other = other, least
+            length *= 2
+        lesser(least, least[size - length :], lags, blurred[i])
 
 
 @njit(
@@ -131,3 +138,18 @@ def coverage(near, scales, g_start, g_stop, h_start, h_stop, gap, softness):
         if nearest < FAR:
             total += np.exp(-((nearest / (softness * scales[i])) ** 2))
     return total / (g_stop - g_start)
+
+
+@njit("float64(float32[:, ::1], int64[::1], int64[::1], int64)", **SUMS)
+def mean_in_band(similarity, rows, columns, gap):
+    """Mean similarity of the pairs farther apart than the gap, in a one-sided band; 0 if none."""
+    width = similarity.shape[1]
+    total = 0.0
+    count = 0
+    for i in rows:
+        for j in columns:
+            lag = abs(j - i)
+            if gap < lag < width:
+                total += similarity[min(i, j), lag]
+                count += 1
+    return total / max(count, 1)

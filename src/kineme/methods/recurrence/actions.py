@@ -76,6 +76,8 @@ def refine(
     -------
     Actions
     """
+    if (labels < 0).all():
+        return Actions(borders[[0, -1]], np.array([-1]), np.zeros(1))
     per_sample = by_first_appearance(np.repeat(labels, np.diff(borders)))
     for _ in range(rounds):
         relative, actions = _relative_affinity(recurrence, per_sample, least_own)

@@ -34,7 +34,7 @@ def find_actions(wide: Recurrence, narrow: Recurrence, preset: RecurrenceConstan
     """
     borders = change_points.divided(
         _segments(wide, preset),
-        _segments(narrow, preset.narrowed()),
+        _segments(narrow, preset.narrowed),
         narrow,
         softness=preset.merge_softness,
         least=preset.min_repetition,

@@ -8,6 +8,7 @@ does and what other values measure.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import ClassVar, Self
 
 from kineme.errors import ParameterError
@@ -208,6 +209,7 @@ class RecurrenceConstants(CountingPreset):
                 f"min_scale {self.min_scale} is larger than max_scale {self.max_scale}"
             )
 
+    @cached_property
     def narrowed(self) -> Self:
         """The preset for short actions."""
         share = self.narrow_share
@@ -221,11 +223,12 @@ class RecurrenceConstants(CountingPreset):
             merge_gap=share * self.merge_gap,
         )
 
+    @cached_property
     def hurried(self) -> Self:
         """The preset for recordings in which all actions are short."""
         share = self.narrow_share
         return replace(
-            self.narrowed(),
+            self.narrowed,
             phase_shares=self.phase_shares,
             switch_cost=share * self.switch_cost,
             min_action=share * self.min_action,

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from math import ceil
 from typing import TYPE_CHECKING
 
@@ -23,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import map_threads
+from kineme.methods.recurrence import _end_kernels as kernels
 
 if TYPE_CHECKING:
     from kineme.methods.recurrence.constants import RecurrenceConstants
@@ -83,10 +83,11 @@ def fitted_ends(
     Ends
     """
     n = len(features)
+    back = np.ascontiguousarray(features[::-1])
 
     def fitted(i: int) -> tuple[int, int, int, int]:
         start, first = _begin(features, int(starts[i]), cuts[i], preset)
-        stop, last = _begin(features[::-1], n - int(stops[i]), n - cuts[i][::-1], preset)
+        stop, last = _begin(back, n - int(stops[i]), (n - cuts[i])[::-1].copy(), preset)
         return start, n - stop, first, n - last
 
     found = np.array(map_threads(fitted, range(len(cuts))), np.int64).reshape(-1, 4)
@@ -105,68 +106,37 @@ def fitted_ends(
     return Ends(begins, ends, firsts, lasts)
 
 
-def evenly_in_time(rows: Features, starts: Frames, lengths: Frames, places: int) -> Floats:
-    """(stretches, places, dims): rows evenly in time from each start on, over each length."""
-    at = starts[:, None] + lengths[:, None] * ((np.arange(places) + 0.5) / places) - 0.5
-    before = np.clip(np.floor(at).astype(np.int64), 0, len(rows) - 1)
-    after = np.minimum(before + 1, len(rows) - 1)
-    share = np.clip(at - before, 0, 1)[..., None]
-    found: Floats = rows[before] * (1 - share) + rows[after] * share
-    return found
-
-
 def _begin(
     rows: Features, start: int, cuts: Frames, preset: RecurrenceConstants
 ) -> tuple[int, int]:
     """Where the activity that was found from ``start`` on begins, and its first repetition."""
     if len(cuts) < 2:  # nothing lies between two cuts
         return start, start
-    inner = evenly_in_time(rows, cuts[:-1], np.diff(cuts), preset.path_points)
+    lengths = np.diff(cuts)
+    inner = kernels.evenly_in_time(rows, cuts[:-1], lengths, preset.path_points)
     mean = inner.mean(axis=0)
     first = _first(rows, cuts, mean)
     if first == start:
         return start, start
     low, high = min(first, start), max(first, start)
-    phases = (np.arange(low, high) + 0.5 - first) / (int(cuts[0]) - first)
-    rest = float(_distances(rows[low:high], phases, mean).mean())
-    unlike = rest > preset.end_factor * _usual_distance(rows, cuts, inner, preset.usual_quantile)
+    reach = int(EITHER_WAY * len(mean))
+    rest = np.empty(high - low)
+    kernels.distances(rows, low, high, first, int(cuts[0]) - first, mean, reach, rest)
+    usual = np.inf  # where there is no other
+    if len(inner) > 1:
+        others = kernels.distances_to_others(rows, cuts, inner, reach)
+        usual = float(np.quantile(others, preset.usual_quantile))
+    unlike = rest.mean() > preset.end_factor * usual
     if first < start:
         return (start, start) if unlike else (first, first)
-    short = high - low <= SHORTEST * float(np.diff(cuts).mean())
+    short = high - low <= SHORTEST * float(lengths.mean())
     return (first, first) if unlike and short and start > 0 else (start, first)
 
 
 def _first(rows: Features, cuts: Frames, mean: Floats) -> int:
     """Where the stretch before the first cut begins that fits the mean best; 0 if none is."""
-    usual = float(np.diff(cuts).mean())
-    longest = min(int(LONGEST * usual), int(cuts[0]))
-    lengths = np.arange(max(1, ceil(SHORTEST * usual)), longest + 1)
-    if not len(lengths):
+    usual, stop = float(np.diff(cuts).mean()), int(cuts[0])
+    shortest, longest = max(1, ceil(SHORTEST * usual)), min(int(LONGEST * usual), stop)
+    if shortest > longest:
         return 0
-    misfits = (evenly_in_time(rows, cuts[0] - lengths, lengths, len(mean)) - mean) ** 2
-    return int(cuts[0] - lengths[misfits.sum(axis=(1, 2)).argmin()])
-
-
-def _usual_distance(rows: Features, cuts: Frames, repetitions: Floats, quantile: float) -> float:
-    """How far most frames between the cuts are from the mean of the other repetitions there.
-
-    Infinite where there is no other.
-    """
-    if len(repetitions) == 1:
-        return np.inf
-    others = (repetitions.sum(axis=0) - repetitions) / (len(repetitions) - 1)
-    distances = [
-        _distances(rows[start:stop], (np.arange(stop - start) + 0.5) / (stop - start), mean)
-        for (start, stop), mean in zip(pairwise(cuts.tolist()), others, strict=True)
-    ]
-    return float(np.quantile(np.concatenate(distances), quantile))
-
-
-def _distances(rows: Features, phases: Floats, mean: Floats) -> Floats:
-    """How far each row is from the mean repetition near its phase, a share of a repetition."""
-    places = len(mean)
-    reach = int(EITHER_WAY * places)
-    at = np.floor(phases * places).astype(np.int64)
-    near = mean[(at[:, None] + np.arange(-reach, reach + 1)) % places]
-    distances: Floats = np.sqrt(((rows[:, None] - near) ** 2).sum(axis=2).min(axis=1))
-    return distances
+    return stop - int(kernels.best_length(rows, stop, shortest, longest, mean))

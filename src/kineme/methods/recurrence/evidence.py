@@ -17,9 +17,9 @@ from kineme.methods.evidence import (
     count_statistics,
     cut_statistics,
     link_statistics,
-    mean,
 )
 from kineme.methods.recurrence import _candidate_kernels as kernels
+from kineme.methods.recurrence._recurrence_kernels import mean_in_band
 from kineme.methods.recurrence.placing import Segments
 from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.repetitions import movement
@@ -47,11 +47,9 @@ def evidence(recurring: Recurrence, preset: CountingPreset, segments: Segments) 
     borders, labels, own = segments.borders, segments.labels, segments.own
     samples, width = recurring.similarity.shape
 
-    def similar(rows: Frames, columns: Frames) -> Floats:
-        first, second = np.minimum.outer(rows, columns), np.maximum.outer(rows, columns)
-        lags = second - first
-        compared = (recurring.phase < lags) & (lags < width)
-        return np.where(compared, recurring.similarity[first, np.where(compared, lags, 0)], np.nan)
+    def similar(rows: Frames, columns: Frames) -> float:
+        found: float = mean_in_band(recurring.similarity, rows, columns, recurring.phase)
+        return found
 
     at = np.append(borders[:-1] // recurring.step, samples)
     spans = [spread(start, stop, COMPARED) for start, stop in pairwise(at.tolist())]
@@ -59,7 +57,7 @@ def evidence(recurring: Recurrence, preset: CountingPreset, segments: Segments) 
     within_reach = np.searchsorted(at[:-1], at[1:] + width)
     for g in range(len(labels)):
         for h in range(g, within_reach[g]):
-            alike[g, h] = alike[h, g] = mean(similar(spans[g], spans[h]))
+            alike[g, h] = alike[h, g] = similar(spans[g], spans[h])
     near = round(NEAR * preset.working_fps / recurring.step)
     parents = segments.parents
     return Evidence(

@@ -31,7 +31,7 @@ def levels_of(
     narrow: Recurrence,
     preset: RecurrenceConstants,
 ) -> Mapping[float, Columns]:
-    """The table at each detail but 1.
+    """The table at each detail but 1, those left out that are like their coarser neighbour.
 
     Parameters
     ----------
@@ -47,20 +47,14 @@ def levels_of(
     pieces, frames = _pieces(borders, labels, narrow, preset)
     cost = preset.border_cost * preset.working_fps / preset.step
     at = levels.clusters_at(pieces, levels.DETAILS, border_price=cost, cluster_price=cost)
-    longest = preset.frames(preset.min_action)
-    return {
-        detail: levels.at_detail(
-            columns, frames, at[detail], longest / detail if detail < 1 else None
-        )
-        for detail in levels.DETAILS
-    }
+    return levels.tables_at(columns, frames, at, preset.frames(preset.min_action))
 
 
 def _pieces(
     default: Samples, actions: Samples, narrow: Recurrence, preset: RecurrenceConstants
 ) -> tuple[levels.Pieces, Samples]:
     """Activities cut where finer change points are, and transitions; with their frames."""
-    short = preset.narrowed()
+    short = preset.narrowed
     n, step = len(narrow), narrow.step
     least = preset.frames(preset.min_segment)
     frames = default

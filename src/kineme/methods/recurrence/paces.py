@@ -15,9 +15,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kineme.methods.confidence import confidence
 from kineme.methods.evidence import Evidence
+from kineme.methods.recurrence.actions import Actions
 from kineme.methods.recurrence.activities import activities, find_actions
 from kineme.methods.recurrence.evidence import evidence
 from kineme.methods.recurrence.placing import Segments
@@ -55,7 +57,7 @@ class Division:
     @property
     def actions(self) -> int:
         """How many are told apart."""
-        return len(set(self.segments.labels.tolist()) - {-1})
+        return _number(self.segments.labels)
 
     @cached_property
     def sureness(self) -> float:
@@ -69,8 +71,8 @@ class Division:
 def surest(recurring: Recurrence, preset: RecurrenceConstants, stage: Stage) -> Division:
     """The division with the preset as it is or hurried, whichever is surer.
 
-    Shorter times must tell at least as many actions apart: one action with one long chain of
-    repetitions has no borders to be unsure of.
+    Shorter times must tell at least as many actions apart, and one: one action with one long
+    chain of repetitions has no borders to be unsure of.
 
     Parameters
     ----------
@@ -81,25 +83,39 @@ def surest(recurring: Recurrence, preset: RecurrenceConstants, stage: Stage) -> 
         See `kineme.methods.stages.stopwatch`.
     """
     with stage("activities"):
-        usual = _divided(recurring, preset)
+        usual = _counted(recurring, preset, *_told_apart(recurring, preset))
     with stage("paces"):
         if usual.sureness >= preset.sure_pace:
             return usual
-        short = preset.hurried()
-        other = _divided(_windowed(recurring, short), short)
-        if other.actions < usual.actions:
+        short, least = preset.hurried, max(1, usual.actions)
+        quick = _windowed(recurring, short)
+        narrow, found = _told_apart(quick, short)
+        if _number(found.labels) < least:
             return usual
-        return other if other.sureness > usual.sureness else usual
+        other = _counted(quick, short, narrow, found)
+        return other if other.actions >= least and other.sureness > usual.sureness else usual
 
 
-def _divided(recurring: Recurrence, preset: RecurrenceConstants) -> Division:
-    narrow = _windowed(recurring, preset.narrowed())
-    found = find_actions(recurring, narrow, preset)
+def _told_apart(recurring: Recurrence, preset: RecurrenceConstants) -> tuple[Recurrence, Actions]:
+    """How similar the samples are for short actions, and the actions."""
+    narrow = _windowed(recurring, preset.narrowed)
+    return narrow, find_actions(recurring, narrow, preset)
+
+
+def _counted(
+    recurring: Recurrence, preset: RecurrenceConstants, narrow: Recurrence, found: Actions
+) -> Division:
+    """The activities of the actions, and their repetitions."""
     borders, labels, own = activities(found, narrow, preset, len(recurring.features))
     limits = found.borders * recurring.step
     repeating = count_repetitions(recurring, borders, labels, limits, preset)
     segments = with_repetitions(recurring, borders, labels, own, repeating, preset)
     return Division(preset, recurring, narrow, segments)
+
+
+def _number(labels: NDArray[np.int64]) -> int:
+    """How many actions there are."""
+    return len(set(labels.tolist()) - {-1})
 
 
 def _windowed(recurring: Recurrence, preset: RecurrenceConstants) -> Recurrence:

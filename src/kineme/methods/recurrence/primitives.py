@@ -116,6 +116,8 @@ def with_occurrences(
     several = np.bincount(parents[repeats], minlength=len(labels)) > 1
     sure = of_actions(probability(counts, preset.count_weights) * several, lengths, labels)
     weak = (sure < preset.min_periodic) & ~ends
+    if not weak.any():
+        return segments
     # Where an activity is in question, what recurs is told by the whole recording.
     looked_at = np.repeat(weak | (weak & (labels >= 0)).any(), lengths)
     found = occurrences(single_poses(recurring.features, preset.offsets), looked_at, preset)

@@ -151,11 +151,7 @@ def repetitions(
 
 def movement(rows: NDArray[np.float32], smoothing: int) -> Movement:
     """An activity along its path, its poses averaged over so many frames before and after."""
-    frames = np.arange(len(rows))
-    before, after = np.maximum(frames - smoothing, 0), np.minimum(frames + smoothing, len(rows) - 1)
-    sums = np.cumsum(np.pad(rows.astype(np.float64), ((1, 0), (0, 0))), axis=0)
-    poses = (sums[after + 1] - sums[before]) / (after + 1 - before)[:, None]
-    speeds = np.linalg.norm(poses[after] - poses[before], axis=1) / np.maximum(after - before, 1)
+    poses, speeds = candidate_kernels.smoothed(rows, smoothing)
     path = np.append(0, np.cumsum(speeds))
     shares = speeds / max(path[-1], 1e-12)
     poses = poses - shares @ poses
@@ -195,34 +191,8 @@ def _dips(
 
 
 def _candidate(movement: Movement, visits: Frames, preset: CountingPreset) -> _Candidate:
-    poses, path, places = movement.poses, movement.path, preset.path_points
-    whole, at = path[-1], path[visits]
-    lengths = np.diff(at)
-    length = max(float(np.sort(lengths)[len(lengths) // 2]), 1e-12)
-    inner = candidate_kernels.repetitions_between(poses, path, visits, places)
-    mean = inner.sum(axis=0) / len(inner)
-    steps = (np.arange(int(places * FOLLOWED)) + 0.5) / places
-    near = preset.end_distance * movement.variance
-    before = _followed(movement, at[0] - steps * length, np.ascontiguousarray(mean[::-1]), near)
-    after = _followed(movement, at[-1] + steps * length, mean, near)
-    outside = max(at[0] - before * length, 0) + max(whole - at[-1] - after * length, 0)
-    number = len(lengths) + before + after
-    if len(inner) == 1:  # compared with what comes after it, and goes on at the beginning
-        ahead = at[-1] + (whole - length) * steps[:places]
-        rest = candidate_kernels.poses_at(
-            poses, path, np.where(ahead < whole, ahead, ahead - whole)
-        )
-        inner = np.stack([inner[0], rest])
-    unexplained = candidate_kernels.unexplained(inner)[: len(lengths)]
-    known = max(whole - outside - lengths.sum(), 0)
-    # What lies between two visits counts as a repetition, however short.
-    shares = np.maximum(lengths / whole, 1 / number)
-    total = shares @ unexplained + (unexplained.sum() / len(unexplained) * known + outside) / whole
-    return _Candidate(visits, before, after, float(total), preset.length_cost)
-
-
-def _followed(movement: Movement, lengths: Floats, mean: Floats, near: float) -> float:
-    """How much of a repetition an end follows the mean of the others, 0 to 1."""
-    poses, path = movement.poses, movement.path
-    inside = lengths[(lengths >= 0) & (lengths <= path[-1])]
-    return float(candidate_kernels.followed(poses, path, inside, mean, near)) / len(mean)
+    before, after, unexplained = candidate_kernels.judged(
+        movement.poses, movement.path, visits, preset.path_points,
+        preset.end_distance * movement.variance, FOLLOWED,
+    )  # fmt: skip
+    return _Candidate(visits, before, after, unexplained, preset.length_cost)

@@ -1,0 +1,99 @@
+"""Compiled reading of AMC text. The naive twin is in ``tests/naive.py``."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from kineme._compiled import OPTIONS
+
+TENS = 10.0 ** np.arange(23)  # each of them exact
+EXACT = 1 << 53
+SPACE, PLUS, MINUS, POINT, ZERO, NINE = 32, 43, 45, 46, 48, 57
+NOT_HERE = -1
+
+
+@njit("int64(uint8[::1], int64)", **OPTIONS)
+def word_at(text, at):
+    """Where the next word begins, or the text ends; `NOT_HERE` where no space is before it."""
+    before = at
+    while at < len(text) and (text[at] == SPACE or 9 <= text[at] <= 13):
+        at += 1
+    return at if at > before else NOT_HERE
+
+
+@njit("int64(uint8[::1], int64, uint8[::1])", **OPTIONS)
+def after_name(text, at, name):
+    """Where a name ends that begins here; `NOT_HERE` where another word does."""
+    if at + len(name) > len(text):
+        return NOT_HERE
+    for i in range(len(name)):
+        if text[at + i] != name[i]:
+            return NOT_HERE
+    return at + len(name)
+
+
+@njit("int64(uint8[::1], int64, float64[::1])", **OPTIONS)
+def after_number(text, at, value):
+    """Where a number ends that begins here; its value is left.
+
+    `NOT_HERE` where none does, or one that the quotient of a whole number and a power of ten does
+    not give as exactly as ``float``.
+    """
+    negative = at < len(text) and text[at] == MINUS
+    if negative or (at < len(text) and text[at] == PLUS):
+        at += 1
+    whole, digits, decimals, point = 0, 0, 0, False
+    while at < len(text):
+        sign = text[at]
+        if ZERO <= sign <= NINE:
+            whole = 10 * whole + (sign - ZERO)
+            digits += 1
+            decimals += point
+            if whole >= EXACT or digits == len(TENS):
+                return NOT_HERE
+        elif sign == POINT and not point:
+            point = True
+        else:
+            break
+        at += 1
+    value[0] = whole / TENS[decimals]
+    if negative:
+        value[0] = -value[0]
+    return at if digits else NOT_HERE
+
+
+@njit("int64(uint8[::1], uint8[::1], int64[::1], int64[::1], float64[:, ::1])", **OPTIONS)
+def read_rows(text, names, ends, counts, rows):
+    """Frames of text into rows: the number of each, then the values of each bone.
+
+    A frame is its number and, for each bone, its name (``names`` up to its end) and as many
+    numbers as it has. How many frames there are; `NOT_HERE` where anything is written in another
+    way. The text begins and ends with a space; there are rows enough.
+    """
+    at, row, value = 0, 0, np.zeros(1)
+    while True:
+        at = word_at(text, at)
+        if at == len(text):
+            return row
+        if at != NOT_HERE:
+            at = after_number(text, at, value)
+        if at == NOT_HERE:
+            return NOT_HERE
+        rows[row, 0] = value[0]
+        column, first = 1, 0
+        for bone in range(len(counts)):
+            at = word_at(text, at)
+            if at != NOT_HERE:
+                at = after_name(text, at, names[first : ends[bone]])
+            first = ends[bone]
+            for _ in range(counts[bone]):
+                if at != NOT_HERE:
+                    at = word_at(text, at)
+                if at != NOT_HERE:
+                    at = after_number(text, at, value)
+                rows[row, column] = value[0]
+                column += 1
+            if at == NOT_HERE:
+                return NOT_HERE
+        row += 1

@@ -1,0 +1,30 @@
+"""Compiled comparison of windows. The naive twin is in ``tests/naive.py``."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from kineme._compiled import OPTIONS
+
+MOST = np.int32(np.iinfo(np.int32).max)
+
+
+@njit("void(Array(int8, 2, 'C', readonly=True), int32[:, ::1], int32, int32[::1])", **OPTIONS)
+def least_squares(windows, wanted, finer, least):
+    """The square of each window's distance from the nearest of what is wanted.
+
+    ``windows`` (n, numbers) are whole numbers, ``wanted`` (m, numbers) those of parts as much
+    ``finer``, and so is what is left in ``least`` (n), squared.
+    """
+    for i in range(len(windows)):
+        window = windows[i]
+        best = MOST
+        for j in range(len(wanted)):
+            other = wanted[j]
+            total = np.int32(0)
+            for k in range(len(other)):
+                apart = np.int32(finer * window[k] - other[k])
+                total = np.int32(total + np.int32(apart * apart))  # whole numbers: in any order
+            best = min(best, total)
+        least[i] = best
