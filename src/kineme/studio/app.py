@@ -90,7 +90,7 @@ def create_app(
     handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _refused)
     app = Starlette(
         routes=[
-            *library_routes(library),
+            *library_routes(library, recordings),
             *Api(recordings, hub, limit=limit).routes(),
             Route("/", page),
             Mount("/assets", StaticFiles(directory=static / "assets", check_dir=False)),
@@ -106,13 +106,13 @@ def create_app(
     return Guard(app, token=token, port=port)
 
 
-def library_routes(library: ShownLibrary | None) -> list[Route]:
+def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> list[Route]:
     """The addresses of a library, if there is one."""
     if library is None:
         return []
     from kineme.studio.library.routes import LibraryApi  # reads Parquet
 
-    return LibraryApi(library).routes()
+    return LibraryApi(library, recordings).routes()
 
 
 def _refused(_: Request, error: Exception) -> Response:

@@ -534,7 +534,11 @@ export interface LibraryState {
   failed: Record<string, string>;
 }
 
-/** Where a recording is like an example. */
+/**
+ * Where a recording is like an example; `label` is that of the cluster.
+ *
+ * `name` is that of the segment there, in the table beside the recording.
+ */
 export interface LibraryHit {
   recording: string;
   start_s: number;
@@ -542,11 +546,18 @@ export interface LibraryHit {
   distance: number;
   cluster: number;
   label: string;
+  name?: string;
 }
 
 /** What a search found, the nearest first. */
 export interface LibraryHits {
   hits: LibraryHit[];
+}
+
+/** How many hits have the name now, and which have not, with the reason. */
+export interface NamedHits {
+  named: number;
+  left: string[];
 }
 
 /**
@@ -575,6 +586,12 @@ export interface SearchRequest {
   top: number;
   mirror: boolean;
   cluster?: number;
+}
+
+/** A name for the segments that hits show, each alone; an empty one takes it away. */
+export interface CallHits {
+  name: string;
+  hits: Span[];
 }
 
 /** A name for a cluster of the library; an empty one takes it away. */
