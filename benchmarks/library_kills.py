@@ -90,8 +90,8 @@ def contents(folder: Path) -> dict[str, bytes]:
     if is_remote(folder):
         there: Any = folder
         home = there.path.rstrip("/") + "/"
-        files = there.fs.cat(there.path, recursive=True)
-        return {name.removeprefix(home): content for name, content in files.items()}
+        names = there.fs.find(there.path)
+        return {name.removeprefix(home): there.fs.cat_file(name) for name in names}
     files = (path for path in folder.rglob("*") if path.is_file())
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
 
