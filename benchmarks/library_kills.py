@@ -6,7 +6,8 @@ A build is killed at a random moment, again and again until it gets through; hal
 library up to date, the others make a new one. After each kill the library that a reader sees is
 whole: as it was before the build or as it is after it. When a build got through, every file is byte
 for byte that of a build that nothing disturbed. Then the same with files that may not grow over so
-many bytes, which fails as a full disk does. Needs a system that can fork.
+many bytes, which fails as a full disk does. Every library has an index, as large ones do. Needs a
+system that can fork.
 """
 
 from __future__ import annotations
@@ -29,14 +30,15 @@ from pathlib import Path
 import kineme
 from _figures import add_option, record
 from kineme.errors import KinemeError, WriteError
-from kineme.library import Library, build
+from kineme.library import Example, Library, build
+from kineme.library.index import kept
 from kineme.library.pieces import read_features, read_piece
 
 SPANS = {"a": (0, 400), "b": (700, 1100), "c": (1300, 1700), "d": (2000, 2500)}
 """Frames of the bundled recording."""
 BEFORE = ("a", "b")
 """Those that a library has which is brought up to date."""
-LIMITS = (0, 100, 400, 3_000, 6_500, 12_000, 18_000)
+LIMITS = (0, 100, 400, 1_500, 3_000, 6_500, 12_000, 18_000)
 """Bytes that a file may have on the full disk."""
 FAILED, REFUSED = 1, 3
 """How a build ends: by a mistake of ours; with a sentence."""
@@ -49,6 +51,7 @@ def write_takes(folder: Path) -> None:
     for name, (start, stop) in SPANS.items():
         kineme.write(whole[start:stop], folder / f"{name}.bvh")
     heights = whole.positions[:1200, 10:14, 1]
+    (folder / "e.bvh").write_bytes((folder / "d.bvh").read_bytes())
     rows = "\n".join(
         f"{i / 60:.4f}," + ",".join(f"{x:.4f}" for x in row) for i, row in enumerate(heights)
     )
@@ -104,6 +107,8 @@ def torn(folder: Path, counts: set[int]) -> Iterator[str]:
             library.table(name)
         for piece in library.recordings["piece"]:
             read_features(folder / "pieces", piece)
+        if len(library.search(Example("b.bvh", 1.0, 2.0), top=1)) != 1:
+            yield "the index does not find what is there"
     except KinemeError as error:
         yield f"the library is torn: {error}"
 
@@ -114,7 +119,7 @@ class Trial:
     def __init__(self, home: Path, takes: Path, before: Path | None):
         self.takes, self.before = takes, before
         self.folder = home / "library"
-        self.counts = {len(Library(before)) if before else 0, len(SPANS) + 1}
+        self.counts = {len(Library(before)) if before else 0, len(SPANS) + 2}
         self.reset()
         started = time.perf_counter()
         self.build()
@@ -143,6 +148,17 @@ class Trial:
         self.build()
 
 
+def others(trial: Trial) -> list[str]:
+    """What says that files are not those of a build that nothing disturbed."""
+    now = contents(trial.folder)
+    names = now.keys() | trial.wanted.keys()
+    return [
+        f"other bytes in {Path(name).parent}/*{Path(name).suffix}"
+        for name in names
+        if now.get(name) != trial.wanted.get(name)
+    ]
+
+
 def killed(trial: Trial, moments: random.Random, kills: int, found: Counter[str]) -> int:
     """Builds killed until one gets through, ``kills`` at most; how many were."""
     trial.reset()
@@ -159,7 +175,7 @@ def killed(trial: Trial, moments: random.Random, kills: int, found: Counter[str]
         found.update(torn(trial.folder, trial.counts))
     code = ended(child(trial.build))
     found.update([f"the last build ended with {code}"] * (code != 0))
-    found.update(["other bytes"] * (contents(trial.folder) != trial.wanted))
+    found.update(others(trial))
     return n
 
 
@@ -174,7 +190,7 @@ def on_a_full_disk(trial: Trial, found: Counter[str]) -> int:
         found.update(torn(trial.folder, trial.counts))
         code = ended(child(trial.build))
         found.update([f"the next build ended with {code}"] * (code != 0))
-        found.update(["other bytes after a full disk"] * (contents(trial.folder) != trial.wanted))
+        found.update(others(trial))
     return refused
 
 
@@ -187,6 +203,7 @@ def main() -> None:
     options = parser.parse_args()
     os.environ["KINEME_THREADS"] = "1"  # threads do not outlive a fork
     warnings.simplefilter("ignore")
+    kept.FROM_HOURS = 0.0
     moments = random.Random(options.seed)
     found: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as name:

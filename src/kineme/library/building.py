@@ -147,7 +147,7 @@ def build(
         with held(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
             plan = plan_of(folder, head, as_paths(sources), as_paths(remove), recursive, settings)
-            return _built(plan, head, executor, progress or _silent)
+            return _built(plan, head, executor, progress or (lambda _: None))
 
 
 def _built(plan: Plan, head: Head, executor: Executor | int, progress: Progress) -> Built:
@@ -242,9 +242,6 @@ def _clean(folder: Path, keys: set[str], tables: str) -> None:
     for path in (folder / TABLES).iterdir():
         if path.name != tables:
             remove_folder(path)
-    for path in folder.glob(".kineme-*"):
-        path.unlink(missing_ok=True)
-
-
-def _silent(_: str) -> None:
-    """Says nothing."""
+    for home in (folder, folder / TABLES / tables):
+        for path in home.glob(".kineme-*"):
+            path.unlink(missing_ok=True)
