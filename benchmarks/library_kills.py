@@ -1,13 +1,14 @@
 """Builds of a library that are killed at any moment, and on a full disk: nothing is torn.
 
-    python benchmarks/library_kills.py [--kills 200] [--seed 0] [--record]
+    python benchmarks/library_kills.py [--kills 200] [--seed 0] [--at s3://bucket/lib] [--record]
 
 A build is killed at a random moment, again and again until it gets through; half of them bring a
 library up to date, the others make a new one. After each kill the library that a reader sees is
 whole: as it was before the build or as it is after it. When a build got through, every file is byte
 for byte that of a build that nothing disturbed. Then the same with files that may not grow over so
 many bytes, which fails as a full disk does. Every library has an index, as large ones do. Needs a
-system that can fork.
+system that can fork. ``--at`` does no more than kill builds of new libraries at a URL, where
+nothing is yet: what is there in the end has the bytes of one on a disk.
 """
 
 from __future__ import annotations
@@ -24,8 +25,10 @@ import time
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import kineme
 from _figures import add_option, record
@@ -33,6 +36,7 @@ from kineme.errors import KinemeError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.index import kept
 from kineme.library.pieces import read_features, read_piece
+from kineme.library.storage.places import is_remote, place
 
 SPANS = {"a": (0, 400), "b": (700, 1100), "c": (1300, 1700), "d": (2000, 2500)}
 """Frames of the bundled recording."""
@@ -58,7 +62,7 @@ def write_takes(folder: Path) -> None:
     (folder / "heights.csv").write_text(f"time_s,p,q,r,s\n{rows}\n")
 
 
-def child(work: Callable[[], None]) -> int:
+def child(work: Callable[[], object]) -> int:
     """The process in which this is done."""
     process = os.fork()
     if process == 0:
@@ -83,6 +87,11 @@ def ended(process: int) -> int:
 
 def contents(folder: Path) -> dict[str, bytes]:
     """Every file by its place."""
+    if is_remote(folder):
+        there: Any = folder
+        home = there.path.rstrip("/") + "/"
+        names = there.fs.find(there.path)
+        return {name.removeprefix(home): there.fs.cat_file(name) for name in names}
     files = (path for path in folder.rglob("*") if path.is_file())
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
 
@@ -184,7 +193,7 @@ def on_a_full_disk(trial: Trial, found: Counter[str]) -> int:
     refused = 0
     for begin, most in product((trial.reset, trial.with_pieces), LIMITS):
         begin()
-        code = ended(child(lambda most=most: trial.limited(most)))
+        code = ended(child(partial(trial.limited, most)))
         refused += code == REFUSED
         found.update([f"a build on a full disk ended with {code}"] * (code not in (0, REFUSED)))
         found.update(torn(trial.folder, trial.counts))
@@ -194,11 +203,52 @@ def on_a_full_disk(trial: Trial, found: Counter[str]) -> int:
     return refused
 
 
+def show_at(url: str, home: Path, takes: Path, kills: int, moments: random.Random) -> Counter[str]:
+    """Builds at a URL killed until so many were; what was found."""
+    found: Counter[str] = Counter()
+    os.environ["KINEME_CACHE"] = str(home / "cache")
+    build(takes, home / "library")
+    wanted = contents(home / "library")
+    begun = time.perf_counter()
+    found.update(["a build failed"] * ended(child(partial(build, takes, f"{url}/0"))))
+    lasts = time.perf_counter() - begun
+    n = rounds = 0
+    while n < kills:
+        rounds += 1
+        there = f"{url}/{rounds}"
+        while n < kills:
+            process = child(partial(build, takes, there))
+            time.sleep(moments.uniform(0.0, lasts))
+            os.kill(process, signal.SIGKILL)
+            if ended(process) >= 0:
+                break
+            n += 1
+            found.update(["torn"] * ended(child(partial(whole_at, there))))
+        found.update(["a build failed"] * ended(child(partial(build, takes, there))))
+        found.update(["other bytes"] * ended(child(partial(equal_at, there, wanted))))
+        print(f"{n} kills, {rounds} libraries: {dict(found) or 'nothing torn'}", flush=True)
+    return found
+
+
+def whole_at(url: str) -> None:
+    """Whether what a reader sees is whole."""
+    told = sorted(torn(place(url), {0, len(SPANS) + 2}))
+    assert not told, told
+
+
+def equal_at(url: str, wanted: dict[str, bytes]) -> None:
+    """Whether a library has these bytes; a lock is on a disk only."""
+    now = contents(place(url))
+    other = [name for name in wanted.keys() | now.keys() if now.get(name) != wanted.get(name)]
+    assert all(Path(name).name.endswith(".lock") for name in other), other
+
+
 def main() -> None:
     """Kill, look, count; exit code 1 where something is torn."""
     parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--at", metavar="URL")
     add_option(parser)
     options = parser.parse_args()
     os.environ["KINEME_THREADS"] = "1"  # threads do not outlive a fork
@@ -209,6 +259,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         home, takes = Path(name), Path(name) / "takes"
         write_takes(takes)
+        if options.at:
+            sys.exit(bool(show_at(options.at, home, takes, options.kills, moments)))
         build([takes / f"{each}.bvh" for each in BEFORE], home / "before")
         trials = [Trial(home, takes, None), Trial(home, takes, home / "before")]
         n = rounds = 0

@@ -32,7 +32,7 @@ from kineme.library.pieces import has_piece
 from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import Settings
 from kineme.library.sources import listed, names_of
-from kineme.library.storage.places import place, reaching, remove_folder
+from kineme.library.storage.places import lies_in, place, reaching, remove_folder
 from kineme.library.tables import read_table, write_tables
 
 Head = Mapping[str, Any]
@@ -195,7 +195,7 @@ def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
         path: source
         for path, (_, key) in unseen.items()
         for source in gone
-        if path.is_relative_to(source) and has_piece(plan.pieces, key)
+        if lies_in(path, source) and has_piece(plan.pieces, key)
     }
 
 
