@@ -35,7 +35,7 @@ import kineme
 from _figures import add_option, record
 from _recordings import ACTORS, CONDITIONS, DATA, Case, exercises, hdm05, subject_86, synthetic
 from kineme.methods.base import Columns
-from kineme.methods.confidence import log_odds, probability
+from kineme.methods.confidence import log_odds, probability, with_borders
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.segmenter import segment_and_found
 
@@ -51,6 +51,7 @@ TOLERANCE, SENSOR_TOLERANCE = 0.25, 0.5  # of borders, s
 CUT_TOLERANCE = 0.25  # of the longer repetition next to it
 STILL = ("standing", "sitting", "laying")  # where there is nothing to count
 RIDGE = 20.0
+KNOWN = {"cut": 4}  # statistics that must be known, two of others; borders may have no other side
 
 SETS = {"barbell": 41, "ipolgait": 30, "utkinect": 20, "hugadb": 40, "hapt": 12}
 
@@ -120,7 +121,7 @@ class Table:
         self.rows: dict[str, list[tuple[str, Floats, bool]]] = defaultdict(list)
 
     def add(self, kind: str, source: str, statistics: Floats, right: bool) -> None:
-        if np.isfinite(statistics).all():
+        if np.isfinite(statistics[: KNOWN.get(kind, 2)]).all():
             self.rows[kind].append((source, statistics, bool(right)))
 
     def of(self, kind: str) -> tuple[NDArray[np.str_], Floats, Bools]:
@@ -224,10 +225,13 @@ def judge(
     tolerance = SENSOR_TOLERANCE if of_sensors else TOLERANCE
     for g, right in right_borders(truth, segments, tolerance):
         table.add(f"{of_sensors}border", source, shown.borders[g], right)
+    stops = np.vstack([shown.borders[1:], np.full((1, 2), np.nan)])
+    of_kind = np.full((len(stops), 1), bool(of_sensors))
+    counts = np.hstack([shown.counts, shown.borders, stops, of_kind])
     for g, right in right_counts(truth, segments):
-        table.add("count", source, shown.counts[g], right)
+        table.add("count", source, counts[g], right)
     for p, right in right_cuts(truth, segments):
-        statistics = np.append(shown.cuts[p], shown.counts[segments.parents[p]])
+        statistics = np.append(shown.cuts[p], counts[segments.parents[p]])
         table.add("cut", source, statistics, right)
 
 
@@ -333,12 +337,18 @@ def fitted(table: Table, kind: str, kept: Any) -> tuple[float, ...]:
 
 
 def seen(table: Table, kind: str, statistics: Floats, kept: Any) -> Floats:
-    """The statistics of a kind: cuts are told by the odds of their count, too."""
-    if kind != "cut":
+    """The statistics of a kind: counts are told by the odds of borders, cuts by those of counts."""
+    if kind == "cut":
+        counts = seen(table, "count", statistics[:, 2:], kept)
+        return np.column_stack([statistics[:, :2], log_odds(counts, fitted(table, "count", kept))])
+    if kind != "count":
         return statistics
-    return np.column_stack(
-        [statistics[:, :2], log_odds(statistics[:, 2:], fitted(table, "count", kept))]
-    )
+    sensors = statistics[:, 6] > 0
+    odds = np.empty((2, len(statistics)))
+    for rows, border in ((sensors, "sensor_border"), (~sensors, "border")):
+        for side, columns in zip(odds, (slice(2, 4), slice(4, 6)), strict=True):
+            side[rows] = log_odds(statistics[rows, columns], fitted(table, border, kept))
+    return with_borders(statistics[:, :2], *odds)
 
 
 def left_out(table: Table, kind: str) -> tuple[NDArray[np.str_], Floats, Bools]:
@@ -396,7 +406,7 @@ def report(table: Table) -> None:
             f"{kind}: AUC {whole['auc']:.3f}, {least:.2f} promised; Brier {whole['brier']:.3f}, "
             f"{MOST_BRIER:.2f} promised; of what is sure {whole['sure_right']:.3f}, {SURE} promised"
         )
-    once = probability(np.zeros((1, 4)), fitted(table, "count", lambda sources: sources != ""))
+    once = probability(np.zeros((1, 3)), fitted(table, "count", lambda sources: sources != ""))
     record("confidence.once", float(once[0]))
     print(f"a single repetition: {once[0]:.2f}")
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 import argparse
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,8 +35,15 @@ from kineme.segmentation.segmenter import segment
 NUDGES = (0.85, 1.15)
 STEPS = (0.72, 0.85, 1.0, 1.15, 1.32)
 JUDGED = ("one_to_one", "border_f1", "covering")
-KEPT = ("name", "unit", "working_fps", "offsets", "max_lag", "any_pace")
-CONSTANTS = [field.name for field in fields(RecurrencePreset) if field.name not in KEPT]
+# How it is looked at, and what signals and notes alone depend on; weights are learnt elsewhere.
+KEPT = ("working_fps", "any_pace", "smoothing", "recurs_at", "exact_below")
+CONSTANTS = [
+    known.name
+    for known in KINEME.constants()
+    if known.name not in KEPT
+    and not known.name.startswith("unsure_")
+    and isinstance(known.value, int | float)
+]
 
 
 def at_working_rate(cases: Iterable[Case]) -> list[Case]:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets import random_recording
 from kineme.methods import weights
-from kineme.methods.confidence import probability
+from kineme.methods.confidence import probability, with_borders
 from kineme.methods.doubts import doubts
 from kineme.methods.evidence import correlations, count_statistics
 from kineme.methods.recurrence.analysis import analyze_actions
@@ -52,8 +52,9 @@ def test_what_happens_once_is_never_a_sure_repetition(seed: int) -> None:
 
 
 def test_one_repetition_has_nothing_that_speaks_for_it() -> None:
-    alone = count_statistics(np.ones((1, 1)), np.array([90]), 0.9)
-    assert probability(alone[None], weights.COUNT)[0] < 0.5
+    alone = count_statistics(np.ones((1, 1)), 0.9)
+    sure = np.array([9.0])
+    assert probability(with_borders(alone[None], sure, sure), weights.COUNT)[0] < 0.5
 
 
 @given(st.integers(2, 8), st.floats(0.0, 0.5), st.integers(0, 99))
@@ -61,9 +62,9 @@ def test_more_similar_repetitions_are_surer(count: int, noise: float, seed: int)
     rng = np.random.default_rng(seed)
     shape = rng.standard_normal((16, 6)).cumsum(axis=0)
     shaken = rng.standard_normal((count, 16, 6))
-    lengths = np.full(count, 30)
+    ends = np.array([3.0]), np.array([np.nan])
     clear, less = (
-        probability(count_statistics(similar, lengths, 0.8)[None], weights.COUNT)[0]
+        probability(with_borders(count_statistics(similar, 0.8)[None], *ends), weights.COUNT)[0]
         for similar in (correlations(shape + more * shaken) for more in (noise, noise + 3))
     )
     assert less <= clear

@@ -28,11 +28,10 @@ from kineme.methods.evidence import Evidence
 Floats = NDArray[np.float64]
 OfTwo = tuple[float, float, float]
 OfThree = tuple[float, float, float, float]
-OfFour = tuple[float, float, float, float, float]
 
 WEIGHT = Limits(-100.0, 100.0)
-NOTES = 5
-"""Doubts that are told at most."""
+CLEAREST_ODDS = 5.0
+"""Logarithms of the odds of borders are not told apart beyond this."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,10 +46,10 @@ class ConfidencePreset(Preset):
         "how sure a border is: a constant, and weights of how sharply similarity changes there, "
         "and of that across it", limits=WEIGHT, fine=True,
     )  # fmt: skip
-    count_weights: OfFour = constant(
-        "how sure a count is: a constant, and weights of the similarity of the repetitions, of "
-        "the shortest one, of the shorter end, and of how much samples prefer their own cluster",
-        limits=WEIGHT, fine=True, default=weights.COUNT,
+    count_weights: OfThree = constant(
+        "how sure a count is: a constant, and weights of the similarity of the repetitions, of how "
+        "much samples prefer their own cluster, and of the logarithm of the odds of the less sure "
+        "border of the activity", limits=WEIGHT, fine=True, default=weights.COUNT,
     )  # fmt: skip
     cut_weights: OfThree = constant(
         "how sure a border between repetitions is: a constant, and weights of how similar and how "
@@ -92,15 +91,37 @@ class Confidence:
 def confidence(evidence: Evidence, preset: ConfidencePreset) -> Confidence:
     """How probable it is that each thing found is right."""
     borders = probability(evidence.borders, preset.border_weights)
-    odds = log_odds(evidence.counts, preset.count_weights)[evidence.parents]
+    starts = log_odds(evidence.borders, preset.border_weights)
+    counts = with_borders(evidence.counts, starts, np.append(starts[1:], np.nan))
+    odds = log_odds(counts, preset.count_weights)[evidence.parents]
     cuts = probability(np.column_stack([evidence.cuts, odds]), preset.cut_weights)
     first = np.diff(evidence.parents, prepend=-1) > 0
     return Confidence(
         probability(evidence.links, preset.link_weights),
-        probability(evidence.counts, preset.count_weights),
+        probability(counts, preset.count_weights),
         borders,
         np.where(first, borders[evidence.parents], cuts),
     )
+
+
+def with_borders(counts: Floats, starts: Floats, stops: Floats) -> Floats:
+    """Statistics of counts, and the odds of the less sure border of each activity beside them.
+
+    Parameters
+    ----------
+    counts : (n, 2) array
+        See `kineme.methods.evidence.count_statistics`.
+    starts, stops : (n,) array
+        Logarithms of the odds that the activity begins and ends there; nan at the ends of
+        the recording.
+
+    Returns
+    -------
+    (n, 3) array
+        The last is 0 where nothing is repeated, and where there is no border.
+    """
+    unsure = np.clip(np.nan_to_num(np.fmin(starts, stops)), -CLEAREST_ODDS, CLEAREST_ODDS)
+    return np.column_stack([counts, np.where(counts.any(axis=1), unsure, 0)])
 
 
 def probability(statistics: Floats, weights: tuple[float, ...]) -> Floats:

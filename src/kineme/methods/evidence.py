@@ -38,7 +38,7 @@ class Evidence:
         See `link_statistics`.
     borders : (segments, 2) array
         Of the start of each segment, see `border_statistics`.
-    counts : (segments, 4) array
+    counts : (segments, 2) array
         See `count_statistics`.
     cuts : (primitives, 2) array
         Of the start of each primitive inside a segment, see `cut_statistics`.
@@ -115,31 +115,27 @@ def border_statistics(
     return found
 
 
-def count_statistics(similar: Floats, lengths: Samples, own: float) -> Floats:
+def count_statistics(similar: Floats, own: float) -> Floats:
     """What tells how sure the count of an activity is.
 
     Parameters
     ----------
     similar : (count, count) array
         Correlations of its repetitions.
-    lengths : (count,) array
-        Frames of each.
     own : float
         How much more similar the activity is to its own cluster than to others.
 
     Returns
     -------
-    (4,) array
-        Mean correlation of any two repetitions, as Fisher's z; the shortest repetition, and the
-        shorter end, as logarithms of their share of the usual one; `own`. All are 0 where
+    (2,) array
+        Mean correlation of any two repetitions, as Fisher's z; `own`. Both are 0 where
         nothing is repeated: one repetition has nothing that speaks for it.
     """
-    if len(similar) < 2:
-        return np.zeros(4)
-    shares = np.log(np.maximum(lengths, 1) / max(float(np.median(lengths)), 1.0))
     count = len(similar)
+    if count < 2:
+        return np.zeros(2)
     pairs = (similar.sum() - count) / (count * (count - 1))
-    return np.array([clear(pairs), shares.min(), min(shares[0], shares[-1]), own])
+    return np.array([clear(pairs), own])
 
 
 def cut_statistics(similar: Floats, lengths: Samples, repeats: NDArray[np.bool_]) -> Floats:
@@ -147,8 +143,10 @@ def cut_statistics(similar: Floats, lengths: Samples, repeats: NDArray[np.bool_]
 
     Parameters
     ----------
-    similar, lengths : array
+    similar : (count, count) array
         As for `count_statistics`.
+    lengths : (count,) array
+        Frames of each repetition.
     repeats : (primitives,) array of bool
         Which primitives are the repetitions.
 

@@ -57,7 +57,7 @@ def analyze_actions(
     division = surest(recurring, preset, stage)
     with stage("occurrences"):
         found = with_occurrences(
-            division.recurring, division.segments, division.evidence.counts, division.preset
+            division.recurring, division.segments, division.sure.counts, division.preset
         )
     with stage("confidence"):
         shown = division.evidence

@@ -92,7 +92,7 @@ def counted(
     preset : CountingPreset
     """
     ends = np.searchsorted(parents, np.arange(len(own) + 1))
-    counts = np.full((len(own), 4), np.nan)
+    counts = np.full((len(own), 2), np.nan)
     cuts = np.full((len(parents), 2), np.nan)
     smoothing = preset.frames(preset.repetition_smoothing)
 
@@ -105,7 +105,7 @@ def counted(
             along.poses, along.path, edges - edges[0], preset.path_points
         )[are]
         similar, lengths = correlations(repetitions), np.diff(edges)[are]
-        counts[segment] = count_statistics(similar, lengths, own[segment])
+        counts[segment] = count_statistics(similar, own[segment])
         cuts[first + 1 : last] = cut_statistics(similar, lengths, are)
 
     map_threads(judge, np.unique(parents[repeats]).tolist())

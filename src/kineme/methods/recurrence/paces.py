@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.confidence import confidence
+from kineme.methods.confidence import Confidence, confidence
 from kineme.methods.evidence import Evidence
 from kineme.methods.recurrence.actions import Actions
 from kineme.methods.recurrence.activities import activities, find_actions
@@ -60,19 +60,24 @@ class Division:
         return _number(self.segments.labels)
 
     @cached_property
+    def sure(self) -> Confidence:
+        """How probable it is that each thing found is right."""
+        return confidence(self.evidence, self.preset)
+
+    @cached_property
     def sureness(self) -> float:
         """How probably the counts are right, over the whole time, and the borders: their mean."""
-        sure = confidence(self.evidence, self.preset)
-        counts = np.average(np.nan_to_num(sure.counts), weights=np.diff(self.segments.borders))
-        borders = sure.borders[np.isfinite(sure.borders)]
+        lengths = np.diff(self.segments.borders)
+        counts = np.average(np.nan_to_num(self.sure.counts), weights=lengths)
+        borders = self.sure.borders[np.isfinite(self.sure.borders)]
         return float(counts + (borders.mean() if len(borders) else 1.0)) / 2
 
 
 def surest(recurring: Recurrence, preset: RecurrenceConstants, stage: Stage) -> Division:
     """The division with the preset as it is or hurried, whichever is surer.
 
-    Shorter times must tell at least as many actions apart, and one: one action with one long
-    chain of repetitions has no borders to be unsure of.
+    Shorter times must tell at least as many actions apart, and repeat something: one action
+    with one long chain of repetitions has no borders to be unsure of, nor has one movement.
 
     Parameters
     ----------
@@ -93,7 +98,9 @@ def surest(recurring: Recurrence, preset: RecurrenceConstants, stage: Stage) -> 
         if _number(found.labels) < least:
             return usual
         other = _counted(quick, short, narrow, found)
-        return other if other.actions >= least and other.sureness > usual.sureness else usual
+        repeats = other.segments.counts.max() > 1
+        surer = repeats and other.actions >= least and other.sureness > usual.sureness
+        return other if surer else usual
 
 
 def _told_apart(recurring: Recurrence, preset: RecurrenceConstants) -> tuple[Recurrence, Actions]:

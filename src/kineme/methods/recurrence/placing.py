@@ -57,6 +57,11 @@ class Segments:
         found: NDArray[np.bool_] = (self.clusters >= 0) & (actions >= 0)
         return found & ~np.isin(actions, self.not_periodic)
 
+    @property
+    def counts(self) -> Frames:
+        """Repetitions of each activity."""
+        return np.bincount(self.parents[self.repeats], minlength=len(self.labels))
+
 
 def of_actions(
     shares: NDArray[np.float64], weights: NDArray[np.integer], labels: Frames

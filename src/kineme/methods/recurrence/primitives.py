@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import map_threads
-from kineme.methods.confidence import probability
 from kineme.methods.recurrence.ends import fitted_ends
 from kineme.methods.recurrence.occurrences import occurrences
 from kineme.methods.recurrence.parts import clusters_of_repetitions
@@ -106,15 +105,14 @@ def with_occurrences(
     recurring : Recurrence
     segments : Segments
         With repetitions for primitives.
-    counts : (segments, 4) array
-        Statistics of the count of each.
+    counts : (segments,) array
+        How probable the count of each is.
     preset : RecurrenceConstants
     """
     borders, labels = segments.borders, segments.labels
-    parents, repeats, lengths = segments.parents, segments.repeats, np.diff(borders)
+    lengths = np.diff(borders)
     ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
-    several = np.bincount(parents[repeats], minlength=len(labels)) > 1
-    sure = of_actions(probability(counts, preset.count_weights) * several, lengths, labels)
+    sure = of_actions(counts * (segments.counts > 1), lengths, labels)
     weak = (sure < preset.min_periodic) & ~ends
     if not weak.any():
         return segments
