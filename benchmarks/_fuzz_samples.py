@@ -62,6 +62,7 @@ def doors_of(path: Path) -> tuple[Door, ...]:
             lambda root: kineme.read(root / path),
             lambda root: kineme.read(root / path, fps=60),
             lambda root: kineme.read(root / path, columns=[]),
+            lambda root: formats.sketch(root / path, formats.ReadOptions(), 5),
             lambda root: recordings_in((root / path).parent),
         ),
         "labels": (

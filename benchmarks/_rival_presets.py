@@ -1,9 +1,10 @@
 """Segmenters of other packages as presets, so that they are scored as every method is.
 
 They get the channels in standard deviations, averaged to 20 samples a second, and run with
-their defaults. What has to be told a number is told the true number of classes. Cuts without
-clusters leave each segment a cluster of its own: there only scores of borders mean something.
-Packages that are not installed are left out; ``benchmarks/rivals/requirements.txt`` names them.
+their defaults. What has to be told a number is told the true number of classes. Where a package
+finds borders only, segments are joined to that many clusters by Ward's linkage of the means and
+deviations of their channels. Packages that are not installed are left out;
+``benchmarks/rivals/requirements.txt`` names them.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from kineme.methods.presets import register
 from kineme.methods.segments import by_first_appearance
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 RATE = 20.0
 
 
@@ -41,16 +43,21 @@ class ClapPreset(RivalPreset):
     package: ClassVar[str] = "claspy"
 
     def segments(self, features: Floats) -> Segments:
+        from claspy.segmentation import BinaryClaSPSegmentation
         from claspy.state_detection import AgglomerativeCLaPDetection
 
-        found = AgglomerativeCLaPDetection().fit(features)
-        cuts = np.asarray(found.get_change_points(), np.int64)
+        cuts = np.asarray(BinaryClaSPSegmentation().fit_predict(features), np.int64)
+        if not len(cuts):  # CLaP needs two segments at least
+            return unclustered(cuts, len(features))
+        found = AgglomerativeCLaPDetection().fit(features, change_points=cuts)
         states = np.unique(found.get_segment_labels(), return_inverse=True)[1]
+        cuts = np.asarray(found.get_change_points(), np.int64)
         return Segments(cuts, by_first_appearance(states), len(features))
 
 
-class KernelChangePreset(RivalPreset):
-    """Change points of an RBF kernel; log n for each, as it is usual."""
+@dataclass(frozen=True, kw_only=True)
+class KernelChangePreset(ToldConstants, RivalPreset):
+    """Change points of an RBF kernel, log n for each, as it is usual; clusters as said above."""
 
     package: ClassVar[str] = "ruptures"
 
@@ -58,7 +65,8 @@ class KernelChangePreset(RivalPreset):
         import ruptures
 
         search = ruptures.KernelCPD(kernel="rbf", min_size=round(RATE / 2)).fit(features)
-        return unclustered(search.predict(pen=float(np.log(len(features))))[:-1], len(features))
+        ends = search.predict(pen=float(np.log(len(features))))
+        return grouped(np.asarray(ends[:-1], np.int64), features, self.told())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,6 +82,18 @@ class HiddenMarkovPreset(ToldConstants, RivalPreset):
         states = np.asarray(model.fit_predict(features), np.int64)
         cuts = np.flatnonzero(np.diff(states)) + 1
         return Segments(cuts, by_first_appearance(states[np.append(0, cuts)]), len(features))
+
+
+def grouped(cuts: Ints, features: Floats, n_classes: int) -> Segments:
+    """Segments between the cuts, in that many clusters at most."""
+    from scipy.cluster.hierarchy import fcluster, linkage
+
+    if not len(cuts):
+        return unclustered(cuts, len(features))
+    parts = np.split(features, cuts)
+    shapes = np.array([np.append(part.mean(axis=0), part.std(axis=0)) for part in parts])
+    joined = fcluster(linkage(shapes, "ward"), n_classes, "maxclust")
+    return Segments(cuts, by_first_appearance(joined - 1), len(features))
 
 
 RIVALS = (

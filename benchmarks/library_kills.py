@@ -1,12 +1,14 @@
 """Builds of a library that are killed at any moment, and on a full disk: nothing is torn.
 
-    python benchmarks/library_kills.py [--kills 200] [--seed 0] [--record]
+    python benchmarks/library_kills.py [--kills 200] [--seed 0] [--at s3://bucket/lib] [--record]
 
 A build is killed at a random moment, again and again until it gets through; half of them bring a
 library up to date, the others make a new one. After each kill the library that a reader sees is
 whole: as it was before the build or as it is after it. When a build got through, every file is byte
 for byte that of a build that nothing disturbed. Then the same with files that may not grow over so
-many bytes, which fails as a full disk does. Needs a system that can fork.
+many bytes, which fails as a full disk does. Every library has an index, as large ones do. Needs a
+system that can fork. ``--at`` does no more than kill builds of new libraries at a URL, where
+nothing is yet: what is there in the end has the bytes of one on a disk.
 """
 
 from __future__ import annotations
@@ -23,20 +25,24 @@ import time
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import kineme
 from _figures import add_option, record
 from kineme.errors import KinemeError, WriteError
-from kineme.library import Library, build
+from kineme.library import Example, Library, build
+from kineme.library.index import kept
 from kineme.library.pieces import read_features, read_piece
+from kineme.library.storage.places import is_remote, place
 
 SPANS = {"a": (0, 400), "b": (700, 1100), "c": (1300, 1700), "d": (2000, 2500)}
 """Frames of the bundled recording."""
 BEFORE = ("a", "b")
 """Those that a library has which is brought up to date."""
-LIMITS = (0, 100, 400, 3_000, 6_500, 12_000, 18_000)
+LIMITS = (0, 100, 400, 1_500, 3_000, 6_500, 12_000, 18_000)
 """Bytes that a file may have on the full disk."""
 FAILED, REFUSED = 1, 3
 """How a build ends: by a mistake of ours; with a sentence."""
@@ -49,13 +55,14 @@ def write_takes(folder: Path) -> None:
     for name, (start, stop) in SPANS.items():
         kineme.write(whole[start:stop], folder / f"{name}.bvh")
     heights = whole.positions[:1200, 10:14, 1]
+    (folder / "e.bvh").write_bytes((folder / "d.bvh").read_bytes())
     rows = "\n".join(
         f"{i / 60:.4f}," + ",".join(f"{x:.4f}" for x in row) for i, row in enumerate(heights)
     )
     (folder / "heights.csv").write_text(f"time_s,p,q,r,s\n{rows}\n")
 
 
-def child(work: Callable[[], None]) -> int:
+def child(work: Callable[[], object]) -> int:
     """The process in which this is done."""
     process = os.fork()
     if process == 0:
@@ -80,6 +87,11 @@ def ended(process: int) -> int:
 
 def contents(folder: Path) -> dict[str, bytes]:
     """Every file by its place."""
+    if is_remote(folder):
+        there: Any = folder
+        home = there.path.rstrip("/") + "/"
+        names = there.fs.find(there.path)
+        return {name.removeprefix(home): there.fs.cat_file(name) for name in names}
     files = (path for path in folder.rglob("*") if path.is_file())
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
 
@@ -104,6 +116,8 @@ def torn(folder: Path, counts: set[int]) -> Iterator[str]:
             library.table(name)
         for piece in library.recordings["piece"]:
             read_features(folder / "pieces", piece)
+        if len(library.search(Example("b.bvh", 1.0, 2.0), top=1)) != 1:
+            yield "the index does not find what is there"
     except KinemeError as error:
         yield f"the library is torn: {error}"
 
@@ -114,7 +128,7 @@ class Trial:
     def __init__(self, home: Path, takes: Path, before: Path | None):
         self.takes, self.before = takes, before
         self.folder = home / "library"
-        self.counts = {len(Library(before)) if before else 0, len(SPANS) + 1}
+        self.counts = {len(Library(before)) if before else 0, len(SPANS) + 2}
         self.reset()
         started = time.perf_counter()
         self.build()
@@ -143,6 +157,17 @@ class Trial:
         self.build()
 
 
+def others(trial: Trial) -> list[str]:
+    """What says that files are not those of a build that nothing disturbed."""
+    now = contents(trial.folder)
+    names = now.keys() | trial.wanted.keys()
+    return [
+        f"other bytes in {Path(name).parent}/*{Path(name).suffix}"
+        for name in names
+        if now.get(name) != trial.wanted.get(name)
+    ]
+
+
 def killed(trial: Trial, moments: random.Random, kills: int, found: Counter[str]) -> int:
     """Builds killed until one gets through, ``kills`` at most; how many were."""
     trial.reset()
@@ -159,7 +184,7 @@ def killed(trial: Trial, moments: random.Random, kills: int, found: Counter[str]
         found.update(torn(trial.folder, trial.counts))
     code = ended(child(trial.build))
     found.update([f"the last build ended with {code}"] * (code != 0))
-    found.update(["other bytes"] * (contents(trial.folder) != trial.wanted))
+    found.update(others(trial))
     return n
 
 
@@ -168,14 +193,54 @@ def on_a_full_disk(trial: Trial, found: Counter[str]) -> int:
     refused = 0
     for begin, most in product((trial.reset, trial.with_pieces), LIMITS):
         begin()
-        code = ended(child(lambda most=most: trial.limited(most)))
+        code = ended(child(partial(trial.limited, most)))
         refused += code == REFUSED
         found.update([f"a build on a full disk ended with {code}"] * (code not in (0, REFUSED)))
         found.update(torn(trial.folder, trial.counts))
         code = ended(child(trial.build))
         found.update([f"the next build ended with {code}"] * (code != 0))
-        found.update(["other bytes after a full disk"] * (contents(trial.folder) != trial.wanted))
+        found.update(others(trial))
     return refused
+
+
+def show_at(url: str, home: Path, takes: Path, kills: int, moments: random.Random) -> Counter[str]:
+    """Builds at a URL killed until so many were; what was found."""
+    found: Counter[str] = Counter()
+    os.environ["KINEME_CACHE"] = str(home / "cache")
+    build(takes, home / "library")
+    wanted = contents(home / "library")
+    begun = time.perf_counter()
+    found.update(["a build failed"] * ended(child(partial(build, takes, f"{url}/0"))))
+    lasts = time.perf_counter() - begun
+    n = rounds = 0
+    while n < kills:
+        rounds += 1
+        there = f"{url}/{rounds}"
+        while n < kills:
+            process = child(partial(build, takes, there))
+            time.sleep(moments.uniform(0.0, lasts))
+            os.kill(process, signal.SIGKILL)
+            if ended(process) >= 0:
+                break
+            n += 1
+            found.update(["torn"] * ended(child(partial(whole_at, there))))
+        found.update(["a build failed"] * ended(child(partial(build, takes, there))))
+        found.update(["other bytes"] * ended(child(partial(equal_at, there, wanted))))
+        print(f"{n} kills, {rounds} libraries: {dict(found) or 'nothing torn'}", flush=True)
+    return found
+
+
+def whole_at(url: str) -> None:
+    """Whether what a reader sees is whole."""
+    told = sorted(torn(place(url), {0, len(SPANS) + 2}))
+    assert not told, told
+
+
+def equal_at(url: str, wanted: dict[str, bytes]) -> None:
+    """Whether a library has these bytes; a lock is on a disk only."""
+    now = contents(place(url))
+    other = [name for name in wanted.keys() | now.keys() if now.get(name) != wanted.get(name)]
+    assert all(Path(name).name.endswith(".lock") for name in other), other
 
 
 def main() -> None:
@@ -183,15 +248,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--at", metavar="URL")
     add_option(parser)
     options = parser.parse_args()
     os.environ["KINEME_THREADS"] = "1"  # threads do not outlive a fork
     warnings.simplefilter("ignore")
+    kept.FROM_HOURS = 0.0
     moments = random.Random(options.seed)
     found: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as name:
         home, takes = Path(name), Path(name) / "takes"
         write_takes(takes)
+        if options.at:
+            sys.exit(bool(show_at(options.at, home, takes, options.kills, moments)))
         build([takes / f"{each}.bvh" for each in BEFORE], home / "before")
         trials = [Trial(home, takes, None), Trial(home, takes, home / "before")]
         n = rounds = 0

@@ -9,8 +9,8 @@ searched in all recordings of other people (see ``_corpora.py``); a stride is fo
 lies in matches, a match is right if half of it lies in walking. Dribbling, jogging and sneaking
 count neither way, nor does what is nearer than 0.75 s to where one label follows another.
 ``segments``: exercises of HDM05 and labelled actions of UTKinect against those of other people,
-by their embeddings, and by the sum of this distance and that of warping. ``time``: a stride of
-1.3 s searched in an hour.
+by their embeddings, and by the sum of this distance and that of the nearer warping, of the one in
+the other or the other way. ``time``: a stride of 1.3 s searched in an hour.
 """
 
 from __future__ import annotations
@@ -24,14 +24,15 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import find_peaks
+from scipy.spatial.distance import cdist
 
 import kineme
 from _corpora import WALKS, Take, corpora, poses_of
 from _measure import interleaved
 from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
 from kineme.features.canonical.matching import OFFSETS_S, basis, directions
-from kineme.matching import THRESHOLD, search, two_way_distance
-from kineme.matching.subsequences import distances_between
+from kineme.matching import THRESHOLD, search
+from kineme.matching.subsequences import warped
 from kineme.matching.whole_segments import axes_of_embeddings, embedded
 
 Floats = NDArray[np.float64]
@@ -67,8 +68,8 @@ def features(name: str, of: Basis) -> list[Features]:
 def exercises(of: Basis) -> Figures:
     """Ranked, and named from the other actors."""
     labels, people = actions("hdm05")
-    distances = warped_distances(sliced("hdm05", features("hdm05", of)), people)
-    return ranked(distances, labels, people)
+    one_way = warped_distances(sliced("hdm05", features("hdm05", of)), people)
+    return ranked(np.maximum(one_way, one_way.T), labels, people)
 
 
 def segments(of: Basis) -> Figures:
@@ -77,9 +78,10 @@ def segments(of: Basis) -> Figures:
     for name in ("hdm05", "utkinect"):
         labels, people = actions(name)
         whole = np.array([embedded(each, *of) for each in sliced(name, poses(name))])
-        apart = distances_between(whole, whole).astype(np.float64)
-        warped = warped_distances(sliced(name, features(name, basis())), people)
-        for how, distances in (("alone", apart), ("joined", apart + warped)):
+        apart = cdist(whole, whole)
+        one_way = warped_distances(sliced(name, features(name, basis())), people)
+        joined = apart + np.minimum(one_way, one_way.T)
+        for how, distances in (("alone", apart), ("joined", joined)):
             ranks = ranked(distances, labels, people)
             for what in ("mean average precision", "nearest right"):
                 figures[f"{name}, {how}, {what}"] = ranks[what]
@@ -104,14 +106,11 @@ def sliced(name: str, takes: Sequence[NDArray[np.floating]]) -> list[NDArray[np.
 
 
 def warped_distances(parts: Sequence[NDArray[np.floating]], people: Texts) -> Floats:
-    """Two-way distances of segments of different people; `NO_MATCH` within one."""
+    """Of each one's best match in each that another makes; `NO_MATCH` within one person."""
     n = len(parts)
     distances = np.full((n, n), NO_MATCH)
-    for a in range(n):
-        for b in range(a):
-            if people[a] != people[b]:
-                distance = min(two_way_distance(parts[a], parts[b]), NO_MATCH)
-                distances[a, b] = distances[b, a] = distance
+    for a, b in np.argwhere(people[:, None] != people).tolist():
+        distances[a, b] = min(warped(parts[a], parts[b])[0].min(), NO_MATCH)
     return distances
 
 
@@ -220,7 +219,8 @@ PROMISED = {
     "segments": {
         "hdm05, joined, mean average precision": 0.98,
         "utkinect, alone, mean average precision": 0.83,
-        "utkinect, alone, nearest right": 0.94,
+        "utkinect, joined, mean average precision": 0.83,
+        "utkinect, joined, nearest right": 0.94,
     },
     "time": {"search of 1.3 s in an hour": -0.02},
 }

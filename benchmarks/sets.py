@@ -21,6 +21,8 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
+import numpy as np
+
 from _figures import add_option, record
 from _rival_presets import register_rivals
 from kineme.evaluation.comparison import Comparison
@@ -110,6 +112,8 @@ def main() -> None:
                 for key, told in WAYS.items() if options.one_mapping else ():
                     whole = with_one_mapping(answers, told=told)
                     rows.append([*row(f"{name}.{key}.{method}{part}", whole), ""])
+                    clusters = len(np.unique(np.concatenate([one.found for one in whole])))
+                    record(f"sets.{name}.{key}.{method}{part}.clusters", clusters)
     head = ["set", "recordings", *SHARES, *OTHERS, "processor s / h"]
     print(markdown(head, rows))
 

@@ -4,7 +4,8 @@
 
 First of a recording of two minutes all that a page shows at first: the segments,
 the figure, a tile of the matrix. Then a minute, segmented again by each preset.
-The recordings are those of subject 86, one after the other, written as BVH.
+The recordings are those of subject 86, one after the other, written as BVH. Last the first
+poses of an hour at 120 Hz of 38 joints, which is shown before it is read.
 Compiled code is cached, as after the first run ever.
 """
 
@@ -31,6 +32,7 @@ import kineme
 from _measure import verdict
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.recordings.operations import cut
+from reading import FILES, write_hour
 
 DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 TRIALS = ("86_10", "86_14", "86_11")
@@ -143,6 +145,20 @@ def again(folder: Path, runs: int) -> dict[str, Took]:
     return found
 
 
+def hour(folder: Path) -> Took:
+    """What the first poses of an hour take, of a studio that has loaded its code."""
+    studio = start(folder)
+    sleep(WARM)
+    write_hour(DATA / FILES[1], folder / "hour.bvh")  # now, so that it is not opened before
+    listed = json.loads(studio.ask("/api/state"))["recordings"]
+    (one,) = (f"/api/recordings/{each['id']}" for each in listed if each["name"] == "hour.bvh")
+    message, answer = timed(studio, one)
+    poses = json.loads(answer)["motion"]["n_samples"]
+    motion, _ = timed(studio, f"{one}/motion?poses={poses}")
+    studio.end()
+    return Took(message.clock + motion.clock, message.processor + motion.processor)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=7)
@@ -158,6 +174,8 @@ def main() -> None:
         kineme.write(joined(60), folder / "take.bvh")
         for preset, took in again(folder, runs).items():
             print(f"a minute again by {preset}: {took}; {verdict(took.clock, 0.5)}")
+        took = hour(folder)
+        print(f"an hour, first poses: {took}; {verdict(took.clock, 5)}")
 
 
 if __name__ == "__main__":

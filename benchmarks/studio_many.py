@@ -12,6 +12,7 @@ other work on the machine spares.
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import shutil
 import tempfile
@@ -32,7 +33,7 @@ from studio import Studio, processor_time, start
 
 RECORDINGS, TABLED = 500, 5  # one in so many has a table
 ROWS = 10_000
-OPENED, WARM = 40, 10
+OPENED, ASKED, WARM = 40, 120, 10
 LISTED_S, LEAST_RATE, MOST_MB = 1.0, 50, 0.1
 SCROLL = """(async () => {
     const rows = document.querySelector(".table-rows");
@@ -60,7 +61,8 @@ def main() -> None:
         folder = many(Path(name))
         studio = start(folder)
         listing(tab, studio)
-        memory(tab, studio, folder)
+        memory_of_page(tab, studio, folder)
+        memory_of_server(studio, folder)
         studio.end()
         folder = long_table(Path(name))
         studio = start(folder)
@@ -125,12 +127,12 @@ def listing(tab: Any, studio: Studio) -> None:
         record(f"studio_many.listed.{when}.processor", round(spent, 2), unit="s")
 
 
-def memory(tab: Any, studio: Studio, folder: Path) -> None:
-    """What a page and the server keep of each recording that was opened and left."""
+def memory_of_page(tab: Any, studio: Studio, folder: Path) -> None:
+    """What a page keeps of each recording that was opened and left."""
     names = sorted(path.name for path in folder.glob("*.bvh"))
     tab.goto(f"{studio.base}/?token={studio.token}&open={file_id(folder / names[0])}")
     wait(tab, "window.kineme?.hasMotion")
-    kept = {}
+    kept = []
     for i, name in enumerate(names[1:OPENED], start=1):
         tab.keyboard.press("PageDown")
         wait(tab, f"window.kineme.name === '{name}' && window.kineme.hasMotion")
@@ -138,15 +140,29 @@ def memory(tab: Any, studio: Studio, folder: Path) -> None:
             tab.wait_for_timeout(500)
             tab.evaluate("gc()")
             tab.evaluate("gc()")
-            kept[i] = (
-                tab.evaluate("performance.memory.usedJSHeapSize") / 1e6,
-                resident(studio.process.pid),
-            )
-    (first, last), n = kept.values(), OPENED - 1 - WARM
-    for what, before, after in zip(("page", "server"), first, last, strict=True):
-        each = (after - before) / n
-        print(f"{what}, of each recording opened: {each:.3f} MB; {verdict(each, MOST_MB)}")
-        record(f"studio_many.memory.{what}", round(each, 3), unit="MB")
+            kept.append(tab.evaluate("performance.memory.usedJSHeapSize") / 1e6)
+    show_memory("page", kept, OPENED - 1 - WARM)
+
+
+def memory_of_server(studio: Studio, folder: Path) -> None:
+    """The same of the server, asked for all that a page shows at first."""
+    kept = []
+    paths = sorted(folder.glob("*.bvh"))[-ASKED:]
+    for i, path in enumerate(paths):
+        one = f"/api/recordings/{file_id(path)}"
+        poses = json.loads(studio.ask(one))["motion"]["n_samples"]
+        for part in (f"/motion?poses={poses}", "/matrix/0/0/0", "/curves"):
+            studio.ask(one + part)
+        if i in (WARM, ASKED - 1):
+            kept.append(resident(studio.process.pid))
+    show_memory("server", kept, ASKED - 1 - WARM)
+
+
+def show_memory(what: str, kept: list[float], n: int) -> None:
+    """What each of so many recordings added."""
+    each = (kept[1] - kept[0]) / n
+    print(f"{what}, of each recording opened: {each:.3f} MB; {verdict(each, MOST_MB)}")
+    record(f"studio_many.memory.{what}", round(each, 3), unit="MB")
 
 
 def resident(pid: int) -> float:

@@ -5,7 +5,8 @@
 Three libraries: the five trials of subject 86; six sequences of HDM05 exercises, two of each of
 three people; all of them. Each cluster of a library stands for one action at most, the same in all
 its recordings; told is the share of frames that are right then, and how many clusters there are
-for how many actions. ``--most`` lets so many words at most be compared each with each, as in
+for how many actions. Then the mean of five more libraries, of six other sequences each, on which
+nothing was chosen. ``--most`` lets so many words at most be compared each with each, as in
 larger libraries. ``--keep`` keeps what was found in each recording alone for the next time.
 
 ``--growth 100 1000 10000`` measures instead what joining so many words takes: shaken copies of
@@ -37,7 +38,7 @@ from kineme.library.vocabulary.crowds import Crowd, clusters_in
 from kineme.library.vocabulary.joining import Word
 from kineme.library.vocabulary.words import crowd_of, places_in
 
-SEQUENCES = 6
+SEQUENCES, MORE = 6, 5
 
 
 def said_in(case: Case) -> np.ndarray:
@@ -67,15 +68,20 @@ def found_in(library: Library, case: Case) -> np.ndarray:
     return found.at(frames=case.truth.frames, fps=case.truth.fps).per_frame()
 
 
-def show(name: str, folder: Path, cases: list[Case]) -> None:
-    """One line on a library of these."""
+def score(name: str, folder: Path, cases: list[Case]) -> tuple[float, float, int, int]:
+    """Shares that are right, of all frames and without borders; clusters and actions."""
     library = library_of(folder / name, [(case.name, case.motion) for case in cases])
     wanted = np.concatenate([said_in(case) for case in cases])
     given = np.concatenate([found_in(library, case) for case in cases])
     fps = cases[0].truth.fps
     truth = Annotation.from_labelling(Labelling.from_frames(wanted, fps=fps))
     right, agreed = one_to_one_accuracy(truth, Labelling.from_frames(given, fps=fps))
-    clusters, actions = len({*given} - {TRANSITION}), len({*wanted} - {TRANSITION})
+    return right, agreed, len({*given} - {TRANSITION}), len({*wanted} - {TRANSITION})
+
+
+def show(name: str, folder: Path, cases: list[Case]) -> None:
+    """One line on a library of these."""
+    right, agreed, clusters, actions = score(name, folder, cases)
     print(
         f"{name}: one-to-one {right:.3f}, without borders {agreed:.3f}; {clusters} clusters, "
         f"{actions} actions",
@@ -85,6 +91,24 @@ def show(name: str, folder: Path, cases: list[Case]) -> None:
     record(f"vocabulary.{name}.agreed", round(agreed, 2))
     record(f"vocabulary.{name}.clusters", clusters)
     record(f"vocabulary.{name}.actions", actions)
+
+
+def show_others(folder: Path) -> None:
+    """One line on libraries of other sequences."""
+    scores = [
+        score(f"others_{i}", folder, list(hdm05(SEQUENCES, first=i * SEQUENCES)))
+        for i in range(1, MORE + 1)
+    ]
+    right, agreed, clusters, actions = np.mean(scores, axis=0)
+    shown = " ".join(f"{each[0]:.3f}" for each in scores)
+    print(
+        f"others: one-to-one {right:.3f}, without borders {agreed:.3f} ({shown}); "
+        f"{clusters:.1f} clusters, {actions:.1f} actions"
+    )
+    record("vocabulary.others.one_to_one", round(float(right), 2))
+    record("vocabulary.others.agreed", round(float(agreed), 2))
+    record("vocabulary.others.clusters", round(float(clusters), 1))
+    record("vocabulary.others.actions", round(float(actions), 1))
 
 
 def show_growth(folder: Path, sizes: list[int], most: int) -> None:
@@ -138,6 +162,7 @@ def main() -> None:
         show("subject_86", home, trials)
         show("hdm05", home, sequences)
         show("both", home, [*trials, *sequences])
+        show_others(home)
 
 
 if __name__ == "__main__":

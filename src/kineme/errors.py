@@ -4,6 +4,7 @@
       KinemeError
         FileError               a file, a line in it, and what is wrong there
           ReadError             cannot be read or understood
+            SeveralPeopleError  one of several people is to be chosen
           WriteError            cannot be written
         MotionError             a motion or skeleton that contradicts itself
           EndEffectorError      head, hands or feet not found
@@ -18,6 +19,7 @@ command line prints it and exits with code 1.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from os import PathLike, fspath
 
 
@@ -41,6 +43,14 @@ class FileError(KinemeError):
 
 class ReadError(FileError):
     """The file cannot be read, or what it holds cannot be understood."""
+
+
+class SeveralPeopleError(ReadError):
+    """The file holds several people and none of them was chosen; ``people`` are their names."""
+
+    def __init__(self, path: str | PathLike[str], reason: str, people: Iterable[str]):
+        self.people = tuple(people)
+        super().__init__(path, reason)
 
 
 class WriteError(FileError):

@@ -42,6 +42,7 @@ class Robot:
         self.future: dict[Path, list[Rows]] = {take: [] for take in takes}
         self.left: dict[Path, list[Rows]] = {take: [] for take in takes}
         self.last: dict[Path, int] = {}
+        self.client = httpx.Client(timeout=300)  # one: to make it takes longer than a step
         self.edits = 0
         self.steps: list[str] = []
         self.open()
@@ -99,12 +100,10 @@ class Robot:
         keys.press("Enter")
         if what == "name":
             keys.press("n")
-            keys.type(f"n{self.chance.randrange(1000)}")
-            keys.press("Enter")
+            self.type_name(f"n{self.chance.randrange(1000)}")
         elif what == "cluster name":
             keys.press("Shift+N")
-            keys.type(f"c{self.chance.randrange(1000)}")
-            keys.press("Enter")
+            self.type_name(f"c{self.chance.randrange(1000)}")
         elif what == "kind":
             kind = self.chance.choice(["activity", "transition"])
             page.locator(".segment-panel select").first.select_option(kind)
@@ -116,6 +115,12 @@ class Robot:
             known = {"split": "s", "delete": "Delete", "merge": "m", "check": "Shift+K"}
             keys.press(known.get(what, nudge))
         self.settled()
+
+    def type_name(self, name: str) -> None:
+        """A name into the field that waits for it; a segment may be in no cluster to be named."""
+        if self.screen.page.evaluate("document.activeElement.type === 'text'"):
+            self.screen.page.keyboard.type(name)
+            self.screen.page.keyboard.press("Enter")
 
     def segment(self) -> None:
         """Look at another segmentation, and apply or discard it."""
@@ -137,8 +142,7 @@ class Robot:
         hasty = self.chance.random() < 0.5
         if hasty:
             page.keyboard.press("n")
-            page.keyboard.type(f"k{self.chance.randrange(1000)}")
-            page.keyboard.press("Enter")
+            self.type_name(f"k{self.chance.randrange(1000)}")
         self.server.kill()
         self.server.start()
         page.goto(self.server.address_of(self.take))
@@ -168,10 +172,8 @@ class Robot:
         """What the server answers of the present recording."""
         root, token = self.server.address.split("?token=")
         name = file_id(self.take)
-        answer = httpx.get(
-            f"{root}api/recordings/{name}{address}", headers={"x-kineme-token": token}, timeout=300
-        )
-        return answer.json()
+        headers = {"x-kineme-token": token, "connection": "close"}  # servers are killed here
+        return self.client.get(f"{root}api/recordings/{name}{address}", headers=headers).json()
 
     def settled(self, revision: int = 0) -> None:
         """Until the server has confirmed or refused everything, and has that revision or more."""

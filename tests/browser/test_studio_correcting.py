@@ -201,3 +201,18 @@ def test_a_result_is_compared_with_an_annotation(page, server, take):
     page.get_by_role("button", name="Stop comparing").click()
     assert scores.count() == 0
     truth.unlink()
+
+
+def test_naming_a_cluster_where_there_is_none_leaves_the_keyboard_to_the_player(page):
+    screen = Screen(page)
+    rows = screen.lane("primitive")
+    longest = sorted(rows, key=lambda row: row["start_s"] - row["stop_s"])
+    screen.click(next(row for row in longest if row["cluster"] < 0))
+    screen.wait("k.selected")
+    page.keyboard.press("Shift+N")
+    page.get_by_text("This segment is in no cluster").wait_for()
+    screen.click(next(row for row in longest if row["cluster"] >= 0))
+    screen.wait("k.selected?.cluster >= 0")
+    for key in ("ArrowRight", "ArrowRight", "s"):
+        page.keyboard.press(key)
+    screen.wait(f"k.segments.filter((row) => row.level === 'primitive').length > {len(rows)}")

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import shutil
+import time
 from pathlib import Path
 
 import pytest
 from screen import Screen
 
 import kineme
+
+BRIGHTNESS = """video => {
+    const pen = new OffscreenCanvas(8, 8).getContext("2d");
+    pen.drawImage(video, 0, 0, 8, 8);
+    return pen.getImageData(4, 4, 1, 1).data[0];
+}"""
 
 
 def test_a_click_on_a_primitive_moves_everything_there(page):
@@ -157,3 +164,39 @@ def test_two_fingers_zoom_to_what_is_between_them(page, place):
     assert moved["stop_s"] - moved["start_s"] == pytest.approx(
         after["range"]["stop_s"] - after["range"]["start_s"]
     )
+
+
+def test_the_video_follows_the_playhead(page, take):
+    """Its luma is 20, and 20 more for each of its 10 seconds."""
+    shutil.copy(Path(__file__).with_name("clock.webm"), take.with_suffix(".webm"))
+    page.reload()
+    screen = Screen(page).opened()
+    video = page.locator(".video video")
+
+    def shown() -> float:
+        """Seconds of the picture that is seen."""
+        deadline = time.monotonic() + 30
+        while video.evaluate("v => v.seeking || v.readyState < 2"):
+            assert time.monotonic() < deadline, "the video does not play"
+            page.wait_for_timeout(20)
+        luma = 16 + video.evaluate(BRIGHTNESS) * 219 / 255
+        return (luma - 20) / 20
+
+    page.get_by_label("Frame", exact=True).fill("180")
+    page.keyboard.press("Enter")
+    screen.wait("k.frame === 180")
+    assert shown() == pytest.approx(3.0, abs=0.25)
+    page.get_by_label("starts at").fill("2.5")
+    page.keyboard.press("Enter")
+    page.wait_for_timeout(100)
+    assert shown() == pytest.approx(5.5, abs=0.25)
+    page.reload()
+    screen.opened()
+    assert shown() == pytest.approx(2.5, abs=0.25)
+    page.keyboard.press("Space")
+    screen.wait("k.playhead > 1")
+    assert video.evaluate("v => v.paused") is False
+    page.keyboard.press("Space")
+    screen.wait("!k.playing")
+    assert shown() == pytest.approx(screen.state["playhead"] + 2.5, abs=0.25)
+    assert video.evaluate("v => v.paused") is True

@@ -28,6 +28,8 @@ from kineme.features import pose_features
 from kineme.formats.files import FileContent, load
 from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings.operations import split_at_gaps
+from kineme.studio.loading import LoadedRecording
+from kineme.studio.reading import ReadingOptions, RecordingCache
 
 REAL = ["Dec_real", "Eb015pi", "Eb015pr", "Eb015si", "sample_propulsion", "walkingOptiTrack"]
 POINTS = z_up_millimetres(walking())
@@ -299,3 +301,16 @@ def test_muscles_of_a_laboratory(tmp_path, labels, more, muscles) -> None:
     assert signals.provenance.notes == (said,)
     assert list(kineme.read(path, columns=()).names) == labels
     assert list(kineme.read(path, columns=labels[:1], emg=True).names) == labels[:1]
+
+
+def test_channels_beside_a_motion_are_curves_of_its_frames(tmp_path) -> None:
+    path = laboratory(tmp_path, ["Fx1", "EMG1"])
+    loaded = LoadedRecording(path, RecordingCache(ReadingOptions()))
+    heads = loaded.curves().head().curves
+    number = next(
+        i for i, head in enumerate(heads) if (head.name, head.group) == ("EMG1", "analog")
+    )
+    piece = loaded.curves().piece(loaded.source, number, 0, 0)
+    muscle = ANALOG[:, :, 1]
+    ends = np.stack([muscle.min(axis=1), muscle.max(axis=1)], axis=1)
+    np.testing.assert_allclose(np.frombuffer(piece, "<f4").reshape(-1, 2), ends, rtol=1e-5)

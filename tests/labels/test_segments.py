@@ -12,9 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pyarrow import parquet
 
+from kineme.datasets import bundled_truth
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.labels import read_segments, write_segments
 from kineme.labels.csv_table import provenance_path
+from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
 from segmentations import segmentations
@@ -296,3 +298,20 @@ def test_a_list_kept_by_hand_is_read(tmp_path: Path) -> None:
     path.write_text("start,end,label\n0,40,walk\n")
     with pytest.raises(ReadError, match="no header line with the columns 'start_s', 'stop_s'"):
         read_segments(path, fps=10)
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_comments_are_a_column_that_is_read_again(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"take{suffix}"
+    table = read_segments(bundled_truth(), fps=60)
+    write_segments(table, path)
+    assert read_segments(path).provenance.get("comments") is None
+    first = table.table[0]
+    said = editing.comment(table, first.level, first.start_frame, "=slips, twice\nand falls")
+    write_segments(said, path)
+    assert editing.comments(read_segments(path)) == editing.comments(said)
+    if suffix == ".csv":
+        text = path.read_text(encoding="utf-8").replace("and falls", "and stands")
+        path.write_text(text, encoding="utf-8")
+        ((*_, now),) = editing.comments(read_segments(path))
+        assert now == "=slips, twice\nand stands"

@@ -70,6 +70,18 @@ def test_a_recording_in_hand_or_a_file_is_searched_for_as_well(library: Library)
         assert [hit[:3] for hit in found] == [hit[:3] for hit in known]
 
 
+def test_a_hit_is_of_the_library_whatever_files_are_called_so(
+    library: Library, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hit = library.search("walk.bvh", 2.0, 3.2, top=1)[0]
+    (tmp_path / "walk.bvh").write_text("something else")
+    monkeypatch.chdir(tmp_path)
+    assert library.search(Example(hit.recording, hit.start_s, hit.stop_s), top=1)[0][:2] == hit[:2]
+    assert library.search(cluster=hit.cluster, top=1)
+    with pytest.raises(ReadError):
+        library.search("walk.bvh", 2.0, 3.2)
+
+
 def test_channels_are_searched_in_their_own_features(library: Library) -> None:
     hits = library.search("wrist.csv", 2.0, 6.0)
     assert {hit.recording for hit in hits} == {"wrist.csv"}

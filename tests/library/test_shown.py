@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -121,3 +122,29 @@ def test_a_newer_search_ends_the_one_before(library):
 
     with pytest.raises(SupersededError):
         searches.search(Newer(library.folder), sent)
+
+
+@pytest.fixture
+def without_tables(takes: Path) -> Iterator[None]:
+    """Tables that are left beside the recordings, which all tests share, are taken away."""
+    yield
+    (takes / "walk.segments.json").unlink()
+    shutil.rmtree(takes / ".kineme")
+
+
+@pytest.mark.usefixtures("without_tables")
+def test_hits_are_named_alone_in_the_tables_beside_their_recordings(client, folder):
+    hits = search(client, WALK).json()["hits"]
+    spans = [{name: hit[name] for name in WALK} for hit in hits[:2]]
+    nowhere = {"recording": "walk.bvh", "start_s": 0.0, "stop_s": 1e6}
+    before = [cluster.label for cluster in Library(folder).clusters()]
+    wanted = {"name": "limps", "hits": [*spans, nowhere, {**nowhere, "recording": "none"}]}
+    told = client.post("/api/library/names", json=wanted).json()
+    assert told["named"] == 2
+    assert [said.split(": ")[1] for said in told["left"]] == [
+        "no segment lies there",
+        "its file is not there",
+    ]
+    named = {hit["name"] for hit in search(client, WALK).json()["hits"][:2]}
+    assert named == {"limps"}
+    assert [cluster.label for cluster in Library(folder).clusters()] == before

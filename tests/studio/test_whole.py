@@ -8,6 +8,8 @@ import zipfile
 import numpy as np
 from studio_clients import Studio
 
+from kineme.studio.folder import file_id
+
 
 def test_a_detail_is_shown_before_it_is_made(studio: Studio) -> None:
     address = f"/api/recordings/{studio.id}/preview"
@@ -83,7 +85,8 @@ def test_a_comment_outlives_borders_and_new_segmentations(studio: Studio) -> Non
 
 def test_a_recording_can_be_read_otherwise(studio: Studio) -> None:
     message = studio.recording()
-    studio.done(message["revision"], "split", level="activity", frame=90)
+    chosen = {"preset": "voegele2014", "parameters": {"radius": 0.5}}
+    studio.done(message["revision"], "segment", **chosen)
     address = f"/api/recordings/{studio.id}/reading"
     assert studio.client.post(address, json={"unit": "parsec"}).status_code == 400
     assert studio.recording()["fps"] == message["fps"]
@@ -91,4 +94,46 @@ def test_a_recording_can_be_read_otherwise(studio: Studio) -> None:
     after = studio.recording()
     assert (after["fps"], after["reading"]) == (30.0, {"fps": 30.0})
     assert after["segmentation"]["fps"] == 30.0
+    made = after["segmentation"]["provenance"]  # as the table was made before
+    assert (made["preset"], made["parameters"]["radius"]) == ("voegele2014", 0.5)
     assert after["can_undo"] is False or after["saved"]
+
+
+SIDES = {
+    "shoulder": (20, 40),
+    "elbow": (25, 75),
+    "wrist": (27, 105),
+    "hip": (12, 105),
+    "knee": (12, 150),
+    "ankle": (12, 195),
+}
+UPRIGHT = {"nose": (0, 10)}  # pixels
+UPRIGHT |= {f"left_{name}": (-x, y) for name, (x, y) in SIDES.items()}
+UPRIGHT |= {f"right_{name}": place for name, place in SIDES.items()}
+
+
+def test_one_of_several_people_is_chosen_from_a_list(studio: Studio) -> None:
+    head = [
+        "scorer" + ",net" * 78,
+        "individuals" + ",ann" * 39 + ",bob" * 39,
+        "bodyparts" + "".join(f",{name}" * 3 for name in UPRIGHT) * 2,
+        "coords" + ",x,y,likelihood" * 26,
+    ]
+    body = np.array(list(UPRIGHT.values()))
+    rows = [
+        ",".join([str(i), *(f"{x + far},{y + i % 9},0.9" for far in (0, 400) for x, y in body)])
+        for i in range(120)
+    ]
+    path = studio.folder / "two.csv"
+    path.write_text("\n".join([*head, *rows]))
+    address = f"/api/recordings/{file_id(path)}"
+    said = studio.get(address).json()
+    assert said["reading"] is True
+    assert said["people"] == ["ann", "bob"]
+    refused = studio.client.post(f"{address}/reading", json={"person": "bob"})
+    assert (refused.status_code, refused.json()["people"]) == (400, [])
+    assert "fps" in refused.json()["error"]
+    chosen = {"fps": 30.0, "person": "bob"}
+    assert studio.client.post(f"{address}/reading", json=chosen).status_code == 200
+    assert studio.get(address).json()["reading"] == {"person": "bob", "fps": 30.0}
+    assert studio.get(f"{address}/people").json() == ["ann", "bob"]

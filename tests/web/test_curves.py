@@ -27,10 +27,10 @@ def test_curves_of_a_body() -> None:
     curves = Curves(motion)
     heads = curves.head().curves
     height = next(i for i, each in enumerate(heads) if each.group == "height")
-    piece = np.frombuffer(curves.piece(lambda: motion, height, 0, 0), "<f4").reshape(-1, 2)
+    piece = np.frombuffer(curves.piece(lambda _: motion, height, 0, 0), "<f4").reshape(-1, 2)
     assert np.allclose(piece[:, 0], motion.positions[:PIECE, 0, 1], atol=1e-5)
     assert {each.group for each in heads} >= {"height", "speed", "flexion angle"}
-    assert curves.piece(lambda: motion, len(heads), 0, 0) is None
+    assert curves.piece(lambda _: motion, len(heads), 0, 0) is None
 
 
 def test_a_report_has_the_channels_of_signals() -> None:

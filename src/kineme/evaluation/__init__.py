@@ -10,6 +10,7 @@ Three ways, by what the truth says:
 """
 
 from kineme.evaluation.annotated_scores import evaluate, evaluate_segmentation, labelling_of
+from kineme.evaluation.annotation import Annotation
 from kineme.evaluation.borders import border_ratio, border_score, covering, cut_ratio
 from kineme.evaluation.comparison import Comparison, compare
 from kineme.evaluation.counts import count_errors
@@ -19,7 +20,7 @@ from kineme.evaluation.frames import (
     one_to_one_accuracy,
     rand_index,
 )
-from kineme.evaluation.labelling import TRANSITION, Annotation, Labelling
+from kineme.evaluation.labelling import TRANSITION, Labelling
 from kineme.evaluation.paper import majority_accuracy, strict_and_tolerant
 from kineme.evaluation.score import Ratio, Score, register, scores
 from kineme.evaluation.variance import (

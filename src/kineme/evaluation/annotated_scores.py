@@ -16,10 +16,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from kineme.evaluation.annotation import Annotation
 from kineme.evaluation.borders import border_ratio, covering, cut_ratio
 from kineme.evaluation.frames import cluster_ratio, mutual_information, rand_index
 from kineme.evaluation.judged import Judged, Pair
-from kineme.evaluation.labelling import TRANSITION, Annotation, Labelling
+from kineme.evaluation.labelling import TRANSITION, Labelling
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
 

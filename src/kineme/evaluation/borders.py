@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
 
-from kineme.evaluation.labelling import TRANSITION, Annotation, Labelling
+from kineme.evaluation.annotation import Annotation
+from kineme.evaluation.labelling import TRANSITION, Labelling
 
 TOLERANCE_S = 0.25
 SHORT_TRANSITION_S = 1.0

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from kineme.errors import ParameterError
-from kineme.evaluation.labelling import TRANSITION, Annotation, Labelling
+from kineme.evaluation.annotation import Annotation
+from kineme.evaluation.labelling import TRANSITION, Labelling
 
 
 def found_counts(truth: Annotation, primitives: Labelling) -> list[int]:

@@ -11,7 +11,8 @@ from scipy.optimize import linear_sum_assignment
 from sklearn.metrics import adjusted_rand_score, normalized_mutual_info_score
 from sklearn.metrics.cluster import contingency_matrix
 
-from kineme.evaluation.labelling import TRANSITION, Annotation, Labelling, Texts
+from kineme.evaluation.annotation import Annotation
+from kineme.evaluation.labelling import TRANSITION, Labelling, Texts
 
 
 def one_to_one_accuracy(truth: Annotation, found: Labelling) -> tuple[float, float]:

@@ -13,7 +13,8 @@ from typing import Any
 
 from kineme.errors import ParameterError, ReadError
 from kineme.evaluation.annotated_scores import evaluate_segmentation, labelling_of
-from kineme.evaluation.labelling import TRANSITION, Annotation
+from kineme.evaluation.annotation import Annotation
+from kineme.evaluation.labelling import TRANSITION
 from kineme.labels.files import read_content
 from kineme.labels.spans import Labels, as_segmentation
 from kineme.recordings import Motion

@@ -7,10 +7,11 @@ from functools import cached_property
 
 from numpy.typing import ArrayLike
 
+from kineme.evaluation.annotation import Annotation
 from kineme.evaluation.borders import BorderScore, border_score
 from kineme.evaluation.counts import count_errors
 from kineme.evaluation.frames import one_to_one_accuracy
-from kineme.evaluation.labelling import Annotation, Labelling
+from kineme.evaluation.labelling import Labelling
 from kineme.evaluation.paper import majority_accuracy, strict_and_tolerant
 from kineme.evaluation.variance import (
     feature_variance,

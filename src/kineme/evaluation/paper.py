@@ -15,7 +15,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.evaluation.labelling import TRANSITION, Annotation, Ints, Labelling
+from kineme.evaluation.annotation import Annotation
+from kineme.evaluation.labelling import TRANSITION, Ints, Labelling
 
 
 def strict_and_tolerant(truth: Annotation, found: Labelling) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from kineme.formats.channels import opensim
 from kineme.formats.keypoints import pose_json, sleap
 from kineme.formats.markers import c3d, trc
 from kineme.formats.options import ReadOptions
-from kineme.formats.read_write import read, read_motion, read_quietly, sketch, write
+from kineme.formats.read_write import read, read_analog, read_motion, read_quietly, sketch, write
 from kineme.formats.registry import Format, register, supported_formats
 from kineme.formats.skeletons import amc, bvh
 from kineme.formats.tables import parquet, text
@@ -40,6 +40,7 @@ __all__ = [
     "Format",
     "ReadOptions",
     "read",
+    "read_analog",
     "read_motion",
     "read_quietly",
     "register",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -106,6 +107,34 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
         if Path(path).is_dir():
             return _read_folder(Path(path), options)
         return _read_file(load(path), options)
+
+
+def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
+    """The channels beside the motion in a file, such as force plates and muscles.
+
+    Parameters
+    ----------
+    path : str or PathLike
+    options : ReadOptions
+        As for the motion.
+
+    Returns
+    -------
+    Signals or None
+        All of them, at their own rate; None where there are none.
+    """
+    with reading(path):
+        if Path(path).is_dir():
+            return None
+        content = load(path)
+        known = recognise(content)
+        if known.read is None or not known.analog:
+            return None
+        try:
+            found = known.read(content, replace(options, columns=()))
+        except ReadError:  # it has none
+            return None
+        return found if isinstance(found, Signals) else None
 
 
 def sketch(path: AnyPath, options: ReadOptions, most: int) -> Sketch | None:

@@ -67,6 +67,9 @@ class Format:
         are none of this format in it.
     channels : bool
         Whether files can hold channels, so that ``read`` minds ``columns`` and ``emg``.
+    analog : bool
+        Whether channels stand beside the motion in a file, as force plates and muscles do, so
+        that ``read`` gives either.
     sketch : callable, optional
         From `FileContent`, `ReadOptions` and a number of frames to a `Sketch` of so many at most,
         much sooner than ``read``; None where that cannot be.
@@ -80,6 +83,7 @@ class Format:
     write_signals: Callable[[Signals, Path], None] | None = None
     read_folder: Callable[[Path, ReadOptions], Motion | Signals | None] | None = None
     channels: bool = False
+    analog: bool = False
     sketch: Callable[[FileContent, ReadOptions, int], Sketch | None] | None = None
 
 

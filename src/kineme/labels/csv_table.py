@@ -34,8 +34,9 @@ from kineme.labels.heads import separator
 from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span
+from kineme.segments.editing.comments import from_rows, in_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, DESCRIBED, Level, Segment, lacking
+from kineme.segments.table import COLUMNS, COMMENT, DESCRIBED, Level, Segment, lacking
 
 Unit = Literal["seconds", "frames"]
 SPANS: dict[Unit, tuple[str, str]] = {
@@ -51,7 +52,11 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     with atomic_write(beside) as head_draft, atomic_write(path) as draft:
         head_draft.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8")
         with draft.open("w", encoding="utf-8", newline="") as file:
-            write_rows(file, COLUMNS, map(_cells, segmentation))
+            names, rows = [*COLUMNS], map(_cells, segmentation)
+            if any(said := in_rows(segmentation)):
+                names.append(COMMENT)
+                rows = map(_with_comment, rows, said)
+            write_rows(file, names, rows)
 
 
 def read(path: Path) -> Segmentation | Labels:
@@ -63,6 +68,13 @@ def read(path: Path) -> Segmentation | Labels:
             return _intervals(path)
         file.seek(0)
         columns = _columns(csv.DictReader(file, strict=True, delimiter=comma), path)
+    said = columns.pop(COMMENT, None)
+    found = _with_the_rest(columns, path)
+    return found if said is None else from_rows(found, said)
+
+
+def _with_the_rest(columns: dict[str, list[Any]], path: Path) -> Segmentation:
+    """The table, with what lies beside it."""
     beside = provenance_path(path)
     if beside.is_file():
         head = parse(beside.read_text(encoding="utf-8-sig"), beside)
@@ -141,7 +153,7 @@ def _count(row: dict[str, str], path: Path, line: int) -> int | None:
 
 def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
     there = rows.fieldnames or ()
-    columns: dict[str, list[Any]] = {name: [] for name in COLUMNS if name in there}
+    columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in there}
     try:
         missing = lacking(there)
         if missing:
@@ -159,7 +171,7 @@ def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
 def _cell(text: str | None, name: str, path: Path, line: int) -> str | float:
     if text is None:
         raise ReadError(path, f"the line ends before column {name!r}", line=line)
-    kind = DESCRIBED[name].type
+    kind = DESCRIBED[name].type if name in DESCRIBED else str
     if kind is str:
         return from_text(text)
     if kind is float and not text.strip():
@@ -199,6 +211,10 @@ def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
 def _cells(row: Segment) -> list[Any]:
     cells = astuple(replace(row, label=as_text(row.label)))
     return ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in cells]
+
+
+def _with_comment(cells: list[Any], comment: str) -> list[Any]:
+    return [*cells, as_text(comment)]
 
 
 def _recognises(path: Path) -> bool:

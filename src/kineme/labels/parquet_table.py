@@ -18,8 +18,9 @@ from kineme.formats.files import load
 from kineme.labels.heads import tail
 from kineme.labels.json_table import head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
+from kineme.segments.editing.comments import from_rows, in_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment, lacking
+from kineme.segments.table import COLUMNS, COMMENT, Segment, lacking
 
 KEY = b"kineme.segments"
 
@@ -27,7 +28,10 @@ KEY = b"kineme.segments"
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave everything at ``path``."""
     arrow, parquet = _pyarrow()
-    table = arrow.table(segmentation.table.columns())
+    columns: dict[str, Any] = {**segmentation.table.columns()}
+    if any(said := in_rows(segmentation)):
+        columns[COMMENT] = said
+    table = arrow.table(columns)
     table = table.replace_schema_metadata({KEY: json.dumps(head_of(segmentation)).encode()})
     with atomic_write(path) as draft:
         parquet.write_table(table, draft)
@@ -45,7 +49,11 @@ def read(path: Path) -> Segmentation:
     names = [name for name in COLUMNS if name in there]
     table = parquet_columns(content, file, names)
     columns = {name: table.column(name).to_numpy() for name in names}
-    return with_head(columns, head, path)
+    found = with_head(columns, head, path)
+    if COMMENT not in there:
+        return found
+    said = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
+    return from_rows(found, [str(text or "") for text in said])
 
 
 def _pyarrow() -> tuple[Any, Any]:

@@ -32,7 +32,7 @@ from kineme.library.pieces import has_piece
 from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import Settings
 from kineme.library.sources import listed, names_of
-from kineme.library.storage.places import place, reaching, remove_folder
+from kineme.library.storage.places import lies_in, place, reaching, remove_folder
 from kineme.library.tables import read_table, write_tables
 
 Head = Mapping[str, Any]
@@ -147,7 +147,7 @@ def build(
         with held(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
             plan = plan_of(folder, head, as_paths(sources), as_paths(remove), recursive, settings)
-            return _built(plan, head, executor, progress or _silent)
+            return _built(plan, head, executor, progress or (lambda _: None))
 
 
 def _built(plan: Plan, head: Head, executor: Executor | int, progress: Progress) -> Built:
@@ -195,7 +195,7 @@ def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
         path: source
         for path, (_, key) in unseen.items()
         for source in gone
-        if path.is_relative_to(source) and has_piece(plan.pieces, key)
+        if lies_in(path, source) and has_piece(plan.pieces, key)
     }
 
 
@@ -242,9 +242,6 @@ def _clean(folder: Path, keys: set[str], tables: str) -> None:
     for path in (folder / TABLES).iterdir():
         if path.name != tables:
             remove_folder(path)
-    for path in folder.glob(".kineme-*"):
-        path.unlink(missing_ok=True)
-
-
-def _silent(_: str) -> None:
-    """Says nothing."""
+    for home in (folder, folder / TABLES / tables):
+        for path in home.glob(".kineme-*"):
+            path.unlink(missing_ok=True)

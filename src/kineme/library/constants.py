@@ -26,8 +26,11 @@ class VocabularyConstants:
         default=0.85,
     )  # fmt: skip
     farthest: float = constant(
-        "no two words are farther apart; those of one recording are as far", limits=SOME_LENGTH,
-        default=2.0, fine=True,
+        "no two words are farther apart", limits=SOME_LENGTH, default=2.0, fine=True
+    )
+    told_apart: float = constant(
+        "those of one recording are as far apart at least", limits=SOME_LENGTH, default=1.3,
+        fine=True,
     )  # fmt: skip
     longest_example: float = constant(
         "an example is cut to this", unit="s", limits=SOME_TIME, default=4.0, fine=True

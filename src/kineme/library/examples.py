@@ -13,7 +13,7 @@ from kineme.library.descriptions import Description, describe
 from kineme.library.layout import PIECES
 from kineme.library.opened import OpenTables
 from kineme.library.pieces import read_features
-from kineme.library.searching import Example
+from kineme.library.searching import Example, Named
 from kineme.library.storage.places import place
 from kineme.library.storage.recordings import read_at
 from kineme.recordings import Motion, Signals
@@ -88,7 +88,9 @@ def _description(
 ) -> Description:
     """The features of a recording, from the library where it is one of it."""
     told, settings = tables.recordings, tables.settings
-    if isinstance(recording, str) and not place(recording).exists():
+    if isinstance(recording, str) and (
+        isinstance(recording, Named) or not place(recording).exists()
+    ):
         if recording not in told["recording"]:
             raise ReadError(recording, "there is no such file, and no recording of that name")
         if not mirrored:

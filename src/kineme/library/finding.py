@@ -17,7 +17,7 @@ from kineme.library.index.parts import Parts, Sought, matches_in
 from kineme.library.index.windows import Float32s, length_for
 from kineme.library.layout import BODIES, PIECES
 from kineme.library.opened import OpenTables
-from kineme.library.searching import Example, Hit, best
+from kineme.library.searching import Example, Hit, Named, best
 
 TYPICAL = 5
 """Words that stand for a cluster in a search, the most typical ones."""
@@ -112,7 +112,7 @@ def typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
     rows = np.flatnonzero(np.isin(words["cluster"], numbers_of(tables, cluster)))
     rows = rows[np.argsort(words["spread"][rows], kind="stable")][:TYPICAL]
     columns = (words[name][rows].tolist() for name in ("recording", "start_s", "stop_s"))
-    return [Example(*one) for one in zip(*columns, strict=True)]
+    return [Example(Named(name), *span) for name, *span in zip(*columns, strict=True)]
 
 
 def _rows_of(tables: OpenTables, vocabulary: str) -> list[int]:
@@ -132,7 +132,7 @@ def _hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -
 
     Of segments that cover as much, that of the finer level counts.
     """
-    recording = tables.recordings["recording"][row]
+    recording = Named(tables.recordings["recording"][row])
     fps, lasts = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
     start_s, stop_s = start / fps, min(stop / fps, lasts)
     segments = tables.columns("segments")

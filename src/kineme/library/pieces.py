@@ -118,9 +118,9 @@ def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
 
 
 def read_parts(
-    folder: Path, key: str, dims: int, parts: Iterable[tuple[int, int]]
-) -> list[NDArray[np.float32]]:
-    """Parts [start, stop) of the features in a piece, without the rest of them.
+    folder: Path, key: str, starts: Iterable[int], into: Iterable[NDArray[np.float32]]
+) -> None:
+    """Fill arrays (samples, dims) with the features in a piece, each from a sample on.
 
     Raises
     ------
@@ -128,15 +128,14 @@ def read_parts(
         They are gone or damaged.
     """
     path = folder / f"{key}{FEATURES}"
-    found = []
     with _opening(path), near(path).open("rb", buffering=0) as file:
         head = file.read(10)
         data = 10 + int.from_bytes(head[8:10], "little")  # after the header of an npy file
-        for start, stop in parts:
-            file.seek(data + 4 * dims * start)
-            values = np.frombuffer(file.read(4 * dims * (stop - start)), np.float32)
-            found.append(_sound(values.reshape(stop - start, dims), np.float32))
-    return found
+        for start, part in zip(starts, into, strict=True):
+            file.seek(data + part.itemsize * part.shape[1] * start)
+            if file.readinto(part) != part.nbytes:  # type: ignore[arg-type]
+                raise ValueError("shorter than was written")
+            _check_sound(part)
 
 
 def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
@@ -149,11 +148,14 @@ def _sound(rows: NDArray[Any], kind: type[np.number[Any]]) -> NDArray[Any]:
     if rows.ndim != 2 or rows.dtype != kind:
         raise ValueError("not rows of features")
     if kind is np.float32:  # whole numbers hold nothing that overflows a distance
-        with np.errstate(all="ignore"):
-            squares = float(np.vdot(rows, rows))  # one pass, and not finite if any of them is not
-        if not squares < LARGEST:
-            raise ValueError("features that no recording has")
+        _check_sound(rows)
     return rows
+
+
+def _check_sound(features: NDArray[np.float32]) -> None:
+    squares = float(np.vdot(features, features))  # one pass, not finite if any of them is not
+    if not squares < LARGEST:
+        raise ValueError("features that no recording has")
 
 
 @contextmanager

@@ -22,6 +22,12 @@ REFUSED = 0.5
 """Share of a match that one of a counter-example covers where it takes its place."""
 
 
+class Named(str):
+    """The name of a recording of the library, even where a file is called so."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True)
 class Example:
     """A span of a recording that is searched for.
@@ -29,7 +35,8 @@ class Example:
     Parameters
     ----------
     recording : path-like, Motion or Signals
-        A file, the name of a recording of the library, or a recording in hand.
+        A file, else the name of a recording of the library, or a recording in hand. That of a
+        `Hit` is a name, whatever files there are.
     start_s, stop_s : float, optional
         Seconds; from the beginning and to the end by default.
 

@@ -11,6 +11,7 @@ from kineme.errors import ReadError
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.options import AnyPath
 from kineme.formats.skeletons.amc import find_skeleton
+from kineme.library.storage.places import lies_in
 from kineme.library.storage.recordings import recordings_under
 
 CHUNK = 1 << 20
@@ -108,7 +109,7 @@ def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[P
         if source.is_dir():
             inside = recordings_under(source, recursive=recursive)
         for path in inside:
-            if path.exists() and not path.is_relative_to(without):
+            if path.exists() and not lies_in(path, without):
                 found.setdefault(path, source)
     return found
 

@@ -11,7 +11,8 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 from sklearn.metrics.cluster import contingency_matrix
 
-from kineme.evaluation.labelling import Annotation, Ints, Labelling
+from kineme.evaluation.annotation import Annotation
+from kineme.evaluation.labelling import Ints, Labelling
 
 
 def aca_accuracy(truth: Annotation, found: Labelling, *, blocks: Ints | None = None) -> float:

@@ -17,7 +17,8 @@ import numpy as np
 
 from kineme.datasets.annotated_trials import MARKS_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.evaluation.labelling import Annotation, round_half_up
+from kineme.evaluation.annotation import Annotation
+from kineme.evaluation.labelling import round_half_up
 
 
 def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Annotation]:

@@ -18,8 +18,9 @@ import numpy as np
 
 from kineme.errors import ReadError
 from kineme.evaluation.annotated_scores import evaluate_segmentation
+from kineme.evaluation.annotation import Annotation
 from kineme.evaluation.frames import one_to_one_accuracy
-from kineme.evaluation.labelling import Annotation, Labelling
+from kineme.evaluation.labelling import Labelling
 from kineme.evaluation.paper import strict_and_tolerant
 from kineme.reproduction.methods import Method
 from kineme.reproduction.published import published

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
-from kineme.evaluation.labelling import Annotation
+from kineme.evaluation.annotation import Annotation
 from kineme.recordings import Motion
 from kineme.reproduction.annotations import read_trials
 

@@ -50,6 +50,8 @@ DESCRIBED: Mapping[str, Column] = {
     ),
 }  # fmt: skip
 COLUMNS = tuple(DESCRIBED)
+COMMENT = "comment"
+"""One more column of files: what people said about a segment, in tables that have comments."""
 
 
 def lacking(names: Container[str]) -> list[str]:

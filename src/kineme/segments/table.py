@@ -17,13 +17,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import MissingDependencyError, ParameterError
-from kineme.segments.row import COLUMNS, DESCRIBED, Column, Kind, Level, Segment, lacking
+from kineme.segments.row import COLUMNS, COMMENT, DESCRIBED, Column, Kind, Level, Segment, lacking
 
 if TYPE_CHECKING:
     import pandas as pd
 
 __all__ = [
     "COLUMNS",
+    "COMMENT",
     "DESCRIBED",
     "Column",
     "Kind",

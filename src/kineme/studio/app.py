@@ -15,7 +15,7 @@ from starlette.responses import FileResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from kineme.errors import KinemeError, WriteError
+from kineme.errors import KinemeError, ReadError, SeveralPeopleError, WriteError
 from kineme.studio.answers import MessageResponse
 from kineme.studio.bodies import TooSlowError
 from kineme.studio.events import Hub
@@ -90,7 +90,7 @@ def create_app(
     handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _refused)
     app = Starlette(
         routes=[
-            *library_routes(library),
+            *library_routes(library, recordings),
             *Api(recordings, hub, limit=limit).routes(),
             Route("/", page),
             Mount("/assets", StaticFiles(directory=static / "assets", check_dir=False)),
@@ -106,18 +106,20 @@ def create_app(
     return Guard(app, token=token, port=port)
 
 
-def library_routes(library: ShownLibrary | None) -> list[Route]:
+def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> list[Route]:
     """The addresses of a library, if there is one."""
     if library is None:
         return []
     from kineme.studio.library.routes import LibraryApi  # reads Parquet
 
-    return LibraryApi(library).routes()
+    return LibraryApi(library, recordings).routes()
 
 
 def _refused(_: Request, error: Exception) -> Response:
     status = next(STATUS[kind] for kind in type(error).__mro__ if kind in STATUS)
-    return _failure(str(error), status)
+    people = error.people if isinstance(error, SeveralPeopleError) else ()
+    reading = isinstance(error, ReadError)
+    return MessageResponse(Failure(error=str(error), people=[*people], reading=reading), status)
 
 
 def _conflict(_: Request, error: Exception) -> Response:

@@ -11,13 +11,18 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
+from msgspec import UNSET
+
 from kineme.errors import ParameterError
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, Constant, resolve_preset
 from kineme.methods.constants import Slider
 from kineme.methods.levels import DETAILS
+from kineme.methods.presets import DEFAULT
 from kineme.segments.hierarchy import DEFAULT_DETAIL
+from kineme.segments.segmentation import Segmentation
 from kineme.web.folder_messages import ExportFormat, Parameter, PresetChoice
+from kineme.web.requests import SegmentAgain
 
 CLIPS, REPORT = "motions", "report"
 """What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""
@@ -71,6 +76,40 @@ def check_offered(preset: str, parameters: Mapping[str, float], *, signals: bool
         low, high = offered[name].minimum, offered[name].maximum
         if not low - 1e-9 <= value <= high + 1e-9:
             raise ParameterError(f"{name} can be {low:.4g} to {high:.4g}, not {value:.4g}")
+
+
+def same_again(table: Segmentation, *, signals: bool) -> SegmentAgain:
+    """To segment as a table was: by its preset, with what is offered of its constants.
+
+    Parameters
+    ----------
+    table : Segmentation
+        By the default preset if it does not say by which.
+    signals : bool
+        Whether it is of signals.
+
+    Returns
+    -------
+    SegmentAgain
+        Which keeps nothing of the table.
+    """
+    said = table.provenance
+    preset, detail = str(said.get("preset")), said.get("detail")
+    values = said.get("parameters") if preset in PRESETS else None
+    preset = preset if preset in PRESETS else DEFAULT
+    known = values if isinstance(values, Mapping) else {}
+    parameters = {
+        each.name: float(known[each.name])
+        for each in _parameters(preset, signals=signals)
+        if isinstance(known.get(each.name), int | float)
+        and each.minimum <= known[each.name] <= each.maximum
+    }
+    return SegmentAgain(
+        preset=preset,
+        parameters=parameters,
+        keep=False,
+        detail=detail if isinstance(detail, float) else UNSET,
+    )
 
 
 def export_formats() -> list[ExportFormat]:

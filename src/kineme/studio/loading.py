@@ -53,6 +53,7 @@ class LoadedRecording:
         self._stamp = stamp_of(path)
         found = cache.read(path)
         self.n_frames, self.fps = found.n_frames, found.fps
+        self.is_motion = isinstance(found, Motion)
         self.provenance = found.provenance
         self._lock = threading.Lock()
         self._page_data: PageData | None = None
@@ -105,8 +106,15 @@ class LoadedRecording:
 
         with self._lock:
             if self._curves is None:
-                self._curves = Curves(self.recording)
+                found = self.recording
+                analog = self._cache.analog(self.path) if isinstance(found, Motion) else None
+                self._curves = Curves(found, analog)
             return self._curves
+
+    def source(self, analog: bool) -> Motion | Signals:
+        """What a curve is of: the recording, or the channels beside it."""
+        found = self._cache.analog(self.path) if analog else None
+        return self.recording if found is None else found
 
     def segment(
         self,

@@ -12,14 +12,14 @@ from typing import Any
 from msgspec import UNSET
 
 from kineme.errors import KinemeError, ParameterError
-from kineme.methods.presets import DEFAULT
+from kineme.studio.choices import same_again
 from kineme.studio.folder import Folder
 from kineme.studio.kept.reading_of_one import keep_options, said_of
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.studio.sketches import OF_SKETCH, Sketched, sketched
 from kineme.web.messages import Edited, Recording
-from kineme.web.requests import EditRequest, SegmentAgain
+from kineme.web.requests import EditRequest
 
 Listener = Callable[[str, int], None]
 MOST_DRAWN = 6
@@ -208,9 +208,14 @@ class OpenRecordings:
         with self._lock:
             self._open[name] = opened
         if opened.table_path.exists():
-            again = SegmentAgain(preset=DEFAULT, parameters={}, keep=False)
-            opened.edit(opened.revision, again, self)
+            of = opened if known is None else known
+            signals = not opened.loaded.is_motion
+            opened.edit(opened.revision, same_again(of.table, signals=signals), self)
         self._changed(name, opened.revision)
+
+    def people(self, name: str) -> list[str]:
+        """The people in a recording of whom one was chosen."""
+        return self._cache.people(self.get(name).path)
 
     def knowledge_base(self, name: str) -> Path:
         """The file of the knowledge base of that id."""

@@ -54,7 +54,7 @@ class Pictures:
 
         def work() -> bytes | None:
             loaded = self._loaded(request)
-            return loaded.curves().piece(lambda: loaded.recording, *place)
+            return loaded.curves().piece(loaded.source, *place)
 
         found = await run_in_threadpool(work)
         if found is None:

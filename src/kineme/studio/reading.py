@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import threading
 from collections import OrderedDict
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kineme.errors import ReadError
-from kineme.formats import ReadOptions, read_quietly
+from kineme.errors import ReadError, SeveralPeopleError
+from kineme.formats import ReadOptions, read_analog, read_quietly
 from kineme.studio.kept.reading_of_one import read_options
 
 if TYPE_CHECKING:
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 MOST_IN_MEMORY = 3
 """Recordings; that of an hour can have most of a gigabyte."""
+NOBODY = "\0"
+"""Nobody is called that."""
 Stamp = tuple[int, int]
 
 
@@ -83,6 +85,21 @@ class RecordingCache:
                     self._known.popitem(last=False)
                 self._reading.pop(key, None)
         return found
+
+    def people(self, path: Path) -> list[str]:
+        """Those one of whom was chosen, where people said which; read for it."""
+        options = read_options(path, self.options.file)
+        if options.person is None:
+            return []
+        try:
+            read_quietly(path, replace(options, person=NOBODY))
+        except SeveralPeopleError as error:
+            return [*error.people]
+        return []
+
+    def analog(self, path: Path) -> Signals | None:
+        """The channels beside the motion in a file, read each time; None where there are none."""
+        return read_analog(path, read_options(path, self.options.file))
 
 
 def stamp_of(path: Path) -> Stamp:

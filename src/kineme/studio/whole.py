@@ -103,6 +103,10 @@ class Whole:
         await run_in_threadpool(self._recordings.read_as, name, said)
         return MessageResponse({field: value for field, value in said.items() if value})
 
+    async def people(self, request: Request) -> Response:
+        work = self._recordings.people
+        return MessageResponse(await run_in_threadpool(work, request.path_params["id"]))
+
     def routes(self, one: str) -> list[Route]:
         """These, and those of a recording, whose address begins with ``one``."""
         sent: list[tuple[str, Callable[..., object]]] = [
@@ -115,6 +119,7 @@ class Whole:
         return [
             Route("/api/export/{format}", self.export),
             Route(f"{one}/video", self.video, methods=["GET"]),
+            Route(f"{one}/people", self.people),
             *(Route(address, work, methods=["POST"]) for address, work in sent),
         ]
 

@@ -39,6 +39,14 @@ class Drawn:
     group: str
     unit: str
     values: Callable[[Motion | Signals], Floats]
+    of_frames: bool = True
+
+    def seen(self, recording: Motion | Signals) -> Floats:
+        """The values, nan in gaps."""
+        values = np.array(self.values(recording), np.float64)
+        for start, stop in recording.gaps if self.of_frames else ():
+            values[start:stop] = np.nan
+        return values
 
 
 class Curves:
@@ -47,13 +55,19 @@ class Curves:
     Parameters
     ----------
     recording : Motion or Signals
+    analog : Signals, optional
+        Channels beside a motion, at a rate of their own: of each frame the least and the
+        greatest value are drawn.
     """
 
-    def __init__(self, recording: Motion | Signals):
+    def __init__(self, recording: Motion | Signals, analog: Signals | None = None):
         self.n_frames = recording.n_frames
         self._drawn = (
             _of_motion(recording) if isinstance(recording, Motion) else _of_signals(recording)
         )
+        self._first_analog = len(self._drawn)
+        if analog is not None:
+            self._drawn += _of_analog(analog, recording.n_frames, recording.fps)
         self._known: OrderedDict[int, list[Pairs]] = OrderedDict()
         self._lock = Lock()
 
@@ -65,14 +79,18 @@ class Curves:
         )
 
     def piece(
-        self, read: Callable[[], Motion | Signals], curve: int, level: int, number: int
+        self,
+        read: Callable[[bool], Motion | Signals],
+        curve: int,
+        level: int,
+        number: int,
     ) -> bytes | None:
         """Some pairs of a curve; None where there are none.
 
         Parameters
         ----------
         read : callable
-            Gives the recording, where the curve is not in memory.
+            Gives the recording, where the curve is not in memory; with True its analog channels.
         curve : int
             Its place in the list.
         level, number : int
@@ -87,7 +105,8 @@ class Curves:
         with self._lock:
             levels = self._known.get(curve)
             if levels is None:
-                levels = self._known[curve] = levels_of(_seen(read(), self._drawn[curve]))
+                source = read(curve >= self._first_analog)
+                levels = self._known[curve] = levels_of(self._drawn[curve].seen(source))
             self._known.move_to_end(curve)
             while len(self._known) > MOST_KNOWN:
                 self._known.popitem(last=False)
@@ -128,7 +147,7 @@ def curves_of(
         if left < 0 and pieces:
             break
         for place in places:
-            pieces["/".join(map(str, place))] = curves.piece(lambda: signals, *place) or b""
+            pieces["/".join(map(str, place))] = curves.piece(lambda _: signals, *place) or b""
     return head, pieces
 
 
@@ -137,8 +156,8 @@ def levels_of(values: Floats) -> list[Pairs]:
 
     Parameters
     ----------
-    values : (frames,) array
-        nan where nothing was seen.
+    values : (frames,) or (frames, 2) array
+        nan where nothing was seen; two are the least and the greatest of a frame.
 
     Returns
     -------
@@ -150,8 +169,8 @@ def levels_of(values: Floats) -> list[Pairs]:
     >>> levels_of(np.array([1.0, 3.0, 2.0]))[0].tolist()
     [[1.0, 1.0], [3.0, 3.0], [2.0, 2.0]]
     """
-    pairs = np.repeat(values[:, None], 2, axis=1).astype("<f4")
-    levels = [pairs]
+    pairs = values if values.ndim == 2 else np.repeat(values[:, None], 2, axis=1)
+    levels = [pairs.astype("<f4")]
     for size in level_sizes(len(values))[1:]:
         at = np.arange(size) * FACTOR
         least = np.fmin.reduceat(levels[-1][:, 0], at)
@@ -168,15 +187,33 @@ def level_sizes(n_frames: int) -> list[int]:
     return sizes
 
 
-def _seen(recording: Motion | Signals, drawn: Drawn) -> Floats:
-    values = np.array(drawn.values(recording), np.float64)
-    for start, stop in recording.gaps:
-        values[start:stop] = np.nan
-    return values
-
-
 def _of_signals(signals: Signals) -> list[Drawn]:
     return [Drawn(name, "channels", "", _channel(i)) for i, name in enumerate(signals.names)]
+
+
+def _of_analog(signals: Signals, n_frames: int, fps: float) -> list[Drawn]:
+    return [
+        Drawn(name, "analog", "", _in_frames(i, n_frames, fps), of_frames=False)
+        for i, name in enumerate(signals.names)
+    ]
+
+
+def _in_frames(number: int, n_frames: int, fps: float) -> Callable[[Motion | Signals], Floats]:
+    """Least and greatest value of a channel in each frame of a slower recording."""
+
+    def pairs(recording: Motion | Signals) -> Floats:
+        channel = np.array(_values(recording)[:, number])
+        for start, stop in recording.gaps:
+            channel[start:stop] = np.nan
+        starts = np.floor(np.arange(n_frames) * (recording.fps / fps) + 1e-9).astype(np.intp)
+        there = starts[starts < len(channel)]
+        found = np.full((n_frames, 2), np.nan)
+        if len(there):
+            found[: len(there), 0] = np.fmin.reduceat(channel, there)
+            found[: len(there), 1] = np.fmax.reduceat(channel, there)
+        return found
+
+    return pairs
 
 
 def _of_motion(motion: Motion) -> list[Drawn]:

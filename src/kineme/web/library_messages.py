@@ -57,7 +57,10 @@ class LibraryState(Struct, frozen=True, kw_only=True):
 
 
 class LibraryHit(Struct, frozen=True, kw_only=True):
-    """Where a recording is like an example."""
+    """Where a recording is like an example; ``label`` is that of the cluster.
+
+    ``name`` is that of the segment there, in the table beside the recording.
+    """
 
     recording: str
     start_s: float
@@ -65,12 +68,20 @@ class LibraryHit(Struct, frozen=True, kw_only=True):
     distance: float
     cluster: int
     label: str
+    name: str = ""
 
 
 class LibraryHits(Struct, frozen=True, kw_only=True):
     """What a search found, the nearest first."""
 
     hits: list[LibraryHit]
+
+
+class NamedHits(Struct, frozen=True, kw_only=True):
+    """How many hits have the name now, and which have not, with the reason."""
+
+    named: int
+    left: list[str]
 
 
 class LibraryFigure(Struct, frozen=True, kw_only=True):
@@ -101,6 +112,13 @@ class SearchRequest(Request, frozen=True, kw_only=True):
     top: Annotated[int, Meta(ge=1, le=1000)]
     mirror: bool
     cluster: Whole | UnsetType = UNSET
+
+
+class CallHits(Request, frozen=True, kw_only=True):
+    """A name for the segments that hits show, each alone; an empty one takes it away."""
+
+    name: Text
+    hits: Annotated[list[Span], Meta(max_length=MOST_EXAMPLES)]
 
 
 class CallCluster(EditBase, frozen=True, kw_only=True, tag="name"):

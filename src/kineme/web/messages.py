@@ -205,6 +205,11 @@ class Changed(Struct, frozen=True, kw_only=True):
 
 
 class Failure(Struct, frozen=True, kw_only=True):
-    """Why a request was refused, in one sentence."""
+    """Why a request was refused, in one sentence; ``people`` are those one of whom is to be chosen.
+
+    ``reading`` says that the recording could not be read as it was told to be.
+    """
 
     error: str
+    people: list[str] = []
+    reading: bool = False

@@ -8,6 +8,7 @@ individuals ``person`` names one. There is no frame rate in the file: ``fps`` gi
 
 from __future__ import annotations
 
+from kineme.errors import SeveralPeopleError
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.delimited import rows_of
 from kineme.formats.files import FileContent
@@ -54,10 +55,9 @@ def _wanted(content: FileContent, individuals: list[str], person: str | None) ->
         return person
     shown = ", ".join(individuals[:8])
     if person is not None:
-        raise content.error(f"there is no person {person!r}: choose from {shown}")
+        reason = f"there is no person {person!r}: choose from {shown}"
+        raise SeveralPeopleError(content.path, reason, individuals)
     if len(individuals) > 1:
-        raise content.error(
-            f"{len(individuals)} individuals are in it: choose one with person= (--person), "
-            f"of {shown}"
-        )
+        reason = f"{len(individuals)} individuals are in it: choose one with person= (--person), "
+        raise SeveralPeopleError(content.path, f"{reason}of {shown}", individuals)
     return individuals[0]

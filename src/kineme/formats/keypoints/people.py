@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.errors import SeveralPeopleError
 from kineme.formats.files import FileContent
 
 Floats = NDArray[np.float64]
@@ -53,7 +54,7 @@ def rows_of_person(
 
     Raises
     ------
-    ReadError
+    SeveralPeopleError
         There are several and none was chosen, or nobody of this name.
     """
     people = _people(found)
@@ -61,17 +62,21 @@ def rows_of_person(
         raise content.error("nobody is found in any frame")
     if person is not None:
         if person not in people:
-            raise content.error(
-                f"there is no person {person!r}: choose from {_shown(people, found)}"
+            raise SeveralPeopleError(
+                content.path,
+                f"there is no person {person!r}: choose from {_shown(people, found)}",
+                people,
             )
         notes = [f"person {person} of {len(people)}"] if len(people) > 1 else []
         return people[person], notes
     most = max(map(len, people.values()))
     staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * most}
     if len(staying) > 1:
-        raise content.error(
+        raise SeveralPeopleError(
+            content.path,
             f"{len(staying)} people are in it: choose one with person= (--person), "
-            f"of {_shown(staying, found)}"
+            f"of {_shown(staying, found)}",
+            staying,
         )
     ((name, rows),) = staying.items()
     passing = len(people) - 1

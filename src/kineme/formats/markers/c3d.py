@@ -92,4 +92,5 @@ FORMAT = Format(
     lambda head: head[1:2] == b"\x50" and 0 < head[0] < 128,
     read_c3d,
     channels=True,
+    analog=True,
 )

@@ -29,7 +29,8 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.amc_frames import read_frames
 from kineme.formats.skeletons.amc_writer import write_amc
-from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
+from kineme.formats.skeletons.asf import Figure, read_asf
+from kineme.formats.skeletons.asf_bones import ROOT
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks, metres
 from kineme.recordings import Motion

@@ -103,17 +103,15 @@ def matches_in(
 def search_parts(task: Task) -> dict[int, Matches]:
     """The matches in the parts of a task by row, the best of each first."""
     parts, sought = task.parts, task.sought
-    dims = sought.examples[0].shape[1]
-    between = np.full((1, dims), APART, np.float32)
-    laid: list[Float32s] = []
+    lasts = parts.stops - parts.starts
+    firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
+    laid = np.full((firsts[-1], sought.examples[0].shape[1]), APART, np.float32)
     for row, key in sorted(task.pieces.items()):
-        own = parts.rows == row
-        spans = zip(parts.starts[own].tolist(), parts.stops[own].tolist(), strict=True)
-        for features in read_parts(task.folder, key, dims, spans):
-            laid += [features, between]
-    firsts = np.concatenate([[0], np.cumsum(parts.stops - parts.starts + 1)])
+        own = np.flatnonzero(parts.rows == row)
+        spans = zip(firsts[own].tolist(), (firsts[own] + lasts[own]).tolist(), strict=True)
+        read_parts(task.folder, key, parts.starts[own].tolist(), [laid[a:b] for a, b in spans])
     matches = spans_like(
-        np.concatenate(laid),
+        laid,
         sought.examples,
         sought.counterexamples,
         threshold=sought.threshold,

@@ -74,6 +74,11 @@ def is_remote(path: str | PathLike[str]) -> bool:
     return hasattr(path, "protocol")
 
 
+def lies_in(path: Path, folder: Path) -> bool:
+    """Whether a place is in a folder; what is elsewhere is in none of this machine."""
+    return is_remote(path) == is_remote(folder) and path.is_relative_to(folder)
+
+
 @contextmanager
 def reaching(path: Path) -> Iterator[None]:
     """A block that uses a place: what goes wrong on the way there is a ReadError."""

@@ -116,8 +116,9 @@ def _assigned(
         word, others = crowd.word(number), [typical.words[i] for i in near]
         there = Contexts(others).costs_of(word).astype(np.float64)
         back = Contexts([word])
-        costs = np.maximum(there, [back.costs_of(other)[0] for other in others])
-        costs[[other.recording == word.recording for other in others]] = np.inf
+        costs = (there + [back.costs_of(other)[0] for other in others]) / 2
+        same = [other.recording == word.recording for other in others]
+        costs[same] = np.maximum(costs[same], constants.told_apart)
         clusters, at = np.unique(typical.labels[near], return_inverse=True)
         costs = np.minimum(costs, constants.farthest)
         means = np.bincount(at, costs) / np.bincount(at)

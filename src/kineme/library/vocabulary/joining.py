@@ -4,10 +4,10 @@ The clusters that were found in each recording alone are the *words* to be joine
 at by an example, its typical segment, and by a context, the activity around it: in a cyclic
 movement, the example of one recording may be cut at another phase than that of the next.
 
-The distance of two words is the larger of what it costs to find the example of each in the context
-of the other. Words of one recording were found to differ there: they are as far apart as can be,
-so that they are one only where those of many others lie between them. Words are joined by average
-linkage, as long as a search would find them by each other.
+The distance of two words is the mean of what it costs to find the example of each in the context
+of the other. Words of one recording were found to differ there: they are as far apart at least as
+two that have nothing in common, so that they are one only where those of others lie between them.
+Words are joined by average linkage, as long as a search would find them by each other.
 
 That compares each with each. Of more words than that is worth, see
 `kineme.library.vocabulary.crowds`.
@@ -97,7 +97,8 @@ def joined(words: Sequence[Word], constants: VocabularyConstants) -> Joined:
         return Joined(alone, alone - 1, np.full(len(words), np.nan), np.zeros(len(words)))
     distances = np.minimum(two_way_distances(words), constants.farthest)
     recording = np.array([word.recording for word in words])
-    distances[recording[:, None] == recording] = constants.farthest
+    same = recording[:, None] == recording
+    distances[same] = np.maximum(distances[same], constants.told_apart)
     np.fill_diagonal(distances, 0.0)
     seconds = np.array([word.seconds for word in words])
     tree = linkage(squareform(distances, checks=False), "average")
@@ -108,11 +109,11 @@ def joined(words: Sequence[Word], constants: VocabularyConstants) -> Joined:
 
 
 def two_way_distances(words: Sequence[Word]) -> Floats:
-    """``distances[a, b]``: the larger of a's example found in b's context, and b's in a's."""
+    """``distances[a, b]``: the mean of a's example found in b's context, and b's in a's."""
     contexts = Contexts(words)
     with threadpool_limits(1):  # sums do not depend on threads
         one_way = np.array(map_threads(contexts.costs_of, words), np.float64)
-    both: Floats = np.maximum(one_way, one_way.T)
+    both: Floats = (one_way + one_way.T) / 2
     np.fill_diagonal(both, 0.0)
     return both
 

@@ -73,9 +73,12 @@ class HierarchyConstants(CountingPreset):
         slider=(0.02, 2.0, 0.02),
     )  # fmt: skip
     cluster_cost: float = constant(
-        "what a cluster must explain: time at the median distance", unit="s", limits=TIME,
-        slider=(0.1, 5.0, 0.1),
+        "what a cluster must explain in a minute: time at the median distance", unit="s",
+        limits=TIME, slider=(0.1, 5.0, 0.1),
     )  # fmt: skip
+    cluster_growth: float = constant(
+        "power of the duration with which that grows", limits=SHARE, fine=True
+    )
     counting_fps: float = constant(
         "frames per second at which repetitions are counted, at most", unit="Hz", limits=RATE,
         fine=True,
@@ -97,6 +100,20 @@ class HierarchyConstants(CountingPreset):
             return self
         apart = len({round(offset * fps) for offset in self.offsets}) == len(self.offsets)
         return replace(self, working_fps=fps, offsets=self.offsets if apart else (0.0,))
+
+    def cluster_price(self, samples: int) -> float:
+        """What a cluster costs in a stretch of so many samples, in samples.
+
+        The longer it is, the more of it differs from the rest by chance.
+
+        Examples
+        --------
+        >>> from kineme.methods.hierarchy.preset import SENSORS
+        >>> [round(SENSORS.cluster_price(samples), 1) for samples in (300, 1200)]
+        [3.3, 4.4]
+        """
+        minutes = min(samples / self.rate, self.part) / 60
+        return self.samples(self.cluster_cost) * float(minutes**self.cluster_growth)
 
     def samples(self, seconds: float) -> float:
         """Seconds in samples, at `rate`."""

@@ -58,7 +58,7 @@ def segments_of(features: NDArray[np.float32], preset: HierarchyConstants) -> Se
         fine,
         sums,
         segment_cost=preset.samples(preset.segment_cost),
-        cluster_cost=preset.samples(preset.cluster_cost),
+        cluster_cost=preset.cluster_price(len(features)),
         most_clusters=preset.max_clusters,
     )
     borders, labels = joined(

@@ -50,7 +50,7 @@ def levels_of(
         pieces,
         levels.DETAILS,
         border_price=preset.samples(preset.segment_cost),
-        cluster_price=preset.samples(preset.cluster_cost),
+        cluster_price=preset.cluster_price(len(features)),
     )
     return levels.tables_at(columns, frames, at, longest=0.0)
 

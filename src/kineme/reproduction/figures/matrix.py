@@ -20,7 +20,8 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from kineme._colors import PALETTE
-from kineme.evaluation.labelling import TRANSITION, Annotation
+from kineme.evaluation.annotation import Annotation
+from kineme.evaluation.labelling import TRANSITION
 from kineme.graph import NeighborGraph, component_labels
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions

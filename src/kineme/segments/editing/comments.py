@@ -7,6 +7,7 @@ of its borders: no edit and no new segmentation loses one. They are in the prove
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -57,6 +58,42 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
     if text:
         kept.append((level, (row.start_frame + row.stop_frame) // 2, text))
     return with_comments(segmentation, kept)
+
+
+def in_rows(segmentation: Segmentation) -> list[str]:
+    """What is said about each row, in their order; empty where nothing is."""
+    said = comments(segmentation)
+    return [
+        "; ".join(
+            text
+            for level, frame, text in said
+            if level == row.level and row.start_frame <= frame < row.stop_frame
+        )
+        for row in segmentation
+    ]
+
+
+def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
+    """The same segments with these comments, one for each row; as they are where they say that.
+
+    Parameters
+    ----------
+    segmentation : Segmentation
+    texts : sequence of str
+        Empty for rows without one.
+
+    Returns
+    -------
+    Segmentation
+    """
+    if list(texts) == in_rows(segmentation):
+        return segmentation
+    said: list[Comment] = [
+        (row.level, (row.start_frame + row.stop_frame) // 2, text)
+        for row, text in zip(segmentation, texts, strict=True)
+        if text
+    ]
+    return with_comments(segmentation, said)
 
 
 def with_comments(segmentation: Segmentation, said: list[Comment]) -> Segmentation:

@@ -12,8 +12,9 @@ from kineme.studio.answers import MessageResponse
 from kineme.studio.bodies import body
 from kineme.studio.library.figures import Figures
 from kineme.studio.library.shown import ShownLibrary
+from kineme.studio.open_recordings import OpenRecordings
 from kineme.web.encoding import from_json
-from kineme.web.library_messages import LibraryEdit, LibraryFigure, SearchRequest
+from kineme.web.library_messages import CallHits, LibraryEdit, LibraryFigure, SearchRequest
 
 
 class LibraryApi:
@@ -22,10 +23,12 @@ class LibraryApi:
     Parameters
     ----------
     shown : ShownLibrary
+    recordings : OpenRecordings
+        Those of the library.
     """
 
-    def __init__(self, shown: ShownLibrary):
-        self._shown, self._figures = shown, Figures()
+    def __init__(self, shown: ShownLibrary, recordings: OpenRecordings):
+        self._shown, self._recordings, self._figures = shown, recordings, Figures()
 
     async def state(self, _: Request) -> Response:
         return MessageResponse(await run_in_threadpool(self._shown.state))
@@ -37,6 +40,10 @@ class LibraryApi:
     async def search(self, request: Request) -> Response:
         sent = from_json(await body(request), SearchRequest)
         return MessageResponse(await run_in_threadpool(self._shown.search, sent))
+
+    async def names(self, request: Request) -> Response:
+        sent = from_json(await body(request), CallHits)
+        return MessageResponse(await run_in_threadpool(self._shown.call, sent, self._recordings))
 
     async def figure(self, request: Request) -> Response:
         asked = request.query_params
@@ -56,5 +63,6 @@ class LibraryApi:
             Route("/api/library", self.state),
             Route("/api/library/edits", self.edit, methods=["POST"]),
             Route("/api/library/search", self.search, methods=["POST"]),
+            Route("/api/library/names", self.names, methods=["POST"]),
             Route("/api/library/figure", self.figure),
         ]

@@ -13,6 +13,7 @@ from threadpoolctl import threadpool_limits
 from kineme._threads import map_threads
 from kineme.errors import ParameterError
 from kineme.library import Example, Library
+from kineme.library.searching import Named
 from kineme.studio.open_recordings import SupersededError
 from kineme.web.library_messages import LibraryHit, LibraryHits, SearchRequest, Span
 
@@ -89,4 +90,4 @@ def _examples(spans: Sequence[Span], known: set[str]) -> list[Example]:
     for span in spans:
         if span.recording not in known:
             raise ParameterError(f"the library has no recording {span.recording!r:.80}")
-    return [Example(span.recording, span.start_s, span.stop_s) for span in spans]
+    return [Example(Named(span.recording), span.start_s, span.stop_s) for span in spans]

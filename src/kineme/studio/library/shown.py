@@ -9,21 +9,28 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Literal
 
+from msgspec import structs
+
 from kineme.library import Library
 from kineme.library.layout import EDITS, HEAD
 from kineme.library.storage.places import is_remote
 from kineme.studio.folder import Folder, file_id
+from kineme.studio.library.names import call, name_of
 from kineme.studio.library.searches import Searches
+from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.progress import progress
 from kineme.studio.reading import ReadingOptions
 from kineme.web.library_messages import (
     CallCluster,
+    CallHits,
     JoinClusters,
     LibraryCluster,
     LibraryEdit,
+    LibraryHit,
     LibraryHits,
     LibraryRecording,
     LibraryState,
+    NamedHits,
     SearchRequest,
 )
 
@@ -102,7 +109,26 @@ class ShownLibrary:
 
     def search(self, sent: SearchRequest) -> LibraryHits:
         """What is like the examples; SupersededError where a newer search was asked for."""
-        return self._searches.search(self.library(), sent)
+        found = self._searches.search(self.library(), sent)
+        return LibraryHits(hits=[self._with_name(hit) for hit in found.hits])
+
+    def call(self, sent: CallHits, recordings: OpenRecordings) -> NamedHits:
+        """Name the segments that hits show, in the tables beside their recordings."""
+        hits = [(span, self._file(span.recording)) for span in sent.hits]
+        return call(recordings, hits, sent.name.strip())
+
+    def _with_name(self, hit: LibraryHit) -> LibraryHit:
+        path = self._file(hit.recording)
+        name = name_of(path, hit.start_s, hit.stop_s) if path else ""
+        return structs.replace(hit, name=name) if name else hit
+
+    def _file(self, recording: str) -> Path | None:
+        """The file of a recording of the library, where it is there."""
+        library = self.library()
+        if recording not in {*library.recordings["recording"]}:
+            return None
+        path = library.path_of(recording)
+        return None if is_remote(path) or not path.is_file() else path
 
     def _changed(self) -> tuple[int, ...]:
         """What is another one when somebody has written the library."""

@@ -205,9 +205,15 @@ export interface Changed {
   revision: number;
 }
 
-/** Why a request was refused, in one sentence. */
+/**
+ * Why a request was refused, in one sentence; `people` are those one of whom is to be chosen.
+ *
+ * `reading` says that the recording could not be read as it was told to be.
+ */
 export interface Failure {
   error: string;
+  people?: string[];
+  reading?: boolean;
 }
 
 /** A constant of a preset that the page offers to change. */
@@ -528,7 +534,11 @@ export interface LibraryState {
   failed: Record<string, string>;
 }
 
-/** Where a recording is like an example. */
+/**
+ * Where a recording is like an example; `label` is that of the cluster.
+ *
+ * `name` is that of the segment there, in the table beside the recording.
+ */
 export interface LibraryHit {
   recording: string;
   start_s: number;
@@ -536,11 +546,18 @@ export interface LibraryHit {
   distance: number;
   cluster: number;
   label: string;
+  name?: string;
 }
 
 /** What a search found, the nearest first. */
 export interface LibraryHits {
   hits: LibraryHit[];
+}
+
+/** How many hits have the name now, and which have not, with the reason. */
+export interface NamedHits {
+  named: number;
+  left: string[];
 }
 
 /**
@@ -569,6 +586,12 @@ export interface SearchRequest {
   top: number;
   mirror: boolean;
   cluster?: number;
+}
+
+/** A name for the segments that hits show, each alone; an empty one takes it away. */
+export interface CallHits {
+  name: string;
+  hits: Span[];
 }
 
 /** A name for a cluster of the library; an empty one takes it away. */

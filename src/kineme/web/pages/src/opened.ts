@@ -23,9 +23,11 @@ export async function openRecording(data: RecordingData): Promise<OpenRecording>
  * itself until all of it is read.
  */
 export async function loadMotion(opened: OpenRecording): Promise<void> {
-  const { motion: head } = opened.recording.peek();
-  if (!head || isOf(head, opened.motion.peek())) return;
-  opened.motion.value = await unpackMotion(head, await opened.data.motion(head.n_samples));
+  for (;;) {
+    const { motion: head } = opened.recording.peek(); // which may be another one meanwhile
+    if (!head || isOf(head, opened.motion.peek())) return;
+    opened.motion.value = await unpackMotion(head, await opened.data.motion(head.n_samples));
+  }
 }
 
 function isOf({ n_samples, step }: MotionHead, motion: Motion | null): boolean {

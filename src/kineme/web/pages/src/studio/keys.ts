@@ -56,7 +56,7 @@ export function commandOf(
     Delete: () => editor.deleteBorder(),
     Backspace: () => editor.deleteBorder(),
     a: () => session.store.changeLevel(),
-    n: () => (editor.naming.value = event.shiftKey ? "cluster" : "segment"),
+    n: () => editor.startNaming(event.shiftKey ? "cluster" : "segment"),
     j: () => review.next(),
     k: () => (event.shiftKey ? review.toggle() : review.checkAndGoOn()),
     PageDown: () => void session.openNext(1),

@@ -6,12 +6,13 @@
  */
 
 import { computed, effect, signal } from "@preact/signals";
-import type { Changed, State } from "../messages";
+import type { Changed, ReadingRequest, State } from "../messages";
 import type { Motion } from "../motion";
 import { loadMotion, type OpenRecording } from "../opened";
 import type { Store } from "../store";
 import { type Api, explain, Refused, RETRY, Unreachable } from "./server/api";
 import { Beside } from "./editing/beside";
+import { notRead } from "./server/answers";
 import { EditedRecording } from "./editing/editedRecording";
 import { fromAddress, momentInAddress, toAddress } from "./server/address";
 import { ServerData } from "./server/serverData";
@@ -24,12 +25,21 @@ const NO_ANSWER =
 const STARTED_ANEW =
   "The studio was started anew. Open the address it printed: then this tab goes on, too.";
 
+/** A recording that was not read as it was told to be. */
+export interface Unread {
+  id: string;
+  name: string;
+  people: readonly string[];
+}
+
 export class Session {
   readonly state = signal<State | null>(null);
   /** Why the server cannot be worked with, in a sentence; null while it can. */
   readonly trouble = signal<string | null>(null);
   /** The recording that is being opened. */
   readonly opening = signal<string | null>(null);
+  /** The recording that could not be read, and the people in it. */
+  readonly unread = signal<Unread | null>(null);
   readonly bulletin = new Bulletin();
   private readonly recordings = signal<EditedRecording[]>([]);
   readonly list = new RecordingList(this.state, this.recordings);
@@ -84,6 +94,7 @@ export class Session {
       return;
     }
     this.opening.value = id;
+    this.unread.value = null;
     try {
       const opened = await this.fetch(id);
       if (this.opening.value !== id) return; // another one has been chosen since
@@ -95,9 +106,32 @@ export class Session {
       await loadMotion(opened);
     } catch (error) {
       this.bulletin.problem(explain(error), "open");
+      this.notRead(id, error);
     } finally {
       if (this.opening.value === id) this.opening.value = null;
     }
+  }
+
+  /** Reads a recording otherwise from now on, and shows it. */
+  async readAs(id: string, request: ReadingRequest): Promise<void> {
+    try {
+      await this.api.readAs(id, request);
+    } catch (error) {
+      this.bulletin.problem(explain(error), "reading");
+      this.notRead(id, error);
+      return;
+    }
+    this.bulletin.solved("reading");
+    this.close(id);
+    await this.open(id);
+  }
+
+  /** Offers to say how a recording is to be read, where that is what is wrong. */
+  private notRead(id: string, error: unknown): void {
+    const people = notRead(error);
+    const name = this.state.value?.recordings.find((each) => each.id === id)?.name;
+    const known = this.unread.value?.id === id ? this.unread.value.people : [];
+    if (people && name) this.unread.value = { id, name, people: people.length ? people : known };
   }
 
   /** Opens the next recording of the list, or the one before. */

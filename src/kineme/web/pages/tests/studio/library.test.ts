@@ -10,6 +10,7 @@ const hit = (some: Partial<LibraryHit>): LibraryHit => ({
   distance: 0.5,
   cluster: 3,
   label: "",
+  name: "",
   ...some,
 });
 
@@ -26,9 +27,9 @@ test("hits are taken along with what was said of them", () => {
   const hits = [hit({}), hit({ recording: 'b, "c".bvh', label: "walk" })];
   const said = (each: LibraryHit): boolean | undefined => (each.label ? true : undefined);
   expect(asCsv(hits, said).split("\n")).toEqual([
-    "recording,start_s,stop_s,distance,cluster,label,confirmed",
-    "a.bvh,1,2,0.5,3,,",
-    '"b, ""c"".bvh",1,2,0.5,3,walk,true',
+    "recording,start_s,stop_s,distance,cluster,label,name,confirmed",
+    "a.bvh,1,2,0.5,3,,,",
+    '"b, ""c"".bvh",1,2,0.5,3,walk,,true',
     "",
   ]);
   const lines = asJson(hits, said).trim().split("\n");

@@ -63,6 +63,14 @@ export class Editor {
     );
   }
 
+  /** The field of a name takes the keyboard, where there is one. */
+  startNaming(which: "segment" | "cluster"): void {
+    const segment = this.segment.value;
+    if (segment && which === "cluster" && segment.cluster < 0)
+      this.session.bulletin.tell("This segment is in no cluster: there is no cluster to name.");
+    else if (segment) this.naming.value = which;
+  }
+
   name(segment: Segment, label: string): void {
     const { level, start_frame: frame } = segment;
     void this.send({ kind: "name_segment", level, frame, label });

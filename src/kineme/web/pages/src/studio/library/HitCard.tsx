@@ -12,7 +12,7 @@ const calm = matchMedia("(prefers-reduced-motion: reduce)");
 export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): JSX.Element {
   const looked = useSignal(false);
   const right = page.judged.value.get(keyOf(hit))?.right;
-  const { recording, start_s, stop_s, cluster, label } = hit;
+  const { recording, start_s, stop_s, cluster, label, name } = hit;
   const id = page.state.value?.recordings.find((each) => each.recording === recording)?.id;
   const time = `${start_s.toFixed(2)} to ${stop_s.toFixed(2)} s`;
   const look = (at: boolean) => (): void => void (looked.value = at && !calm.matches);
@@ -40,6 +40,7 @@ export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): 
         distance {hit.distance.toFixed(2)}, {cluster < 0 ? "in no cluster" : `cluster ${cluster}`}{" "}
         {label}
       </p>
+      {name && <p class="hit-name">{name}</p>}
       <div class="card-tools">
         <button
           type="button"

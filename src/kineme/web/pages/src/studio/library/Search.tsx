@@ -61,11 +61,24 @@ function Said({ page }: { page: LibraryPage }): JSX.Element {
       <button type="button" class="primary" onClick={() => void page.refine()}>
         Search again with these
       </button>
+      {yes > 0 && (
+        <label>
+          Name {yes === 1 ? "it" : `these ${yes}`} alone, in the {yes === 1 ? "table" : "tables"}{" "}
+          beside {yes === 1 ? "its recording" : "their recordings"}:{" "}
+          <NameInput
+            value=""
+            placeholder="a name of its own"
+            label="Name of the confirmed alone"
+            onName={(name) => void page.nameHits(name)}
+          />
+          {page.naming.value && <span class="busy" role="status" aria-label="Naming" />}
+        </label>
+      )}
+      {page.news.value && <p role="status">{page.news.value}</p>}
       {page.shares.value.map(([cluster, n]) =>
         cluster < 0 ? (
           <p key={cluster}>
-            {n} of the confirmed {n === 1 ? "is" : "are"} in no cluster, and cannot be named here: a
-            name is of a cluster.
+            {n} of the confirmed {n === 1 ? "is" : "are"} in no cluster.
           </p>
         ) : (
           <label key={cluster}>

@@ -29,7 +29,7 @@ export function ordered(clusters: readonly LibraryCluster[], by: Order): Library
   return [...clusters].sort(compare[by]);
 }
 
-const COLUMNS = ["recording", "start_s", "stop_s", "distance", "cluster", "label"] as const;
+const COLUMNS = ["recording", "start_s", "stop_s", "distance", "cluster", "label", "name"] as const;
 
 type Said = (hit: LibraryHit) => boolean | undefined;
 

@@ -1,9 +1,11 @@
 /** What the page of a library asks the server. */
 import type {
+  CallHits,
   LibraryEdit,
   LibraryFigure,
   LibraryHits,
   LibraryState,
+  NamedHits,
   SearchRequest,
   Span,
 } from "../../messages";
@@ -16,6 +18,10 @@ export class LibraryApi extends Api {
 
   editLibrary(edit: LibraryEdit): Promise<LibraryState> {
     return this.json("/api/library/edits", edit);
+  }
+
+  nameHits(sent: CallHits): Promise<NamedHits> {
+    return this.json("/api/library/names", sent);
   }
 
   /** Refused with status 409 where a newer search was asked for meanwhile. */

@@ -21,6 +21,9 @@ export class LibraryPage {
   readonly problem = signal("");
   readonly question = signal<Question | null>(null);
   readonly searching = signal(false);
+  readonly naming = signal(false);
+  /** What became of names given to hits. */
+  readonly news = signal("");
   readonly hits = signal<LibraryHit[]>([]);
   readonly threshold = signal(0.85);
   readonly mirror = signal(false);
@@ -58,9 +61,24 @@ export class LibraryPage {
     return made;
   }
 
+  /** Names what was confirmed, each segment alone; the news says what could not be named. */
+  async nameHits(name: string): Promise<void> {
+    const hits = this.confirmed.value;
+    this.naming.value = true;
+    const done = await this.trying(async () => {
+      const { named, left } = await this.api.nameHits({ name, hits: hits.map(spanOf) });
+      const lost = left.length ? ` Not named: ${left.join("; ")}.` : "";
+      this.news.value = `${named} of ${hits.length} named, in the tables beside their recordings.${lost}`;
+    });
+    this.naming.value = false;
+    if (!done) this.problem.value = `Not saved: ${this.problem.value}`;
+    else await this.searchAgain();
+  }
+
   /** Searches anew; what was said of the hits before is forgotten. */
   async ask(question: Question): Promise<void> {
     this.judged.value = new Map();
+    this.news.value = "";
     this.tab.value = "search";
     this.hits.value = [];
     await this.search(question);

@@ -1,47 +1,69 @@
 /** How the recording is read, where its file does not say or says it wrongly. */
 import { useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 import type { JSX, TargetedEvent } from "preact";
-import { explain } from "../server/api";
 import type { Session } from "../session";
 
 const UNITS = ["m", "cm", "mm", "inch", "cmu"];
 const AXES = ["x", "y", "z", "-x", "-y", "-z"];
 
 export function ReadingPanel({ session }: { session: Session }): JSX.Element | null {
-  const recording = session.store.recording.value;
+  const { value: recording } = session.store.recording;
+  const { value: unread } = session.unread;
+  const people = useSignal<readonly string[]>([]);
   const busy = useSignal(false);
-  if (!recording) return null;
-  const { id, reading } = recording;
+  const id = unread?.id ?? recording?.id;
+  const reading = (!unread && recording?.reading) || {};
   const said = (name: string): string => String(reading[name] ?? "");
+  useEffect(() => {
+    people.value = unread?.people ?? [];
+    if (!unread && id && said("person"))
+      void session.api.people(id).then(
+        (found) => (people.value = found),
+        () => undefined,
+      );
+  }, [id, unread]);
+  if (!id) return null;
   const read = async (event: TargetedEvent<HTMLFormElement, Event>): Promise<void> => {
     event.preventDefault();
     const form = new FormData(event.currentTarget);
     const text = (name: string): string => String(form.get(name) ?? "").trim();
-    const request = {
+    busy.value = true;
+    await session.readAs(id, {
       person: text("person"),
       fps: Number(text("fps")) || 0,
       unit: text("unit"),
       up: text("up"),
-    };
-    busy.value = true;
-    try {
-      await session.api.readAs(id, request);
-      session.bulletin.solved("reading");
-      session.close(id);
-      await session.open(id);
-    } catch (error) {
-      session.bulletin.problem(explain(error), "reading");
-    }
+    });
     busy.value = false;
   };
   return (
-    <details class="reading-panel" key={id} open={Object.keys(reading).length > 0}>
-      <summary>How this file is read</summary>
+    <details
+      class="reading-panel"
+      key={`${id} ${unread !== null}`}
+      open={unread !== null || Object.keys(reading).length > 0}
+    >
+      <summary>How {unread ? unread.name : "this file"} is read</summary>
       <form onSubmit={(event) => void read(event)}>
-        <label class="field" title="Which of several people, by name or number">
-          <span>Person</span>
-          <input type="text" name="person" placeholder="the first" defaultValue={said("person")} />
-        </label>
+        {people.value.length > 0 ? (
+          <Choice
+            name="person"
+            title="Person"
+            none={unread ? "choose one" : "the only one"}
+            values={people.value}
+            value={said("person")}
+          />
+        ) : (
+          <label class="field" title="Which of several people, by name or number">
+            <span>Person</span>
+            <input
+              type="text"
+              name="person"
+              placeholder="the only one"
+              defaultValue={said("person")}
+            />
+          </label>
+        )}
         <label class="field">
           <span>Frames per second</span>
           <input
@@ -76,13 +98,14 @@ function Choice(props: {
   title: string;
   values: readonly string[];
   value: string;
+  none?: string;
 }): JSX.Element {
-  const { name, title, values, value } = props;
+  const { name, title, values, value, none = "as found" } = props;
   return (
     <label class="field">
       <span>{title}</span>
       <select name={name} defaultValue={value}>
-        <option value="">as found</option>
+        <option value="">{none}</option>
         {values.map((each) => (
           <option key={each} value={each} selected={each === value}>
             {each}

@@ -130,6 +130,11 @@ export class Api {
     return this.json(`/api/recordings/${encodeURIComponent(id)}/reading`, request);
   }
 
+  /** The people in a recording, where one of them was chosen. */
+  people(id: string): Promise<string[]> {
+    return this.json(`/api/recordings/${encodeURIComponent(id)}/people`);
+  }
+
   /** Where the video of a recording comes from. */
   videoAddress(id: string): string {
     const path = `/api/recordings/${encodeURIComponent(id)}/video`;
