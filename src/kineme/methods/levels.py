@@ -91,10 +91,8 @@ def tables_at(
     ----------
     columns : dict of str to array
         Of detail 1.
-    borders : (pieces + 1,) array
-        As in `Pieces`.
-    clusters : mapping of float to array
-        See `clusters_at`.
+    borders, clusters
+        As in `Pieces`, and of `clusters_at`.
     longest : float
         Samples: below 1, neighbours of one cluster are one activity even with a transition
         between them that is no longer than this over the detail.
