@@ -55,7 +55,6 @@ def show_build(home: Path, n: int) -> None:
             f"promised); processors {used:.1f} s; largest process {memory:.2f} GB, "
             f"{verdict(memory, 1.0)}"
         )
-        record(f"library.build.{name}.times", round(alone / built, 2))
         record(f"library.build.{name}.processors", round(used, 1), unit="s")
         record(f"library.build.{name}.memory", round(memory, 2), unit="GB")
     into = home / "lib-copies"

@@ -136,7 +136,6 @@ def searched(library: Library, hours: float, most: int) -> None:
     print(f"processor {median(used):.2f} s; exactly {median(exact_used):.2f} s")
     print("found of what an exact search finds:", " ".join(f"{each:.2f}" for each in recalls))
     print(f"mean {np.mean(recalls):.3f} (0.97 promised)")
-    record("scale.search.clock", round(median(clock), 1), unit="s")
     record("scale.search.processor", round(median(used), 1), unit="s")
     record("scale.search.exact", round(1000 * median(exact_used) / hours, 1), unit="ms")
     record("scale.search.recall", round(float(np.mean(recalls)), 3))

@@ -5,8 +5,8 @@
 Three libraries: the five trials of subject 86; six sequences of HDM05 exercises, two of each of
 three people; all of them. Each cluster of a library stands for one action at most, the same in all
 its recordings; told is the share of frames that are right then, and how many clusters there are
-for how many actions. Then the mean of five more libraries, of six other sequences each, on which
-nothing was chosen. ``--most`` lets so many words at most be compared each with each, as in
+for how many actions. Then the mean of five more libraries, of six other sequences each, which
+were looked at when the constants were chosen. ``--most`` lets so many words at most be compared each with each, as in
 larger libraries. ``--keep`` keeps what was found in each recording alone for the next time.
 
 ``--growth 100 1000 10000`` measures instead what joining so many words takes: shaken copies of

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import warnings
 from collections.abc import Callable
@@ -69,3 +70,11 @@ def test_labels_may_be_edited(tmp_path: Path, name: str, form: str, beside: Besi
     edited = kineme.read_segments(path, format=form)
     assert edited.activities.label.tolist() == ["jump", "squat"]
     assert beside(path).name not in str(edited.provenance.get("notes", ""))
+
+
+def test_an_odd_number_of_frames_is_told_on_one_line(tmp_path: Path) -> None:
+    path = table(tmp_path / "a", "a.csv", "csv", 60.0, "walk")
+    head = json.loads(provenance_path(path).read_text())
+    provenance_path(path).write_text(json.dumps({**head, "n_frames": "a\nb"}))
+    with pytest.raises(ReadError, match=r"speaks of 'a\\nb' frames"):
+        kineme.read_segments(path)

@@ -76,7 +76,7 @@ def test_a_hit_is_of_the_library_whatever_files_are_called_so(
     hit = library.search("walk.bvh", 2.0, 3.2, top=1)[0]
     (tmp_path / "walk.bvh").write_text("something else")
     monkeypatch.chdir(tmp_path)
-    assert library.search(Example(hit.recording, hit.start_s, hit.stop_s), top=1)[0][:2] == hit[:2]
+    assert library.search(hit, top=1)[0][:2] == library.search([hit], top=1)[0][:2] == hit[:2]
     assert library.search(cluster=hit.cluster, top=1)
     with pytest.raises(ReadError):
         library.search("walk.bvh", 2.0, 3.2)

@@ -82,7 +82,7 @@ def _with_the_rest(columns: dict[str, list[Any]], path: Path) -> Segmentation:
             raise ReadError(
                 path,
                 f"ends at frame {max(columns['stop_frame'])}, but {beside.name} speaks of "
-                f"{head.get('n_frames')} frames: remove that file if it belongs to another table",
+                f"{head.get('n_frames')!r} frames: remove that file if it belongs to another table",
             )
         alone = {name: said for name, said in head.items() if name != "hierarchy"}
         told = with_head(columns, alone, path)

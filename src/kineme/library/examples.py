@@ -13,7 +13,7 @@ from kineme.library.descriptions import Description, describe
 from kineme.library.layout import PIECES
 from kineme.library.opened import OpenTables
 from kineme.library.pieces import read_features
-from kineme.library.searching import Example, Named
+from kineme.library.searching import Example, Hit, Named
 from kineme.library.storage.places import place
 from kineme.library.storage.recordings import read_at
 from kineme.recordings import Motion, Signals
@@ -23,22 +23,28 @@ Float32s = NDArray[np.float32]
 
 
 def as_examples(
-    like: AnyPath | Motion | Signals | Example | Sequence[Example] | None,
+    like: AnyPath | Motion | Signals | Example | Hit | Sequence[Example | Hit] | None,
     start_s: float,
     stop_s: float | None,
 ) -> list[Example]:
-    """What is searched for as examples."""
+    """What is searched for as examples; a hit is one of the library, whatever files there are."""
     if like is None:
         return []
     if isinstance(like, str | PathLike | Motion | Signals):
         return [Example(like, start_s, stop_s)]
-    given = list(like) if isinstance(like, Iterable) else [like]
+    given = list(like) if isinstance(like, Iterable) and not isinstance(like, Hit) else [like]
+    examples = []
     for example in given:
-        if not isinstance(example, Example):
+        if isinstance(example, Hit):
+            examples.append(Example(Named(example.recording), example.start_s, example.stop_s))
+        elif isinstance(example, Example):
+            examples.append(example)
+        else:
             raise ParameterError(
-                f"an example is a file, a name, a recording or an Example, not {example!r:.60}"
+                f"an example is a file, a name, a recording, a Hit or an Example, not "
+                f"{example!r:.60}"
             )
-    return given
+    return examples
 
 
 def features_of(

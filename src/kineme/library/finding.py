@@ -132,7 +132,7 @@ def _hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -
 
     Of segments that cover as much, that of the finer level counts.
     """
-    recording = Named(tables.recordings["recording"][row])
+    recording = tables.recordings["recording"][row]
     fps, lasts = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
     start_s, stop_s = start / fps, min(stop / fps, lasts)
     segments = tables.columns("segments")

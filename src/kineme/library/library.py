@@ -115,12 +115,12 @@ class Library:
 
     def search(
         self,
-        like: AnyPath | Motion | Signals | Example | Sequence[Example] | None = None,
+        like: AnyPath | Motion | Signals | Example | Hit | Sequence[Example | Hit] | None = None,
         start_s: float = 0.0,
         stop_s: float | None = None,
         *,
         cluster: int | str | None = None,
-        unlike: Sequence[Example] = (),
+        unlike: Sequence[Example | Hit] = (),
         threshold: float = THRESHOLD,
         top: int | None = 50,
         max_per_recording: int | None = None,
@@ -134,13 +134,13 @@ class Library:
 
         Parameters
         ----------
-        like : path-like, Motion, Signals, Example or sequence of Example
+        like : path-like, Motion, Signals, Example, Hit or sequence of Example or Hit
             What is searched for: a recording, or several spans of some, any of which will do.
         start_s, stop_s : float
             The span of a single recording, seconds.
         cluster : int or str, optional
             Search for the most typical segments of a cluster, by number or name, as well.
-        unlike : sequence of Example
+        unlike : sequence of Example or Hit
             What is more like one of these than like any example is left out.
         threshold : float
             Largest distance.

@@ -35,8 +35,7 @@ class Example:
     Parameters
     ----------
     recording : path-like, Motion or Signals
-        A file, else the name of a recording of the library, or a recording in hand. That of a
-        `Hit` is a name, whatever files there are.
+        A file, else the name of a recording of the library, or a recording in hand.
     start_s, stop_s : float, optional
         Seconds; from the beginning and to the end by default.
 
