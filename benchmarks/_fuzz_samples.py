@@ -21,8 +21,8 @@ from kineme.labels import json_table
 from kineme.library import Library, build
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.journal import Journal
-from kineme.studio.storage import SUFFIX, saved_table
+from kineme.studio.kept.journal import Journal
+from kineme.studio.kept.storage import SUFFIX, saved_table
 from kineme.synthesis import motion_graph
 from kineme.synthesis.graph_file import read_graph, write_graph
 

@@ -15,10 +15,10 @@ from kineme.library import Settings
 from kineme.library.compiling import compiled
 from kineme.library.constants import VOCABULARY
 from kineme.library.index.kept import write_index
-from kineme.library.layout import HEAD, PIECES, SCHEMA, write_json
 from kineme.library.making import make_piece
-from kineme.library.pieces import Piece, has_piece, write_piece
-from kineme.library.tables import write_tables
+from kineme.library.storage.layout import HEAD, PIECES, SCHEMA, write_json
+from kineme.library.storage.pieces import Piece, has_piece, write_piece
+from kineme.library.storage.tables import write_tables
 from kineme.recordings import Motion, Signals
 
 SHAKEN = 0.05

@@ -35,7 +35,7 @@ from _figures import add_option, record
 from kineme.errors import KinemeError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.index import kept
-from kineme.library.pieces import read_features, read_piece
+from kineme.library.storage.pieces import read_features, read_piece
 from kineme.library.storage.places import is_remote, place
 
 SPANS = {"a": (0, 400), "b": (700, 1100), "c": (1300, 1700), "d": (2000, 2500)}

@@ -38,10 +38,10 @@ from kineme import Library, bundled_recording, read, segment
 from kineme._interpolation import at_frames
 from kineme.features.canonical import MATCHING_FPS, matching_features
 from kineme.library import Settings
-from kineme.library.layout import HEAD, PIECES, TABLES
 from kineme.library.making import make_piece
-from kineme.library.pieces import Piece, has_piece, write_piece
 from kineme.library.searching import Example, Hit
+from kineme.library.storage.layout import HEAD, PIECES, TABLES
+from kineme.library.storage.pieces import Piece, has_piece, write_piece
 from kineme.library.vocabulary.words import places_in
 from kineme.segments.table import SegmentTable
 

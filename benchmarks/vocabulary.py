@@ -6,8 +6,9 @@ Three libraries: the five trials of subject 86; six sequences of HDM05 exercises
 three people; all of them. Each cluster of a library stands for one action at most, the same in all
 its recordings; told is the share of frames that are right then, and how many clusters there are
 for how many actions. Then the mean of five more libraries, of six other sequences each, which
-were looked at when the constants were chosen. ``--most`` lets so many words at most be compared each with each, as in
-larger libraries. ``--keep`` keeps what was found in each recording alone for the next time.
+were looked at when the constants were chosen. ``--most`` lets so many words at most be compared
+each with each, as in larger libraries. ``--keep`` keeps what was found in each recording alone
+for the next time.
 
 ``--growth 100 1000 10000`` measures instead what joining so many words takes: shaken copies of
 those of subject 86, in seconds of processors.
@@ -32,8 +33,8 @@ from kineme.evaluation import Annotation, Labelling
 from kineme.evaluation.frames import one_to_one_accuracy
 from kineme.evaluation.labelling import TRANSITION
 from kineme.library.constants import VOCABULARY
-from kineme.library.layout import PIECES
-from kineme.library.pieces import read_piece
+from kineme.library.storage.layout import PIECES
+from kineme.library.storage.pieces import read_piece
 from kineme.library.vocabulary.crowds import Crowd, clusters_in
 from kineme.library.vocabulary.joining import Word
 from kineme.library.vocabulary.words import crowd_of, places_in

@@ -144,7 +144,7 @@ import json, sys
 from pathlib import Path
 from starlette.testclient import TestClient
 from kineme.studio.app import create_app
-from kineme.studio.events import Hub
+from kineme.studio.http.events import Hub
 from kineme.studio.folder import Folder
 from kineme.studio.open_recordings import OpenRecordings
 

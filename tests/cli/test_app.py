@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 import kineme as package
 from kineme.cli.app import app
-from kineme.cli.constant_texts import shown
+from kineme.cli.options.constant_texts import shown
 from kineme.datasets import bundled_recording
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
@@ -108,7 +108,7 @@ def test_constants_given_one_by_one_make_the_preset(
         asked.update(constants)
         raise package.ParameterError("enough")
 
-    monkeypatch.setattr("kineme.cli.request.resolve_preset", remember)
+    monkeypatch.setattr("kineme.cli.options.request.resolve_preset", remember)
     options = []
     for known in preset.constants():
         options += [f"--{known.name.replace('_', '-')}", typed(known.value)]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import kineme as package
-from kineme.cli.targets import files_for
+from kineme.cli.options.targets import files_for
 from kineme.datasets import bundled_recording
 from kineme.recordings.operations import cut
 

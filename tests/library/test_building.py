@@ -233,7 +233,7 @@ def test_a_full_disk_ends_the_build_and_leaves_what_was_there(
 
 
 def test_one_build_at_a_time(folder: Path) -> None:
-    from kineme.library.layout import held
+    from kineme.library.storage.layout import held
 
     with held(folder, "build"), pytest.raises(WriteError, match="another process"):
         build((), folder)

@@ -18,8 +18,8 @@ import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.constants import VOCABULARY
-from kineme.library.layout import as_column
-from kineme.library.tables import DESCRIBED
+from kineme.library.storage.layout import as_column
+from kineme.library.storage.tables import DESCRIBED
 from kineme.matching import THRESHOLD
 from kineme.segments.table import COLUMNS
 

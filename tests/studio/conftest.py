@@ -13,8 +13,8 @@ from studio_clients import PORT, TOKEN, Process, Studio
 
 from kineme.datasets import bundled_recording
 from kineme.studio.app import create_app
-from kineme.studio.events import Hub
 from kineme.studio.folder import Folder
+from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
 
 FRAMES = 240

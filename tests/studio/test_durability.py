@@ -22,8 +22,8 @@ from kineme.segments import editing
 from kineme.segments.history import LONGEST, History
 from kineme.studio import server
 from kineme.studio.folder import Folder
+from kineme.studio.http.uploads import FORGOTTEN, Upload, forget_drafts
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.uploads import FORGOTTEN, Upload, forget_drafts
 
 
 def test_a_killed_server_loses_nothing_it_acknowledged(start, folder: Path) -> None:

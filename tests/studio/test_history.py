@@ -14,7 +14,7 @@ from studio_clients import Studio
 
 import kineme
 from kineme.segments.history import LONGEST
-from kineme.studio import journal, records
+from kineme.studio.kept import journal, records
 
 
 def named(studio: Studio, label: str = "hop") -> dict[str, Any]:

@@ -18,8 +18,9 @@ from kineme.studio.folder import Folder
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.reading import RecordingCache
+from kineme.web.edits import Split
 from kineme.web.encoding import to_json
-from kineme.web.requests import EditRequest, Split
+from kineme.web.requests import EditRequest
 
 
 def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatch):

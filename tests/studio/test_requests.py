@@ -24,7 +24,7 @@ from studio_clients import TOKEN
 import kineme
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, resolve_preset
-from kineme.studio.events import Hub
+from kineme.studio.http.events import Hub
 from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.transfer import KnowledgeBase
 from kineme.web import folder_messages, messages

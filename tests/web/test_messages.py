@@ -12,8 +12,9 @@ import pytest
 
 import kineme
 from kineme.errors import ParameterError
+from kineme.web.edits import MoveBorder
 from kineme.web.encoding import from_json, to_json
-from kineme.web.requests import EditRequest, MoveBorder
+from kineme.web.requests import EditRequest
 
 Side = Literal["left", "right"]
 

@@ -8,10 +8,10 @@ from typing import Annotated, Any
 import typer
 
 from kineme.cli.help import LABELS
-from kineme.cli.inputs import Batch, Recursive
-from kineme.cli.reading import with_reading_options
-from kineme.cli.request import Request
-from kineme.cli.targets import make_folder_of
+from kineme.cli.options.inputs import Batch, Recursive
+from kineme.cli.options.reading import with_reading_options
+from kineme.cli.options.request import Request
+from kineme.cli.options.targets import make_folder_of
 from kineme.errors import WriteError
 from kineme.labels import read_segments, write_segments
 from kineme.segments.table import Level

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme.cli.messages import Failures
-from kineme.cli.reading import Quiet
+from kineme.cli.options.reading import Quiet
 
 if TYPE_CHECKING:
     from kineme.datasets.cmu import Fetched

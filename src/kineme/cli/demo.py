@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import Quiet
-from kineme.cli.request import Request
+from kineme.cli.options.reading import Quiet
+from kineme.cli.options.request import Request
+from kineme.cli.options.targets import check_place, check_writable
 from kineme.cli.segment import write_results
-from kineme.cli.targets import check_place, check_writable
 
 
 def demo(

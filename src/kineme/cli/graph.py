@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import Batch, Files, Recursive
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import Quiet, with_body_options
-from kineme.cli.request import Request
-from kineme.cli.targets import check_place, check_writable
+from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.reading import Quiet, with_body_options
+from kineme.cli.options.request import Request
+from kineme.cli.options.targets import check_place, check_writable
 
 if TYPE_CHECKING:
     from kineme.recordings import Motion

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.reading import Effectors, Json, with_reading_options
-from kineme.cli.request import Request
+from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.reading import Effectors, Json, with_reading_options
+from kineme.cli.options.request import Request
 from kineme.errors import EndEffectorError
 
 if TYPE_CHECKING:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import Batch, Files, Recursive
 from kineme.cli.messages import Failures
-from kineme.cli.reading import Effectors, Quiet, with_body_options
-from kineme.cli.request import Request, Stage
+from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.reading import Effectors, Quiet, with_body_options
+from kineme.cli.options.request import Request, Stage
 
 if TYPE_CHECKING:
     from kineme.transfer import KnowledgeBase

@@ -7,11 +7,11 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.preset_options import Detail, PresetName, with_preset_options
-from kineme.cli.reading import Effectors, Quiet, with_reading_options
-from kineme.cli.request import Request
-from kineme.cli.targets import check_writable
+from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.preset_options import Detail, PresetName, with_preset_options
+from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
+from kineme.cli.options.request import Request
+from kineme.cli.options.targets import check_writable
 from kineme.methods.presets import DEFAULT
 
 

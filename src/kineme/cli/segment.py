@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.help import TABLES
-from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.preset_options import Detail, PresetName, with_preset_options
-from kineme.cli.reading import Effectors, Json, Quiet, with_reading_options
-from kineme.cli.request import Request
-from kineme.cli.targets import check_writable
+from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.preset_options import Detail, PresetName, with_preset_options
+from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
+from kineme.cli.options.request import Request
+from kineme.cli.options.targets import check_writable
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 

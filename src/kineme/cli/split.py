@@ -7,11 +7,11 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.inputs import Batch, Files, Recursive
-from kineme.cli.preset_options import PresetName, with_preset_options
-from kineme.cli.reading import Effectors, Quiet, with_reading_options
-from kineme.cli.request import Request
-from kineme.cli.targets import make_folder_of
+from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.preset_options import PresetName, with_preset_options
+from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
+from kineme.cli.options.request import Request
+from kineme.cli.options.targets import make_folder_of
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from kineme.cli.messages import Failures
-from kineme.cli.reading import Effectors, effector_names, with_body_options
+from kineme.cli.options.reading import Effectors, effector_names, with_body_options
 from kineme.errors import ParameterError
 
 

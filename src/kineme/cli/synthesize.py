@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from kineme.cli.messages import Failures, progress
-from kineme.cli.reading import Quiet
+from kineme.cli.options.reading import Quiet
 from kineme.errors import ParameterError
 
 

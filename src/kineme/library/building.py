@@ -17,7 +17,10 @@ from kineme.library.executors import Executor
 from kineme.library.executors.cluster import connected
 from kineme.library.gathering import Progress, gather
 from kineme.library.index.kept import write_index
-from kineme.library.layout import (
+from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
+from kineme.library.settings import Settings
+from kineme.library.sources import listed, names_of
+from kineme.library.storage.layout import (
     HEAD,
     LOCK_EDITS,
     PIECES,
@@ -28,12 +31,9 @@ from kineme.library.layout import (
     read_json,
     write_json,
 )
-from kineme.library.pieces import has_piece
-from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
-from kineme.library.settings import Settings
-from kineme.library.sources import listed, names_of
+from kineme.library.storage.pieces import has_piece
 from kineme.library.storage.places import lies_in, place, reaching, remove_folder
-from kineme.library.tables import read_table, write_tables
+from kineme.library.storage.tables import read_table, write_tables
 
 Head = Mapping[str, Any]
 """What ``library.json`` says; nothing where there is none yet."""

@@ -8,8 +8,8 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 
 from kineme.errors import ParameterError
-from kineme.library.layout import arrow, as_column
 from kineme.library.opened import OpenTables
+from kineme.library.storage.layout import arrow, as_column
 
 
 class Cluster(NamedTuple):

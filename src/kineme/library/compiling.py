@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.library.constants import VOCABULARY
-from kineme.library.layout import EMBEDDED, PIECES, arrow, as_array, as_column
-from kineme.library.pieces import Piece, read_piece
-from kineme.library.tables import read_table, table_of
+from kineme.library.storage.layout import EMBEDDED, PIECES, arrow, as_array, as_column
+from kineme.library.storage.pieces import Piece, read_piece
+from kineme.library.storage.tables import read_table, table_of
 from kineme.library.vocabulary.crowds import clusters_in
 from kineme.library.vocabulary.numbering import Spans, lasting_numbers
 from kineme.library.vocabulary.words import Place, crowd_of, places_in

@@ -19,7 +19,7 @@ from kineme.errors import MotionError, ParameterError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
-from kineme.library.layout import BODIES, EMBEDDED
+from kineme.library.storage.layout import BODIES, EMBEDDED
 from kineme.matching.whole_segments import course, embedding
 from kineme.methods.hierarchy.preset import SENSORS
 from kineme.methods.hierarchy.statistics import channel_statistics

@@ -15,7 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
-from kineme.library.layout import EDITS, MOST_CLUSTERS, as_array, as_column, read_json, write_json
+from kineme.library.storage.layout import (
+    EDITS,
+    MOST_CLUSTERS,
+    as_array,
+    as_column,
+    read_json,
+    write_json,
+)
 
 SCHEMA = "kineme.library.edits/1"
 Ints = NDArray[np.int64]

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
 from kineme.library.descriptions import Description, describe
-from kineme.library.layout import PIECES
 from kineme.library.opened import OpenTables
-from kineme.library.pieces import read_features
 from kineme.library.searching import Example, Hit, Named
+from kineme.library.storage.layout import PIECES
+from kineme.library.storage.pieces import read_features
 from kineme.library.storage.places import place
 from kineme.library.storage.recordings import read_at
 from kineme.recordings import Motion, Signals

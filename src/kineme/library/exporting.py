@@ -13,10 +13,10 @@ from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ParameterError, WriteError
 from kineme.labels.delimited import as_text, write_rows
 from kineme.library.clusters import cluster_table, clusters_of
-from kineme.library.layout import EXTRA, arrow
 from kineme.library.opened import OpenTables
 from kineme.library.searching import Hit
-from kineme.library.tables import DESCRIBED
+from kineme.library.storage.layout import EXTRA, arrow
+from kineme.library.storage.tables import DESCRIBED
 from kineme.recordings import Motion, Signals
 from kineme.segments.table import Segment
 
@@ -31,7 +31,7 @@ def table_called(tables: OpenTables, name: str) -> Any:
     ----------
     tables : OpenTables
     name : str
-        One of `kineme.library.tables.DESCRIBED`, or ``clusters``.
+        One of `kineme.library.storage.tables.DESCRIBED`, or ``clusters``.
 
     Raises
     ------

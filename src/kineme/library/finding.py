@@ -15,9 +15,9 @@ from kineme.library.index.kept import open_index
 from kineme.library.index.nearest import joined, parts_like
 from kineme.library.index.parts import Parts, Sought, matches_in
 from kineme.library.index.windows import Float32s, length_for
-from kineme.library.layout import BODIES, PIECES
 from kineme.library.opened import OpenTables
 from kineme.library.searching import Example, Hit, Named, best
+from kineme.library.storage.layout import BODIES, PIECES
 
 TYPICAL = 5
 """Words that stand for a cluster in a search, the most typical ones."""

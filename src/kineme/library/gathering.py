@@ -14,9 +14,9 @@ from kineme.errors import WriteError
 from kineme.library.duplicates import by_content
 from kineme.library.executors import Executor
 from kineme.library.executors.here import Here
-from kineme.library.layout import SEEN, read_json, write_json
 from kineme.library.planning import Plan
 from kineme.library.sources import Glances
+from kineme.library.storage.layout import SEEN, read_json, write_json
 from kineme.library.work import Outcome, Task, executor_for, outcomes_of, tasks_for
 
 Progress = Callable[[str], None]

@@ -16,11 +16,11 @@ from kineme.library.examples import as_examples
 from kineme.library.executors.cluster import connected
 from kineme.library.exporting import answer, table_called, write_hits, write_table
 from kineme.library.finding import hits_like, typical_examples
-from kineme.library.layout import arrow
 from kineme.library.opened import OpenTables
 from kineme.library.pictures import write_pictures
 from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
+from kineme.library.storage.layout import arrow
 from kineme.library.storage.places import place, reaching
 from kineme.matching import THRESHOLD
 from kineme.recordings import Motion, Signals
@@ -77,7 +77,7 @@ class Library:
 
     @property
     def recordings(self) -> dict[str, list[Any]]:
-        """The table of recordings by column; see `kineme.library.tables`."""
+        """The table of recordings by column; see `kineme.library.storage.tables`."""
         return self._tables.recordings
 
     @property
@@ -188,7 +188,7 @@ class Library:
         ----------
         sql : str
             For DuckDB: ``segments``, ``recordings``, ``words`` and ``embeddings``, whose columns
-            are told by `kineme.library.tables.DESCRIBED`, and ``clusters``.
+            are told by `kineme.library.storage.tables.DESCRIBED`, and ``clusters``.
 
         Raises
         ------

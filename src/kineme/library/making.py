@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.library.descriptions import describe
-from kineme.library.layout import EMBEDDED
-from kineme.library.pieces import Piece
 from kineme.library.settings import Settings
+from kineme.library.storage.layout import EMBEDDED
+from kineme.library.storage.pieces import Piece
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.segmenter import segment
 

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
 from kineme.library.edits import Edits, edited, read_edits
-from kineme.library.layout import LOCK_EDITS, as_array, held, read_head
 from kineme.library.settings import Settings
+from kineme.library.storage.layout import LOCK_EDITS, as_array, held, read_head
 from kineme.library.storage.places import place
 from kineme.library.storage.recordings import read_at
-from kineme.library.tables import DESCRIBED, read_table
+from kineme.library.storage.tables import DESCRIBED, read_table
 from kineme.recordings import Motion, Signals
 
 Columns = dict[str, NDArray[Any]]
@@ -74,7 +74,7 @@ class OpenTables:
         return read_at(self.path_of(recording), self.settings.reading)
 
     def table(self, name: str) -> Any:
-        """A table, one of `kineme.library.tables.DESCRIBED`, as a pyarrow.Table."""
+        """A table, one of `kineme.library.storage.tables.DESCRIBED`, as a pyarrow.Table."""
         if name not in self._computed:
             self._computed[name] = read_table(self.folder, self.head["tables"], name)
         kept = self._edited  # an edit, in another thread, begins a new one

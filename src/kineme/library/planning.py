@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from kineme.errors import ParameterError, WriteError
-from kineme.library.layout import HEAD, PIECES, read_head, read_json
 from kineme.library.settings import Settings
+from kineme.library.storage.layout import HEAD, PIECES, read_head, read_json
 from kineme.library.storage.places import is_remote, place
 
 AnyPath = str | PathLike[str]

@@ -18,9 +18,9 @@ from kineme.formats import read_quietly
 from kineme.library.executors import Executor
 from kineme.library.executors.here import Here
 from kineme.library.executors.processes import Processes
-from kineme.library.pieces import has_piece, write_piece
 from kineme.library.settings import Settings
 from kineme.library.sources import content_digest, size_of
+from kineme.library.storage.pieces import has_piece, write_piece
 from kineme.library.storage.recordings import fetched
 
 PER_WORKER = 1 << 20

@@ -16,14 +16,14 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from kineme.errors import KinemeError, ReadError, SeveralPeopleError, WriteError
-from kineme.studio.answers import MessageResponse
-from kineme.studio.bodies import TooSlowError
-from kineme.studio.events import Hub
+from kineme.studio.http.answers import MessageResponse
+from kineme.studio.http.bodies import TooSlowError
+from kineme.studio.http.events import Hub
+from kineme.studio.http.security import Guard, is_trusted
+from kineme.studio.http.uploads import LIMIT, TooLargeError
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.routes import Api
-from kineme.studio.security import Guard, is_trusted
-from kineme.studio.uploads import LIMIT, TooLargeError
 from kineme.web.messages import Conflict, Failure
 
 if TYPE_CHECKING:

@@ -16,23 +16,23 @@ from kineme.segments.editing.marks import noted
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.loading import LoadedRecording
-from kineme.web import requests
-from kineme.web.requests import Edit
+from kineme.web import edits as sent
+from kineme.web.edits import Edit
 
 BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
-    requests.MoveBorder: editing.move_border,
-    requests.Split: editing.split,
-    requests.Merge: editing.merge,
-    requests.DeleteBorder: editing.delete_border,
-    requests.NameSegment: editing.name_segment,
-    requests.NameCluster: editing.name_cluster,
-    requests.SetCluster: editing.set_cluster,
-    requests.SetKind: editing.set_kind,
-    requests.MergeClusters: editing.merge_clusters,
-    requests.SplitCluster: editing.split_cluster,
-    requests.OrderClusters: editing.order_clusters,
-    requests.Remark: editing.comment,
-    requests.Check: editing.check,
+    sent.MoveBorder: editing.move_border,
+    sent.Split: editing.split,
+    sent.Merge: editing.merge,
+    sent.DeleteBorder: editing.delete_border,
+    sent.NameSegment: editing.name_segment,
+    sent.NameCluster: editing.name_cluster,
+    sent.SetCluster: editing.set_cluster,
+    sent.SetKind: editing.set_kind,
+    sent.MergeClusters: editing.merge_clusters,
+    sent.SplitCluster: editing.split_cluster,
+    sent.OrderClusters: editing.order_clusters,
+    sent.Remark: editing.comment,
+    sent.Check: editing.check,
 }
 """Corrections; the fields of each are the arguments of its function, in this order."""
 
@@ -94,14 +94,14 @@ def edited(
     KinemeError
         The edit cannot be made, and why.
     """
-    if isinstance(edit, requests.Together):
+    if isinstance(edit, sent.Together):
         for one in edit.edits:
             table = _by_hand(table, one)
         return Outcome(table)
     if type(edit) in BY_HAND:
         after = _by_hand(table, edit)
         return Outcome(after, _told(table, after, edit))
-    if isinstance(edit, requests.SegmentAgain):
+    if isinstance(edit, sent.SegmentAgain):
         keep = True if edit.keep is UNSET else edit.keep
         detail = DEFAULT_DETAIL if edit.detail is UNSET else edit.detail
         found = loaded.segment(edit.preset, edit.parameters, detail)
@@ -109,13 +109,13 @@ def edited(
         lost = [f"not taken over: {what}" for what in result.lost] if result else []
         after = result.segmentation if result else found
         return Outcome(after, [*found.provenance["notes"], *lost], replaced=True)
-    if isinstance(edit, requests.Transfer):
+    if isinstance(edit, sent.Transfer):
         return _labelled(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
-    if isinstance(edit, requests.TakeLabels):
+    if isinstance(edit, sent.TakeLabels):
         path = files.annotation(edit.annotation)
         said = read_segments(path, fps=table.fps, n_frames=table.n_frames)
         return Outcome(said, [f"the table is that of {path.name}"], replaced=True)
-    if isinstance(edit, requests.Restore):
+    if isinstance(edit, sent.Restore):
         return Outcome(version(edit.version), replaced=True)
     raise ParameterError(f"there is no edit {type(edit).__name__}")
 
@@ -124,7 +124,7 @@ def _by_hand(table: Segmentation, edit: Struct) -> Segmentation:
     """The table after a correction, which it counts; what a person made of it is marked."""
     fields = (getattr(edit, name) for name in edit.__struct_fields__)
     after = BY_HAND[type(edit)](table, *fields)
-    if isinstance(edit, requests.Check | requests.Remark):
+    if isinstance(edit, sent.Check | sent.Remark):
         return after
     before = table.provenance.get("corrections")
     count = before + 1 if isinstance(before, int) else 1
@@ -134,9 +134,9 @@ def _by_hand(table: Segmentation, edit: Struct) -> Segmentation:
 
 def _told(before: Segmentation, after: Segmentation, edit: Struct) -> list[str]:
     """How many segments a change of a cluster reached, and how many keep a name of their own."""
-    if not isinstance(edit, requests.NameCluster | requests.MergeClusters):
+    if not isinstance(edit, sent.NameCluster | sent.MergeClusters):
         return []
-    cluster = edit.cluster if isinstance(edit, requests.NameCluster) else edit.into
+    cluster = edit.cluster if isinstance(edit, sent.NameCluster) else edit.into
     name = editing.cluster_names(after).get(cluster, "")
     members = after.table.select(after.table.cluster == cluster)
     own = int((members.label != name).sum())
@@ -147,13 +147,13 @@ def _told(before: Segmentation, after: Segmentation, edit: Struct) -> list[str]:
     )
     more = f"{own} keep their own name" if own else ""
     moved = int((before.table.cluster == edit.cluster).sum())
-    merged = isinstance(edit, requests.MergeClusters)
+    merged = isinstance(edit, sent.MergeClusters)
     joined = f"{moved} segments are in cluster {cluster} now" if merged else ""
     return ["; ".join(filter(None, [joined, called, more]))]
 
 
 def _labelled(
-    table: Segmentation, edit: requests.Transfer, loaded: LoadedRecording, path: Path
+    table: Segmentation, edit: sent.Transfer, loaded: LoadedRecording, path: Path
 ) -> Outcome:
     from kineme.transfer import THRESHOLD, KnowledgeBase
 

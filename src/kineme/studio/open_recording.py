@@ -19,15 +19,16 @@ from msgspec import structs
 from kineme.errors import KinemeError, ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
-from kineme.studio.journal import Change, Journal
+from kineme.studio.kept.journal import Change, Journal
 from kineme.studio.kept.reading_of_one import said_of
+from kineme.studio.kept.storage import ChangedOnDiskError, saved_table
 from kineme.studio.kept.videos import video_message
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.looks import preview_of, versions_of
 from kineme.studio.reading import RecordingCache
-from kineme.studio.storage import ChangedOnDiskError, saved_table
+from kineme.web.edits import Edit, Redo, Undo
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
-from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
+from kineme.web.requests import PreviewRequest
 
 STILL_FINDING = "the segments are still being found: try again once they are"
 

@@ -7,7 +7,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from kineme.studio.answers import MessageResponse, number_in
+from kineme.studio.http.answers import MessageResponse, number_in
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.web.messages import CurveList

@@ -9,8 +9,8 @@ from pathlib import Path
 from kineme.errors import KinemeError
 from kineme.labels import read_segments
 from kineme.segments.editing.marks import marked
+from kineme.studio.kept.storage import usual_tables
 from kineme.studio.reading import stamp_of
-from kineme.studio.storage import usual_tables
 
 MOST_KNOWN = 10_000
 """Tables whose counts stay in memory."""

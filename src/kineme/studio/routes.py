@@ -21,19 +21,19 @@ from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
-from kineme.studio.answers import MessageResponse, file_response, number_in
-from kineme.studio.bodies import body, chunks
-from kineme.studio.events import Hub
 from kineme.studio.folder import file_id
-from kineme.studio.kept.vocabulary import shared_labels
-from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.pictures import Pictures
-from kineme.studio.progress import progress
-from kineme.studio.uploads import (
+from kineme.studio.http.answers import MessageResponse, file_response, number_in
+from kineme.studio.http.bodies import body, chunks
+from kineme.studio.http.events import Hub
+from kineme.studio.http.uploads import (
     LIMIT,
     Upload,
     recording_suffixes,
 )
+from kineme.studio.kept.vocabulary import shared_labels
+from kineme.studio.open_recordings import OpenRecordings, UnknownError
+from kineme.studio.pictures import Pictures
+from kineme.studio.progress import progress
 from kineme.studio.whole import Whole
 from kineme.web.encoding import from_json
 from kineme.web.folder_messages import FileChoice, Listing, State

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING
 import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
-from kineme.studio.events import Hub
-from kineme.studio.security import new_token
+from kineme.studio.http.events import Hub
+from kineme.studio.http.security import new_token
 
 if TYPE_CHECKING:
     from kineme.studio.library.shown import ShownLibrary
@@ -90,8 +90,8 @@ def serve(
         # The browser starts meanwhile; its first request waits in the socket.
         from kineme.studio.app import create_app
         from kineme.studio.folder import Folder
+        from kineme.studio.http.uploads import forget_drafts
         from kineme.studio.open_recordings import OpenRecordings
-        from kineme.studio.uploads import forget_drafts
 
         hub = Hub()
         folder = Folder(root, files) if library is None else library.as_folder()

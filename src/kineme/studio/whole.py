@@ -17,13 +17,13 @@ from starlette.routing import Route
 
 from kineme.errors import ParameterError
 from kineme.segments.table import Level
-from kineme.studio.answers import MessageResponse, file_response
-from kineme.studio.bodies import body
+from kineme.studio.http.answers import MessageResponse, file_response
+from kineme.studio.http.bodies import body
+from kineme.studio.http.uploads import safe_name
 from kineme.studio.kept.videos import set_offset, video_of
 from kineme.studio.kept.vocabulary import share_labels
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.progress import progress
-from kineme.studio.uploads import safe_name
 from kineme.web.encoding import from_json
 from kineme.web.folder_messages import FileChoice
 from kineme.web.requests import (

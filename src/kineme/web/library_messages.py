@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
+from kineme.web.edits import EditBase, Request, Text, Whole
 from kineme.web.messages import MotionHead
-from kineme.web.requests import EditBase, Request, Text, Whole
 
 MOST_EXAMPLES = 500
 """Examples, or counter-examples, of one search."""

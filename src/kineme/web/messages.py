@@ -13,7 +13,7 @@ from typing import Any
 from msgspec import Struct
 
 from kineme.segments.table import Level, Segment
-from kineme.web.requests import Edit
+from kineme.web.edits import Edit
 
 
 class CommentAt(Struct, frozen=True, kw_only=True):

@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from kineme.methods.recurrence import _end_kernels as kernels
 from kineme.methods.recurrence.analysis import analyze_actions
-from kineme.methods.recurrence.ends import Ends, fitted_ends
 from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.recurrence.repeating import _end_kernels as kernels
+from kineme.methods.recurrence.repeating.ends import Ends, fitted_ends
 from loops import swing
 
 PERIOD = 36

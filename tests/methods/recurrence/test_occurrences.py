@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 
 import naive
-from kineme.methods.recurrence import _occurrence_kernels as kernels
 from kineme.methods.recurrence.analysis import analyze_actions
-from kineme.methods.recurrence.occurrences import Occurrences, occurrences
 from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.recurrence.repeating import _occurrence_kernels as kernels
+from kineme.methods.recurrence.repeating.occurrences import Occurrences, occurrences
 
 seconds = settings(max_examples=40)
 

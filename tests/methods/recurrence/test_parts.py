@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 import kineme
 from kineme.datasets import Action, synthesize
-from kineme.methods.recurrence.parts import clusters_of_repetitions
 from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.recurrence.repeating.parts import clusters_of_repetitions
 from loops import nod
 
 FRAMES = 30

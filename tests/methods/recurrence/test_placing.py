@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from kineme.methods.recurrence.occurrences import Occurrences
-from kineme.methods.recurrence.placing import Segments, of_actions, placed
+from kineme.methods.recurrence.repeating.occurrences import Occurrences
+from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed
 
 BORDERS = np.array([0, 100, 130, 300, 400])
 LABELS = np.array([0, -1, 1, 0])

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 import naive
 from bands import points
-from kineme.methods.recurrence import _candidate_kernels as candidate_kernels
 from kineme.methods.recurrence import _distance_kernels as kernels
 from kineme.methods.recurrence.preset import KINEME
-from kineme.methods.recurrence.repetitions import Repetitions, repetitions
+from kineme.methods.recurrence.repeating import _candidate_kernels as candidate_kernels
+from kineme.methods.recurrence.repeating.repetitions import Repetitions, repetitions
 from loops import nod, swing
 
 seconds = settings(max_examples=60)

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import typer
 
 from kineme.cli.messages import Failures
-from kineme.cli.reading import Quiet
+from kineme.cli.options.reading import Quiet
 from kineme.errors import WriteError
 from kineme.methods.presets import DEFAULT
 

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.help import RECORDINGS
-from kineme.cli.inputs import Batch
 from kineme.cli.library.folder import Scheduler, path_or_url
 from kineme.cli.messages import Failures, progress, say_skipped
-from kineme.cli.preset_options import PRESET, with_preset_options
-from kineme.cli.reading import Effectors, Quiet, with_reading_options
-from kineme.cli.request import Request
+from kineme.cli.options.inputs import Batch
+from kineme.cli.options.preset_options import PRESET, with_preset_options
+from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
+from kineme.cli.options.request import Request
 from kineme.methods.presets import DEFAULT
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme.cli.library.folder import Folder, Json, Scheduler, opened
-from kineme.cli.reading import Quiet
-from kineme.cli.targets import make_folder_of
+from kineme.cli.options.reading import Quiet
+from kineme.cli.options.targets import make_folder_of
 
 if TYPE_CHECKING:
     from kineme.library import Example, Hit

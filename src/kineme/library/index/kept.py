@@ -14,8 +14,8 @@ import numpy as np
 
 from kineme.errors import ReadError
 from kineme.library.index.windows import LENGTHS, NUMBERS, Bytes, Ints, by_length, count
-from kineme.library.layout import BODIES, PIECES, TABLES
-from kineme.library.pieces import read_windows
+from kineme.library.storage.layout import BODIES, PIECES, TABLES
+from kineme.library.storage.pieces import read_windows
 from kineme.library.storage.places import near, written
 
 FROM_HOURS = 100.0

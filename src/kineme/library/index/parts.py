@@ -15,8 +15,8 @@ from threadpoolctl import threadpool_limits
 from kineme._threads import map_threads
 from kineme.errors import KinemeError
 from kineme.library.executors import Executor
-from kineme.library.pieces import read_parts
 from kineme.library.searching import spans_like
+from kineme.library.storage.pieces import read_parts
 from kineme.matching import Matches
 
 Float32s = NDArray[np.float32]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.library.constants import VOCABULARY, VocabularyConstants
-from kineme.library.pieces import Piece, read_features
+from kineme.library.storage.pieces import Piece, read_features
 from kineme.library.vocabulary.crowds import Crowd
 from kineme.library.vocabulary.joining import Word
 from kineme.segments.table import SegmentTable

@@ -25,7 +25,7 @@ from kineme.methods.hierarchy.parts import linked, part_ends
 from kineme.methods.hierarchy.tree import median_distance
 from kineme.methods.hierarchy.views import seen
 from kineme.methods.recurrence.evidence import counted
-from kineme.methods.recurrence.repetitions import Repetitions, repetitions
+from kineme.methods.recurrence.repeating.repetitions import Repetitions, repetitions
 from kineme.methods.samples import unstacked
 from kineme.methods.stages import Progress, stopwatch
 

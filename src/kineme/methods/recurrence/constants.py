@@ -25,7 +25,7 @@ from kineme.methods.constants import (
     Limits,
     constant,
 )
-from kineme.methods.recurrence.counting import CountingPreset
+from kineme.methods.recurrence.repeating.counting import CountingPreset
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,15 +18,15 @@ from kineme.methods.evidence import (
     cut_statistics,
     link_statistics,
 )
-from kineme.methods.recurrence import _candidate_kernels as kernels
 from kineme.methods.recurrence._recurrence_kernels import mean_in_band
-from kineme.methods.recurrence.placing import Segments
 from kineme.methods.recurrence.recurrence import Recurrence
-from kineme.methods.recurrence.repetitions import movement
+from kineme.methods.recurrence.repeating import _candidate_kernels as kernels
+from kineme.methods.recurrence.repeating.placing import Segments
+from kineme.methods.recurrence.repeating.repetitions import movement
 from kineme.methods.samples import spread
 
 if TYPE_CHECKING:
-    from kineme.methods.recurrence.counting import CountingPreset
+    from kineme.methods.recurrence.repeating.counting import CountingPreset
 
 Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]

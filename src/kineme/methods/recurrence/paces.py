@@ -22,9 +22,9 @@ from kineme.methods.evidence import Evidence
 from kineme.methods.recurrence.actions import Actions
 from kineme.methods.recurrence.activities import activities, find_actions
 from kineme.methods.recurrence.evidence import evidence
-from kineme.methods.recurrence.placing import Segments
 from kineme.methods.recurrence.primitives import count_repetitions, with_repetitions
 from kineme.methods.recurrence.recurrence import Recurrence, narrower, phase_windows
+from kineme.methods.recurrence.repeating.placing import Segments
 
 if TYPE_CHECKING:
     from kineme.methods.recurrence.constants import RecurrenceConstants

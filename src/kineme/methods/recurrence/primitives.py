@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import map_threads
-from kineme.methods.recurrence.ends import fitted_ends
-from kineme.methods.recurrence.occurrences import occurrences
-from kineme.methods.recurrence.parts import clusters_of_repetitions
-from kineme.methods.recurrence.placing import Segments, of_actions, placed
 from kineme.methods.recurrence.recurrence import Recurrence
-from kineme.methods.recurrence.repetitions import Repetitions, repetitions
+from kineme.methods.recurrence.repeating.ends import fitted_ends
+from kineme.methods.recurrence.repeating.occurrences import occurrences
+from kineme.methods.recurrence.repeating.parts import clusters_of_repetitions
+from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed
+from kineme.methods.recurrence.repeating.repetitions import Repetitions, repetitions
 from kineme.methods.samples import single_poses
 
 if TYPE_CHECKING:

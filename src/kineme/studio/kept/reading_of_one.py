@@ -12,7 +12,7 @@ from typing import Any
 
 from kineme.errors import KinemeError
 from kineme.formats import ReadOptions
-from kineme.studio.records import FOLDER, write_file
+from kineme.studio.kept.records import FOLDER, write_file
 
 ASKED = ("person", "fps", "unit", "up")
 """Of the options, those that the page asks for."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from kineme.studio.records import FOLDER, write_file
+from kineme.studio.kept.records import FOLDER, write_file
 from kineme.web.messages import Video
 
 SUFFIXES = (".mp4", ".webm", ".m4v", ".mov", ".ogv")

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from kineme.errors import WriteError
-from kineme.studio.records import FOLDER, write_file
+from kineme.studio.kept.records import FOLDER, write_file
 
 FILE = "labels.json"
 

@@ -8,8 +8,8 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from kineme.errors import ParameterError
-from kineme.studio.answers import MessageResponse
-from kineme.studio.bodies import body
+from kineme.studio.http.answers import MessageResponse
+from kineme.studio.http.bodies import body
 from kineme.studio.library.figures import Figures
 from kineme.studio.library.shown import ShownLibrary
 from kineme.studio.open_recordings import OpenRecordings

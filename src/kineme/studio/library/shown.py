@@ -12,7 +12,7 @@ from typing import Literal
 from msgspec import structs
 
 from kineme.library import Library
-from kineme.library.layout import EDITS, HEAD
+from kineme.library.storage.layout import EDITS, HEAD
 from kineme.library.storage.places import is_remote
 from kineme.studio.folder import Folder, file_id
 from kineme.studio.library.names import call, name_of

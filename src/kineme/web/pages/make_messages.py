@@ -3,8 +3,8 @@
     python src/kineme/web/pages/make_messages.py
 
 writes ``src/messages.ts`` beside this file from `kineme.web.messages`,
-`kineme.web.folder_messages`, `kineme.web.library_messages` and
-`kineme.web.requests`: the same names, with their docstrings. Generators
+`kineme.web.folder_messages`, `kineme.web.library_messages`, `kineme.web.edits`
+and `kineme.web.requests`: the same names, with their docstrings. Generators
 that start from JSON Schema lose the names of ``Level`` and ``Edit`` and need a
 node package more; this one reads ``msgspec.inspect``. A test fails while the
 two sides differ.
@@ -21,11 +21,11 @@ from msgspec import Struct, inspect
 
 from kineme._files import atomic_write
 from kineme.segments.table import Kind, Level, Segment
-from kineme.web import folder_messages, library_messages, messages, requests
+from kineme.web import edits, folder_messages, library_messages, messages, requests
 
 TARGET = Path(__file__).parent / "src" / "messages.ts"
 HEAD = (
-    "// Made from kineme/web/messages.py and requests.py by make_messages.py; change them there.\n"
+    "// Made from kineme/web (messages, edits, requests) by make_messages.py; change them there.\n"
 )
 NULL_FOR_NAN = {(Segment, "score"), (Segment, "border_confidence")}  # JSON has no nan
 PLAIN: dict[Any, str] = {
@@ -143,7 +143,9 @@ def _comment(text: str) -> str:
 def messages_typescript() -> str:
     """What ``messages.ts`` holds."""
     of_table = {"Level": Level, "Kind": Kind, "Segment": Segment}
-    return typescript(of_table | types_of(messages, folder_messages, requests, library_messages))
+    return typescript(
+        of_table | types_of(messages, folder_messages, edits, requests, library_messages)
+    )
 
 
 if __name__ == "__main__":

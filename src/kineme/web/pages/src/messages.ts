@@ -1,4 +1,4 @@
-// Made from kineme/web/messages.py and requests.py by make_messages.py; change them there.
+// Made from kineme/web (messages, edits, requests) by make_messages.py; change them there.
 
 export type Level = "activity" | "primitive";
 

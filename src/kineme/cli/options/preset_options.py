@@ -14,7 +14,7 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.constant_texts import metavar, parsed, shown
+from kineme.cli.options.constant_texts import metavar, parsed, shown
 from kineme.errors import ParameterError
 from kineme.methods import PRESETS, Constant
 from kineme.methods.presets import DEFAULT

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from kineme._doors import reading
 from kineme.errors import ReadError
 from kineme.library.index.windows import all_windows
-from kineme.library.layout import BODIES, EMBEDDED, arrow, as_array, as_column
+from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.places import near, written
 from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
 

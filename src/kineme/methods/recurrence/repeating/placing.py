@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.recurrence.occurrences import Occurrences
+from kineme.methods.recurrence.repeating.occurrences import Occurrences
 from kineme.methods.segments import by_first_appearance
 
 Frames = NDArray[np.int64]

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._threads import map_threads
-from kineme.methods.recurrence import _end_kernels as kernels
+from kineme.methods.recurrence.repeating import _end_kernels as kernels
 
 if TYPE_CHECKING:
     from kineme.methods.recurrence.constants import RecurrenceConstants

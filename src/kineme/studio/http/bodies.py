@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator
 
 from starlette.requests import Request
 
-from kineme.studio.uploads import TooLargeError
+from kineme.studio.http.uploads import TooLargeError
 
 SLOWEST = 60.0
 """Seconds between two pieces of a request."""

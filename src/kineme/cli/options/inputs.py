@@ -16,7 +16,7 @@ import typer
 
 from kineme.cli.help import RECORDINGS
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
-from kineme.cli.targets import absolute, files_for, folders_for, tables_for, targets_for
+from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for, targets_for
 from kineme.errors import KinemeError, WriteError
 
 Files = Annotated[
@@ -65,7 +65,7 @@ class Batch:
         return len(self.paths) == 1 and self._is_named(self.paths[0])
 
     def targets(self, option: str, given: Path | None, suffix: str) -> list[Path | None]:
-        """Where the result of each recording goes; see `kineme.cli.targets`."""
+        """Where the result of each recording goes; see `kineme.cli.options.targets`."""
         with self._nothing_without():
             return targets_for(option, given, self.paths, suffix)
 

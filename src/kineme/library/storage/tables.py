@@ -19,7 +19,7 @@ import numpy as np
 from kineme._doors import reading
 from kineme._files import atomic_write
 from kineme.errors import ReadError, WriteError
-from kineme.library.layout import EMBEDDED, TABLES, arrow, as_array, as_column
+from kineme.library.storage.layout import EMBEDDED, TABLES, arrow, as_array, as_column
 from kineme.library.storage.places import is_remote, written
 from kineme.segments.table import DESCRIBED as SEGMENTS
 from kineme.segments.table import Column

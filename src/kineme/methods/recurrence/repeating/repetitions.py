@@ -21,11 +21,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.recurrence import _candidate_kernels as candidate_kernels
 from kineme.methods.recurrence import _distance_kernels as kernels
+from kineme.methods.recurrence.repeating import _candidate_kernels as candidate_kernels
 
 if TYPE_CHECKING:
-    from kineme.methods.recurrence.counting import CountingPreset
+    from kineme.methods.recurrence.repeating.counting import CountingPreset
 
 Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]

@@ -9,7 +9,7 @@ import msgspec
 
 from kineme._files import atomic_write
 from kineme.segments.history import History
-from kineme.web.requests import Edit
+from kineme.web.edits import Edit
 
 SCHEMA = "kineme.history/1"
 FOLDER = ".kineme"

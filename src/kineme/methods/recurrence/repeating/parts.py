@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.recurrence._end_kernels import evenly_in_time
+from kineme.methods.recurrence.repeating._end_kernels import evenly_in_time
 from kineme.methods.samples import spread
 from kineme.methods.segments import by_first_appearance
 

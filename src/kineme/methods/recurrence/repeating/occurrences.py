@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.recurrence import _occurrence_kernels as kernels
+from kineme.methods.recurrence.repeating import _occurrence_kernels as kernels
 from kineme.methods.segments import by_first_appearance
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from kineme.methods.constants import FACTOR, SHARE, SOME, TIME, Limits, constant
 
 @dataclass(frozen=True, kw_only=True)
 class CountingPreset(ConfidencePreset):
-    """A preset whose method counts repetitions; see `kineme.methods.recurrence.repetitions`."""
+    """A preset whose method counts repetitions, as `kineme.methods.recurrence.repeating` does."""
 
     repetition_smoothing: float = constant(
         "speeds are those of poses averaged over this time before and after", unit="s",

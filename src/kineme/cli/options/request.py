@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from kineme.cli.reading import effector_names
+from kineme.cli.options.reading import effector_names
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.segments.hierarchy import check_detail

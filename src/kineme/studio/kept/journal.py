@@ -8,7 +8,7 @@ It lies in a hidden folder beside the table, ``.kineme/walk.segments/`` for
 - ``1.json``, ``2.json``, …: the tables themselves, each as `kineme.read_segments` reads it.
 
 A table is written before the history that names it, and the history before the table that
-people have (`kineme.studio.storage`). So an edit that was acknowledged is in all three; of
+people have (`kineme.studio.kept.storage`). So an edit that was acknowledged is in all three; of
 one that was cut short by a killed server the last is missing, and it is taken back when the
 history is read again. Undo goes back `kineme.segments.history.LONGEST` steps; of the tables
 that were replaced the last `MOST_KEPT` are there.
@@ -27,7 +27,7 @@ from kineme.errors import ParameterError, WriteError
 from kineme.labels import json_table, read_segments
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.records import (
+from kineme.studio.kept.records import (
     FOLDER,
     Record,
     Step,
@@ -36,7 +36,7 @@ from kineme.studio.records import (
     write_file,
     write_record,
 )
-from kineme.web.requests import Edit
+from kineme.web.edits import Edit
 
 MOST_KEPT = 200
 MOST_NAMES = 200

@@ -1,0 +1,1 @@
+"""What several commands ask for: recordings, how to read them, where to write, constants."""

@@ -1,0 +1,1 @@
+"""What repeats: repetitions back to back, occurrences anywhere, their ends and parts."""

@@ -1,0 +1,120 @@
+"""What curves are drawn of a recording: heights, speeds, angles, channels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.recordings import Motion, Signals
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A curve, and how it comes from a recording."""
+
+    name: str
+    group: str
+    unit: str
+    values: Callable[[Motion | Signals], Floats]
+    of_frames: bool = True
+
+    def seen(self, recording: Motion | Signals) -> Floats:
+        """The values, nan in gaps."""
+        values = np.array(self.values(recording), np.float64)
+        for start, stop in recording.gaps if self.of_frames else ():
+            values[start:stop] = np.nan
+        return values
+
+
+def of_signals(signals: Signals) -> list[Drawn]:
+    """Each channel."""
+    return [Drawn(name, "channels", "", _channel(i)) for i, name in enumerate(signals.names)]
+
+
+def of_analog(signals: Signals, n_frames: int, fps: float) -> list[Drawn]:
+    """Channels beside a motion of so many frames: the least and the greatest value of each."""
+    return [
+        Drawn(name, "analog", "", _in_frames(i, n_frames, fps), of_frames=False)
+        for i, name in enumerate(signals.names)
+    ]
+
+
+def _in_frames(number: int, n_frames: int, fps: float) -> Callable[[Motion | Signals], Floats]:
+    """Least and greatest value of a channel in each frame of a slower recording."""
+
+    def pairs(recording: Motion | Signals) -> Floats:
+        channel = np.array(_values(recording)[:, number])
+        for start, stop in recording.gaps:
+            channel[start:stop] = np.nan
+        starts = np.floor(np.arange(n_frames) * (recording.fps / fps) + 1e-9).astype(np.intp)
+        there = starts[starts < len(channel)]
+        found = np.full((n_frames, 2), np.nan)
+        if len(there):
+            found[: len(there), 0] = np.fmin.reduceat(channel, there)
+            found[: len(there), 1] = np.fmax.reduceat(channel, there)
+        return found
+
+    return pairs
+
+
+def of_motion(motion: Motion) -> list[Drawn]:
+    """Height, place and speed of each joint, and how far it is bent where two bones meet."""
+    names, parents = motion.skeleton.names, motion.skeleton.parents
+    lengths = np.linalg.norm(motion.skeleton.offsets, axis=1)
+    drawn = [Drawn(name, "height", "m", _place(i, 1)) for i, name in enumerate(names)]
+    drawn += [Drawn(name, "speed", "m/s", _speed(i)) for i, name in enumerate(names)]
+    for joint, name in enumerate(names):
+        ends = [i for i, parent in enumerate(parents) if parent == joint and lengths[i] > 0]
+        if parents[joint] >= 0 and lengths[joint] > 0 and len(ends) == 1:
+            bend = _flexion(parents[joint], joint, ends[0])
+            drawn.append(Drawn(name, "flexion angle", "°", bend))
+    for axis, group in ((0, "x"), (2, "z")):
+        drawn += [Drawn(name, group, "m", _place(i, axis)) for i, name in enumerate(names)]
+    return drawn
+
+
+def _channel(number: int) -> Callable[[Motion | Signals], Floats]:
+    return lambda recording: _values(recording)[:, number]
+
+
+def _place(joint: int, axis: int) -> Callable[[Motion | Signals], Floats]:
+    return lambda recording: _positions(recording)[:, joint, axis]
+
+
+def _speed(joint: int) -> Callable[[Motion | Signals], Floats]:
+    def values(recording: Motion | Signals) -> Floats:
+        places = _positions(recording)[:, joint]
+        if len(places) < 2:
+            return np.zeros(len(places))
+        return np.asarray(np.linalg.norm(np.gradient(places, axis=0), axis=1) * recording.fps)
+
+    return values
+
+
+def _flexion(parent: int, joint: int, end: int) -> Callable[[Motion | Signals], Floats]:
+    """Degrees between a bone and the next one; 0 where they are in line."""
+
+    def values(recording: Motion | Signals) -> Floats:
+        places = _positions(recording)
+        before, after = places[:, joint] - places[:, parent], places[:, end] - places[:, joint]
+        sine = np.linalg.norm(np.cross(before, after), axis=1)
+        return np.asarray(np.degrees(np.arctan2(sine, (before * after).sum(axis=1))))
+
+    return values
+
+
+def _positions(recording: Motion | Signals) -> Floats:
+    if not isinstance(recording, Motion):
+        raise TypeError("the curve is of a motion")
+    return recording.positions
+
+
+def _values(recording: Motion | Signals) -> Floats:
+    if not isinstance(recording, Signals):
+        raise TypeError("the curve is of signals")
+    return recording.values
