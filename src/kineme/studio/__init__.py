@@ -1,16 +1,19 @@
 """The studio: a local server and a page to look at recordings and correct their segments.
 
     server   a socket of this machine, Ctrl+C, the browser
-      app      routes ─▶ open recordings, behind security: host, origin, token, headers
+      app      routes ─▶ open recordings, behind http.security: host, origin, token, headers
+        http              bodies of requests, uploads, answers, events
         open_recordings   by id; open_recording: table, revision, undo, saving of each
+          sketches          what a large file shows of itself while it is read
           loading           the recording itself and all that is computed from it; reading
-          storage           the table beside the recording, and whether someone else changed it
-          journal           undo, redo, and the tables that were replaced, on the disk
           edits             what each edit does to a table
-        folder            what there is to open, names and ids; uploads; progress of each
+          kept.storage      the table beside the recording, and whether someone else changed it
+          kept.journal      undo, redo, and the tables that were replaced, on the disk
+        folder            what there is to open, names and ids; progress of each
         choices           what the page offers: presets, constants, formats
+        library           the same for a library: clusters as cards, searches
 
 Everything that a page sends is checked as it is decoded into the types of
-`kineme.web.requests`. No path is ever made from what a page sends: files
+`kineme.web.edits` and `kineme.web.requests`. No path is ever made from what a page sends: files
 are found by ids, and an upload's name is made anew.
 """

@@ -1,4 +1,6 @@
-"""Where recordings are read from and libraries are kept: folders, and whatever fsspec reaches.
+"""What lies where: libraries and recordings in folders, and wherever else fsspec reaches.
+
+`layout` names the files of a library, `pieces` and `tables` are what they hold.
 
 A URL such as ``s3://bucket/takes`` becomes what behaves like a path (`places.place`), by
 universal_pathlib. `places` writes to it whole and keeps what was read from it near; `recordings`

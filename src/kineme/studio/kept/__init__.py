@@ -1,1 +1,1 @@
-"""Small files that the studio keeps in ``.kineme`` besides tables and their history."""
+"""Kept beside recordings: tables, their history, and small files in ``.kineme``."""
