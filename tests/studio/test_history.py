@@ -124,7 +124,7 @@ def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_wh
         raise RuntimeError("the end")
 
     with monkeypatch.context() as patch:
-        patch.setattr(f"kineme.studio.{places[cut]}", fail)
+        patch.setattr(f"kineme.studio.kept.{places[cut]}", fail)
         sent = {
             "revision": before["revision"],
             "edit": {"kind": "split", "level": "activity", "frame": 90},
