@@ -75,7 +75,8 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
     try:  # the metadata of single columns, where damaged, would end the process: not asked
         if texts:
             file = parquet.ParquetFile(pa.BufferReader(content.data), read_dictionary=texts)
-        table = file.read(columns=list(columns))
+        # A thread that lets go of the bytes while Python ends would make it abort.
+        table = file.read(columns=list(columns), use_threads=False)
         content.claim(sum(map(_spread_out, table.columns)), "texts that repeat")
         plain = [
             pa.field(field.name, field.type.value_type) if _is_coded(field.type) else field

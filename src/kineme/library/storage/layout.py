@@ -156,6 +156,9 @@ def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
 def arrow() -> tuple[Any, Any]:
     """The modules pyarrow and pyarrow.parquet.
 
+    Read with ``use_threads=False``: a thread of theirs that lets go of bytes of Python while Python
+    ends makes it abort, with all work done (https://github.com/apache/arrow/issues/34314).
+
     Raises
     ------
     MissingDependencyError

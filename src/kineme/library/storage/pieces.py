@@ -92,7 +92,8 @@ def read_piece(folder: Path, key: str) -> Piece:
     pa, parquet = arrow()
     path = folder / f"{key}.parquet"
     with reading(path):
-        table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
+        content = pa.BufferReader(path.read_bytes())
+        table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
         facts = json.loads(table.schema.metadata[METADATA])
         columns = {name: _column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())

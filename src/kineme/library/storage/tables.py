@@ -152,7 +152,8 @@ def read_table(folder: Path, named: str, name: str) -> Any:
     pa, parquet = arrow()
     path = folder / TABLES / named / f"{name}.parquet"
     with reading(path):
-        table = parquet.ParquetFile(pa.BufferReader(path.read_bytes())).read()
+        content = pa.BufferReader(path.read_bytes())
+        table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
         table.validate(full=True)
     for column, known in DESCRIBED[name].items():
         times = table.column_names.count(column)
