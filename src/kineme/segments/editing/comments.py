@@ -13,7 +13,7 @@ from typing import Any
 
 from kineme.segments.editing.rows import starting
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level
+from kineme.segments.table import Level, Segment
 
 Comment = tuple[Level, int, str]
 
@@ -50,27 +50,16 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
         No segment starts there.
     """
     row = starting(segmentation, level, frame)
-    kept = [
-        each
-        for each in comments(segmentation)
-        if each[0] != level or not row.start_frame <= each[1] < row.stop_frame
-    ]
+    kept = [each for each in comments(segmentation) if not _is_of(each, row)]
     if text:
-        kept.append((level, (row.start_frame + row.stop_frame) // 2, text))
+        kept.append(_of(row, text))
     return with_comments(segmentation, kept)
 
 
 def in_rows(segmentation: Segmentation) -> list[str]:
     """What is said about each row, in their order; empty where nothing is."""
     said = comments(segmentation)
-    return [
-        "; ".join(
-            text
-            for level, frame, text in said
-            if level == row.level and row.start_frame <= frame < row.stop_frame
-        )
-        for row in segmentation
-    ]
+    return ["; ".join(each[2] for each in said if _is_of(each, row)) for row in segmentation]
 
 
 def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
@@ -88,11 +77,7 @@ def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
     """
     if list(texts) == in_rows(segmentation):
         return segmentation
-    said: list[Comment] = [
-        (row.level, (row.start_frame + row.stop_frame) // 2, text)
-        for row, text in zip(segmentation, texts, strict=True)
-        if text
-    ]
+    said = [_of(row, text) for row, text in zip(segmentation, texts, strict=True) if text]
     return with_comments(segmentation, said)
 
 
@@ -103,3 +88,14 @@ def with_comments(segmentation: Segmentation, said: list[Comment]) -> Segmentati
     if said:
         provenance["comments"] = [list(each) for each in said]
     return replace(segmentation, provenance=provenance)
+
+
+def _of(row: Segment, text: str) -> Comment:
+    """A comment on a segment."""
+    return row.level, (row.start_frame + row.stop_frame) // 2, text
+
+
+def _is_of(said: Comment, row: Segment) -> bool:
+    """Whether a comment is on a segment."""
+    level, frame, _ = said
+    return level == row.level and row.start_frame <= frame < row.stop_frame
