@@ -9,7 +9,7 @@ from pathlib import Path
 from kineme.errors import KinemeError
 from kineme.labels import read_segments
 from kineme.segments.editing.marks import marked
-from kineme.studio.kept.storage import usual_tables
+from kineme.studio.kept.storage import usual_table
 from kineme.studio.reading import stamp_of
 
 MOST_KNOWN = 10_000
@@ -38,10 +38,8 @@ def progress(recording: Path) -> Progress | None:
     Progress or None
         None where it has no table.
     """
-    for path in usual_tables(recording):
-        if path.is_file():
-            return _counts(path, *stamp_of(path))
-    return None
+    path = usual_table(recording)
+    return _counts(path, *stamp_of(path)) if path else None
 
 
 @lru_cache(MOST_KNOWN)

@@ -130,6 +130,11 @@ def usual_tables(recording: Path) -> list[Path]:
     return [recording.with_name(name + SUFFIX) for name in (recording.stem, recording.name)]
 
 
+def usual_table(recording: Path) -> Path | None:
+    """That of them which is there, if one is."""
+    return next((path for path in usual_tables(recording) if path.is_file()), None)
+
+
 def _candidates(recording: Path) -> Iterator[Path]:
     yield from usual_tables(recording)
     for number in count(2):

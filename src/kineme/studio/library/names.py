@@ -15,7 +15,7 @@ from kineme.labels import read_segments
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 from kineme.studio.folder import file_id
-from kineme.studio.kept.storage import usual_tables
+from kineme.studio.kept.storage import usual_table
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.reading import stamp_of
 from kineme.web.edits import NameSegment
@@ -52,12 +52,10 @@ def segment_of(table: Segmentation, start_s: float, stop_s: float) -> Segment | 
 
 def name_of(recording: Path, start_s: float, stop_s: float) -> str:
     """What the segment that a span shows is called in the table beside its recording, if at all."""
-    for path in usual_tables(recording):
-        if path.is_file():
-            table = _table(path, *stamp_of(path))
-            row = segment_of(table, start_s, stop_s) if table is not None else None
-            return row.label if row is not None else ""
-    return ""
+    path = usual_table(recording)
+    table = _table(path, *stamp_of(path)) if path else None
+    row = segment_of(table, start_s, stop_s) if table is not None else None
+    return row.label if row is not None else ""
 
 
 def call(
