@@ -18,7 +18,6 @@ from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Library, Settings, build
 from kineme.library import work as work_module
 from kineme.library.duplicates import Group
-from kineme.library.executors.processes import Processes
 from library_folders import contents, write_channels
 
 
@@ -146,7 +145,7 @@ def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:
         paths[5].write_bytes(b" " * (size + 1))
         tasks = work_module.tasks_for(paths, tmp_path, Settings())
         assert tasks[0].path == paths[5]  # the largest is worked on first
-        assert work_module.executor_for(tasks, 4) == Processes(jobs)
+        assert min(work_module.workers_for(tasks), 4) == jobs
 
 
 def pieces_in(folder: Path) -> list[str]:

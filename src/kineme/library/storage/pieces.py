@@ -8,7 +8,7 @@ there is a Parquet file, the piece is whole.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
@@ -137,6 +137,25 @@ def read_parts(
             if file.readinto(part) != part.nbytes:  # type: ignore[arg-type]
                 raise ValueError("shorter than was written")
             _check_sound(part)
+
+
+def read_spans(
+    folder: Path, key: str, spans: Sequence[tuple[int, int]]
+) -> list[NDArray[np.float32]]:
+    """The features in a piece from some samples to others.
+
+    Raises
+    ------
+    ReadError
+        They are gone or damaged.
+    """
+    path = folder / f"{key}{FEATURES}"
+    with _opening(path):
+        whole = np.load(near(path), mmap_mode="r", allow_pickle=False)
+        parts = [_sound(np.array(whole[start:stop]), np.float32) for start, stop in spans]
+        if any(len(part) != stop - start for part, (start, stop) in zip(parts, spans, strict=True)):
+            raise ValueError("shorter than was written")
+    return parts
 
 
 def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
