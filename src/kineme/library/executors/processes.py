@@ -9,7 +9,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import get_context, parent_process
+from multiprocessing import forkserver, get_context, parent_process
 from multiprocessing.connection import wait as wait_for
 from multiprocessing.context import BaseContext
 
@@ -17,7 +17,15 @@ from kineme._threads import n_threads
 from kineme.library.executors import Executor, Outcome, Task
 from kineme.library.executors.here import Here
 
-SHARED = ("kineme.library.making", "kineme.methods.recurrence.analysis", "pyarrow.parquet")
+SHARED = (
+    "kineme.library.work",
+    "kineme.library.making",
+    "kineme.library.vocabulary.crowds",
+    "kineme.formats.skeletons._amc_kernels",
+    "kineme.methods.recurrence.analysis",
+    "kineme.methods.recurrence.levels",
+    "pyarrow.parquet",
+)
 """What takes long to import."""
 
 
@@ -99,6 +107,13 @@ def processes(jobs: int) -> Iterator[Executor]:
         yield several
     finally:
         several.close()
+
+
+def start_soon() -> None:
+    """Start what processes are copies of: that takes a second, in which this one can go on."""
+    if sys.platform == "linux":
+        _context()
+        forkserver.ensure_running()
 
 
 def _context() -> BaseContext:

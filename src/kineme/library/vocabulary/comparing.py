@@ -80,9 +80,14 @@ class Crowd:
 
     def part(self, numbers: Ints) -> Crowd:
         """These of its words."""
-        columns = (self.recording, self.seconds, self.embeddings, self.drawn)
-        places = [self.places[number] for number in numbers.tolist()]
-        return Crowd(self.load, places, *(column[numbers] for column in columns))
+        return Crowd(
+            self.load,
+            [self.places[number] for number in numbers.tolist()],
+            self.recording[numbers],
+            self.seconds[numbers],
+            self.embeddings[numbers],
+            self.drawn[numbers],
+        )
 
 
 @dataclass(frozen=True, eq=False)
