@@ -68,9 +68,9 @@ def simulated(folder: Path, hours: float) -> float:
     made = [make_piece(read(path), Settings()) for path in sorted((DATA / "cmu86").glob("*.amc"))]
     keys = {}
     for number in range(round(hours * 3600 / LASTS_S)):
-        piece, own = made[number % len(made)]
+        piece, own, _ = made[number % len(made)]
         n = round(LASTS_S * piece.facts["features_fps"])
-        parts = [features for _, features in made]
+        parts = [features for _, features, _ in made]
         whole = np.concatenate([own, *parts, *parts])[:n]
         shaken = whole + SHAKEN * rng.normal(size=whole.shape).astype(np.float32)
         shaken /= np.linalg.norm(shaken, axis=1, keepdims=True)

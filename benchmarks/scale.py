@@ -68,7 +68,7 @@ def costs() -> None:
             ticks.append(process_time())
             segment(recording)
             ticks.append(process_time())
-            piece, features = make_piece(recording, Settings())
+            piece, features, _ = make_piece(recording, Settings())
             write_piece(Path(home), path.stem, piece, features)
             ticks.append(process_time())
             own = np.diff(ticks)
@@ -178,7 +178,7 @@ def simulated(folder: Path, hours: float) -> None:
         for mirrored in (False, True)
     ]
     n = round(LASTS_S * MATCHING_FPS)
-    table, _ = make_piece(read(bundled_recording()), Settings())
+    table, *_ = make_piece(read(bundled_recording()), Settings())
     segments = nameless(table.table)
     keys = {}
     for number in range(round(hours * 3600 / LASTS_S)):

@@ -15,7 +15,7 @@ from kineme.library.constants import VOCABULARY
 from kineme.library.executors import Executor
 from kineme.library.planning import Entry
 from kineme.library.progress import Progress
-from kineme.library.storage.layout import EMBEDDED, PIECES, arrow, as_array, as_column
+from kineme.library.storage.layout import BODIES, EMBEDDED, PIECES, arrow, as_array, as_column
 from kineme.library.storage.pieces import Piece, read_piece
 from kineme.library.storage.tables import read_table, table_of
 from kineme.library.vocabulary.crowds import clusters_in
@@ -108,8 +108,14 @@ def _joined_words(
         ]
         if not own:
             continue
-        crowd = crowd_of(own, pieces, folder / PIECES, [key for _, _, key in entries])
-        found = clusters_in(crowd, VOCABULARY, executor, progress)
+        keys = [key for _, _, key in entries]
+        if vocabulary == BODIES or len({place.recording for place in own}) == 1:
+            crowd = crowd_of(own, pieces, folder / PIECES, keys)
+            found = clusters_in(crowd, VOCABULARY, executor, progress)
+        else:
+            from kineme.library.vocabulary.moments import clusters_of_moments
+
+            found = clusters_of_moments(own, pieces, folder / PIECES, keys, executor)
         following = np.where(found.following < 0, -1, found.following + count)
         places += own
         parts.append((found.labels + count, following, found.confidence, found.spread))

@@ -36,6 +36,8 @@ class Place:
         Of all its segments.
     embedding : (32,) array
         Of its typical segment.
+    spans : (segments, 2) array
+        Starts and stops of all its segments, seconds.
     """
 
     recording: int
@@ -44,6 +46,7 @@ class Place:
     stop_s: float
     seconds: float
     embedding: NDArray[np.float32]
+    spans: NDArray[np.float64]
 
 
 def places_in(piece: Piece, recording: int) -> list[Place]:
@@ -69,6 +72,7 @@ def places_in(piece: Piece, recording: int) -> list[Place]:
                 float(table.stop_s[row]),
                 round(float(lasts[longest].sum()), 6),
                 piece.embeddings[row],
+                np.column_stack([table.start_s[longest], table.stop_s[longest]]),
             )
         )
     return places
