@@ -30,7 +30,7 @@ def record(name: str, value: float | str, *, unit: str = "") -> None:
     if OPTION not in sys.argv:
         return
     figures = json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {}
-    options = [word for word in sys.argv[1:] if word != OPTION]
+    options = [_nowhere(word) for word in sys.argv[1:] if word != OPTION]
     figures[name] = {
         "value": value,
         "unit": unit,
@@ -40,3 +40,8 @@ def record(name: str, value: float | str, *, unit: str = "") -> None:
     }
     lines = (f"{json.dumps(key)}: {json.dumps(entry)}" for key, entry in sorted(figures.items()))
     FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
+
+
+def _nowhere(word: str) -> str:
+    """An option without the place of a file, which is one machine's own."""
+    return Path(word).name if Path(word).is_absolute() else word

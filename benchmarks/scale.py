@@ -110,6 +110,7 @@ def search(hours: float, kept: Path | None, most: int) -> None:
         print(f"as a command {clock:.2f} s, {verdict(clock, 2.0)}; processor {used:.2f} s")
         print(f"memory {memory:.2f} GB")
         record("scale.search.command", round(used, 1), unit="s")
+        record("scale.search.command.clock", round(clock, 1), unit="s")
         record("scale.search.memory", round(memory, 1), unit="GB")
         record("scale.search.index", round(index / 1e6 / hours, 2), unit="MB")
 
@@ -137,6 +138,7 @@ def searched(library: Library, hours: float, most: int) -> None:
     print("found of what an exact search finds:", " ".join(f"{each:.2f}" for each in recalls))
     print(f"mean {np.mean(recalls):.3f} (0.97 promised)")
     record("scale.search.processor", round(median(used), 1), unit="s")
+    record("scale.search.clock", round(median(clock), 1), unit="s")
     record("scale.search.exact", round(1000 * median(exact_used) / hours, 1), unit="ms")
     record("scale.search.recall", round(float(np.mean(recalls)), 3))
     record("scale.search.hours", round(hours))

@@ -17,7 +17,7 @@ import os
 import shutil
 import tempfile
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, sleep
 from typing import Any
 
 import numpy as np
@@ -29,11 +29,11 @@ from _measure import verdict
 from kineme.datasets import bundled_recording
 from kineme.studio.folder import file_id
 from report_in_browser import FLAGS, SIZE, wait
-from studio import Studio, processor_time, start
+from studio import WARM, Studio, processor_time, start
 
 RECORDINGS, TABLED = 500, 5  # one in so many has a table
 ROWS = 10_000
-OPENED, ASKED, WARM = 40, 120, 10
+OPENED, ASKED, FIRST = 40, 120, 10
 LISTED_S, LEAST_RATE, MOST_MB = 1.0, 50, 0.1
 SCROLL = """(async () => {
     const rows = document.querySelector(".table-rows");
@@ -136,16 +136,17 @@ def memory_of_page(tab: Any, studio: Studio, folder: Path) -> None:
     for i, name in enumerate(names[1:OPENED], start=1):
         tab.keyboard.press("PageDown")
         wait(tab, f"window.kineme.name === '{name}' && window.kineme.hasMotion")
-        if i in (WARM, OPENED - 1):
+        if i in (FIRST, OPENED - 1):
             tab.wait_for_timeout(500)
             tab.evaluate("gc()")
             tab.evaluate("gc()")
             kept.append(tab.evaluate("performance.memory.usedJSHeapSize") / 1e6)
-    show_memory("page", kept, OPENED - 1 - WARM)
+    show_memory("page", kept, OPENED - 1 - FIRST)
 
 
 def memory_of_server(studio: Studio, folder: Path) -> None:
-    """The same of the server, asked for all that a page shows at first."""
+    """The same of the server, asked for all that a page shows at first, once its code is loaded."""
+    sleep(WARM)
     kept = []
     paths = sorted(folder.glob("*.bvh"))[-ASKED:]
     for i, path in enumerate(paths):
@@ -153,9 +154,9 @@ def memory_of_server(studio: Studio, folder: Path) -> None:
         poses = json.loads(studio.ask(one))["motion"]["n_samples"]
         for part in (f"/motion?poses={poses}", "/matrix/0/0/0", "/curves"):
             studio.ask(one + part)
-        if i in (WARM, ASKED - 1):
+        if i in (FIRST, ASKED - 1):
             kept.append(resident(studio.process.pid))
-    show_memory("server", kept, ASKED - 1 - WARM)
+    show_memory("server", kept, ASKED - 1 - FIRST)
 
 
 def show_memory(what: str, kept: list[float], n: int) -> None:

@@ -36,7 +36,13 @@ def archive(path: Path, *names: str) -> Path:
         ("labels.csv", "start_s,stop_s,label\n0,1,a\n", False),
         ("labels.tsv", "\ufeffonset\tduration\n", False),
         ("readme.txt", "time went by\n", False),
-        ("a.json", '{"people": []}', False),
+        ("a.json", '{"people": []}', False),  # a frame of a folder
+        ("a.json", '[{"people": []}]', True),
+        ("a.json", '{"0": {"people": []}, "1": {"people": []}}', True),
+        ("a.json", '[{"image_id": 1, "keypoints": [0, 1, 2]}]', True),
+        ("a.json", '[{"image_id": 1, "bbox": [0, 1, 2, 3]}]', False),
+        ("a.json", '{"fps": 25, "frames": [{"poseWorldLandmarks": []}]}', True),
+        ("a.segments.json", '{"segments": [{"label": "landmarks"}]}', False),
     ],
 )
 def test_texts(tmp_path: Path, name: str, text: str, expected: bool) -> None:

@@ -22,6 +22,7 @@ from kineme.segments import editing
 from kineme.segments.history import LONGEST, History
 from kineme.studio import server
 from kineme.studio.folder import Folder
+from kineme.studio.http.events import Hub
 from kineme.studio.http.uploads import FORGOTTEN, Upload, forget_drafts
 from kineme.studio.open_recordings import OpenRecordings
 
@@ -274,8 +275,9 @@ def test_what_fails_after_the_end_is_not_said(
 
     monkeypatch.setattr(server, "load_code", failing)
     documents = OpenRecordings(Folder(folder, None), lambda name, revision: None)
-    ended = threading.Event()
+    hub, ended = Hub(), threading.Event()
+    hub.listened.set()
     with pytest.raises(RuntimeError):
-        server.make_ready(documents, ended)
+        server.make_ready(documents, hub, ended)
     ended.set()
-    server.make_ready(documents, ended)
+    server.make_ready(documents, hub, ended)

@@ -30,6 +30,8 @@ TRIES = 20
 """Ports after the first that are tried if it is in use."""
 PATIENCE = 2
 """Seconds that requests have to end in after Ctrl+C."""
+PAGE_FIRST = 5.0
+"""Seconds that a page has to list a folder in before code is made ready beside it."""
 HEAD_START = 10.0
 """Seconds before the code of the published methods, which are rarely used, is made ready."""
 
@@ -108,7 +110,7 @@ def serve(
         )
         ended = threading.Event()
         threading.Thread(
-            target=make_ready, args=[recordings, ended], name="make ready", daemon=True
+            target=make_ready, args=[recordings, hub, ended], name="make ready", daemon=True
         ).start()
         try:
             Server(config, hub).run(sockets=[opened])
@@ -151,7 +153,7 @@ def listening(port: int | None) -> socket.socket:
     raise ParameterError(f"port {which} not free ({reason}): name another with --port")
 
 
-def make_ready(recordings: OpenRecordings, ended: threading.Event) -> None:
+def make_ready(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> None:
     """Open the only recording, which every page shows, and load or build the compiled code.
 
     What fails once the server has ended is not said: an interpreter that ends lets nobody start
@@ -161,6 +163,8 @@ def make_ready(recordings: OpenRecordings, ended: threading.Event) -> None:
         names = list(recordings.folder.recordings())
         if len(names) == 1:
             recordings.prepare(names)
+        else:
+            hub.listened.wait(PAGE_FIRST)
         load_code(ended)
     except KinemeError:  # it will be said where it matters
         return

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.coco import is_coco, read_coco
 from kineme.formats.keypoints.mediapipe import is_mediapipe, read_mediapipe
@@ -14,6 +16,9 @@ from kineme.formats.keypoints.video import parsed_json
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
+
+_SEVERAL = re.compile(rb'\s*(\[|\{\s*"\d+"\s*:)')
+_OF_COCO = (b'"image_id"', b'"images"', b'"annotations"')
 
 
 def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
@@ -31,10 +36,26 @@ def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
     )
 
 
-def _never(head: bytes) -> bool:  # noqa: ARG001 - a file's beginning does not tell these apart
-    return False
+def begins_openpose(head: bytes) -> bool:
+    """Whether JSON begins as a list of OpenPose's frames, or frames by their numbers.
+
+    One frame alone is none: it belongs to the folder it lies in.
+    """
+    return b'"people"' in head and _SEVERAL.match(head) is not None
 
 
-OPENPOSE = Format("OpenPose", (".json",), _never, read_pose_json, read_folder=read_openpose_folder)
-COCO = Format("COCO", (".json",), _never, read_pose_json)
-MEDIAPIPE = Format("MediaPipe", (".json",), _never, read_pose_json)
+def begins_coco(head: bytes) -> bool:
+    """Whether JSON begins as COCO's results, or as a set of it whose keypoints come soon."""
+    return b'"keypoints"' in head and any(key in head for key in _OF_COCO)
+
+
+def begins_mediapipe(head: bytes) -> bool:
+    """Whether JSON begins with somebody's landmarks."""
+    return b'landmarks":' in head.lower().replace(b" ", b"")
+
+
+OPENPOSE = Format(
+    "OpenPose", (".json",), begins_openpose, read_pose_json, read_folder=read_openpose_folder
+)
+COCO = Format("COCO", (".json",), begins_coco, read_pose_json)
+MEDIAPIPE = Format("MediaPipe", (".json",), begins_mediapipe, read_pose_json)

@@ -86,7 +86,8 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, labels):
                     cost += segment_cost
             if cost < cheapest:
                 cheapest = cost
-                labels[:] = owner
+                for g in range(k):
+                    labels[g] = owner[g]
         if clusters == 1:
             break
         g = int(np.argmin(apart))

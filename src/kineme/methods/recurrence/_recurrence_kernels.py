@@ -63,7 +63,8 @@ def blur_rows(near, blur, start, stop, blurred):
     other = np.empty_like(least)
     for i in range(start, stop):
         least[:blur] = FAR
-        least[blur : blur + lags] = near[i]
+        for lag in range(lags):
+            least[blur + lag] = near[i, lag]
         least[blur + lags :] = FAR
         length = 1  # of the stretch that each value is the least of
         while 2 * length <= size:

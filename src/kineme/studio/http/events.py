@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 from collections.abc import AsyncIterator
 from contextlib import suppress
 
@@ -21,6 +22,8 @@ class Hub:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._pages: set[asyncio.Queue[Changed | None]] = set()
         self._closed = False
+        self.listened = threading.Event()
+        """Set once a page listens, which it does when it has listed the recordings."""
 
     def tell(self, recording: str, revision: int) -> None:
         """Send news to every page.
@@ -47,6 +50,7 @@ class Hub:
         self._loop = asyncio.get_running_loop()
         queue: asyncio.Queue[Changed | None] = asyncio.Queue(LONGEST)
         self._pages.add(queue)
+        self.listened.set()
         try:
             yield ": welcome\n\n"
             while not self._closed:

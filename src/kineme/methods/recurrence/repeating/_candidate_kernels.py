@@ -141,10 +141,45 @@ def repetitions_between(poses, path, visits, places):
     return found
 
 
-@njit("float64[::1](float64[::1], float64)", **OPTIONS)
-def inside(lengths, whole):
-    """Those that lie on a path of this length."""
-    return lengths[(lengths >= 0) & (lengths <= whole)]
+@njit("float64(float64[::1])", **OPTIONS)
+def upper_median(values):
+    """The middle value, the upper one of two."""
+    ordered = np.empty(len(values))
+    for k in range(len(values)):
+        place = k
+        while place > 0 and ordered[place - 1] > values[k]:
+            ordered[place] = ordered[place - 1]
+            place -= 1
+        ordered[place] = values[k]
+    return ordered[len(values) // 2]
+
+
+@njit("float64[:, ::1](float64[:, :, ::1])", **OPTIONS)
+def mean_repetition(repetitions):
+    """(places, dims): the mean of repetitions of (places, dims) each."""
+    count, places, dims = repetitions.shape
+    mean = np.zeros((places, dims))
+    for k in range(count):
+        for p in range(places):
+            for d in range(dims):
+                mean[p, d] += repetitions[k, p, d]
+    for p in range(places):
+        for d in range(dims):
+            mean[p, d] /= count
+    return mean
+
+
+@njit("float64[::1](float64, float64, int64, int64, float64)", **OPTIONS)
+def steps_inside(begin, step, places, number, whole):
+    """Lengths of so many steps from ``begin`` on, ``places`` a step, that lie on the path."""
+    lengths = np.empty(number)
+    count = 0
+    for i in range(number):
+        length = begin + (i + 0.5) / places * step
+        if 0 <= length <= whole:
+            lengths[count] = length
+            count += 1
+    return lengths[:count]
 
 
 @njit(
@@ -163,25 +198,28 @@ def judged(poses, path, visits, places, near, followed_for):
     lengths = np.empty(count)
     for k in range(count):
         lengths[k] = path[visits[k + 1]] - path[visits[k]]
-    length = max(np.sort(lengths)[count // 2], 1e-12)
+    length = max(upper_median(lengths), 1e-12)
     inner = repetitions_between(poses, path, visits, places)
-    mean = np.zeros(inner.shape[1:])
-    for k in range(count):
-        mean += inner[k]
-    mean /= count
+    mean = mean_repetition(inner)
     first, last = path[visits[0]], path[visits[-1]]
-    steps = (np.arange(int(places * followed_for)) + 0.5) / places
-    before = inside(first - steps * length, whole)
-    after = inside(last + steps * length, whole)
+    number_of_steps = int(places * followed_for)
+    before = steps_inside(first, -length, places, number_of_steps, whole)
+    after = steps_inside(last, length, places, number_of_steps, whole)
     head = followed(poses, path, before, np.ascontiguousarray(mean[::-1]), near) / places
     tail = followed(poses, path, after, mean, near) / places
     outside = max(first - head * length, 0.0) + max(whole - last - tail * length, 0.0)
     number = count + head + tail
     if count == 1:  # compared with what comes after it, and goes on at the beginning
-        ahead = last + (whole - length) * steps[:places]
-        ahead = np.where(ahead < whole, ahead, ahead - whole)
+        ahead = np.empty(places)
+        for p in range(places):
+            ahead[p] = last + (whole - length) * ((p + 0.5) / places)
+            if ahead[p] >= whole:
+                ahead[p] -= whole
+        there = poses_at(poses, path, ahead)
         both = np.empty((2, places, poses.shape[1]))
-        both[0], both[1] = inner[0], poses_at(poses, path, ahead)
+        for p in range(places):
+            for d in range(poses.shape[1]):
+                both[0, p, d], both[1, p, d] = inner[0, p, d], there[p, d]
         inner = both
     shares = unexplained(inner)[:count]
     known = max(whole - outside - lengths.sum(), 0.0)

@@ -158,13 +158,14 @@ def recurrences(
         if score > 0 and (end <= start or begin >= stop) and 2 * (end - begin) >= length:
             place = n  # among those found before, the strongest first
             while place > 0 and gains[place - 1] < score:
-                spans[place], gains[place] = spans[place - 1], gains[place - 1]
+                spans[place, 0], spans[place, 1] = spans[place - 1, 0], spans[place - 1, 1]
+                gains[place] = gains[place - 1]
                 place -= 1
             spans[place, 0], spans[place, 1], gains[place] = begin, end, score
             n += 1
     total, count = 0.0, 0
     for k in range(n):
-        begin, end = spans[k]
+        begin, end = spans[k, 0], spans[k, 1]
         clear = 5 * (room[end] - room[begin]) >= 4 * (end - begin)
         for other in range(count):
             clear = clear and (end <= spans[other, 0] or begin >= spans[other, 1])
@@ -173,6 +174,24 @@ def recurrences(
             total += gains[k]
             count += 1
     return total, count
+
+
+@njit("int64(float64[::1], int64)", **OPTIONS)
+def largest(values, count):
+    """The place of the largest of the first ``count`` values, the first if there are several."""
+    best = 0
+    for i in range(1, count):
+        if values[i] > values[best]:
+            best = i
+    return best
+
+
+@njit("void(boolean[::1], int64[::1])", **OPTIONS)
+def count_before(marks, counts):
+    """How many marks are set before each place, and in all."""
+    counts[0] = 0
+    for i in range(len(marks)):
+        counts[i + 1] = counts[i] + marks[i]
 
 
 @njit(
@@ -186,51 +205,53 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
     Gains hardly ever rise as samples are taken, so that old ones do for all but the
     best (lazy greedy, after Minoux 1978). Changes ``free``.
     """
-    n = len(free)
-    paths = row_ptr[1:] - row_ptr[:-1]
-    most = paths.max() if n > 0 else 0
+    n, sizes = len(free), len(lengths)
+    most = 0
+    for i in range(n):
+        most = max(most, row_ptr[i + 1] - row_ptr[i])
     spans, gains = np.empty((most, 2), np.int64), np.empty(most)
-    room = np.append(0, np.cumsum(free))
-    of_stretch = np.zeros((n, len(lengths)))
-    known = np.zeros((n, len(lengths)), np.int64)
+    room = np.empty(n + 1, np.int64)
+    count_before(free, room)
+    of_stretch = np.zeros((n, sizes))
+    known = np.zeros((n, sizes), np.int64)
     best = np.zeros(n)
     found = [(0, 0, 0.0, 0)]
     rank = 0
     for start in range(n):
-        for k in range(len(lengths)):
+        for k in range(sizes):
             stop = start + lengths[k]
             if stop <= n and room[stop] - room[start] == lengths[k]:
                 of_stretch[start, k] = recurrences(
                     start, stop, starts, ptr, partners, sums, row_ptr, row_paths, room, cover,
                     spans, gains,
                 )[0]  # fmt: skip
-        best[start] = of_stretch[start].max()
+        best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
     while n > 0:
-        start = int(best.argmax())
+        start = largest(best, n)
         if best[start] <= 0:
             break
-        k = int(of_stretch[start].argmax())
+        k = largest(of_stretch[start], sizes)
         stop = start + lengths[k]
         total, count = recurrences(
             start, stop, starts, ptr, partners, sums, row_ptr, row_paths, room, cover, spans, gains
         )
         if known[start, k] == rank and count > 0:
-            found.append((start, stop, gains[:count].max(), rank))
+            found.append((start, stop, gains[largest(gains, count)], rank))
             free[start:stop] = False
             for other in range(count):
                 found.append((spans[other, 0], spans[other, 1], gains[other], rank))
                 free[spans[other, 0] : spans[other, 1]] = False
             rank += 1
-            room[1:] = np.cumsum(free)
+            count_before(free, room)
             for begin in range(n):
-                for size in range(len(lengths)):
+                for size in range(sizes):
                     if of_stretch[begin, size] > 0:
                         taken = lengths[size] - room[begin + lengths[size]] + room[begin]
                         of_stretch[begin, size] *= taken == 0
-                best[begin] = of_stretch[begin].max()
+                best[begin] = of_stretch[begin, largest(of_stretch[begin], sizes)]
         else:
             of_stretch[start, k], known[start, k] = total, rank
-            best[start] = of_stretch[start].max()
+            best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
     places = np.empty((len(found) - 1, 2), np.int64)
     scores, ranks = np.empty(len(places)), np.empty(len(places), np.int64)
     for k in range(len(places)):
