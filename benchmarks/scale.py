@@ -205,17 +205,24 @@ def larger() -> None:
     """What many hours take, from the figures that were recorded."""
     figures = json.loads(FIGURES.read_text(encoding="utf-8"))
     told = {name: entry["value"] for name, entry in figures.items()}
-    few, many = (told[f"vocabulary.growth.{size}.seconds"] for size in GROWTH)
-    a_word = (many - few) / (GROWTH[1] - GROWTH[0])
-    record("scale.join.word", round(1000 * a_word), unit="ms")
+    parted, alone = (
+        (
+            told[f"vocabulary.growth.{GROWTH[1]}.{part}"]
+            - told[f"vocabulary.growth.{GROWTH[0]}.{part}"]
+        )
+        / (GROWTH[1] - GROWTH[0])
+        for part in ("seconds", "rest")
+    )
+    record("scale.join.word", round(1000 * parted, 1), unit="ms")
+    record("scale.join.alone", round(1000 * alone, 2), unit="ms")
     for hours in LARGER:
-        build = told["scale.total"] * hours / 3600
+        build, words = told["scale.total"] * hours / 3600, told["scale.words"] * hours / 3600
         values = {
             "build": build,
             "16_cores": build / 16,
             "128_cores": build / 128,
             "kept": told["scale.kept"] * hours / 1e6,
-            "join": a_word * told["scale.words"] * hours / 3600,
+            **{f"join.{cores}": (parted / cores + alone) * words for cores in (1, 16, 128)},
         }
         print(f"{hours} h:", {name: float(f"{value:.2g}") for name, value in values.items()})
         for name, value in values.items():

@@ -22,8 +22,8 @@ what a library holds depends neither on the number of processes nor on the order
 
 **One vocabulary.** The clusters of single recordings are joined over all of them by what they
 look like (`kineme.library.vocabulary`), bodies and each set of channels for itself; those of
-channels by what all recordings have together. A cluster that is found again after recordings came or went keeps its number
-(`kineme.library.vocabulary.numbering`); a number is never given twice.
+channels by what all recordings have together. A cluster that is found again after recordings came
+or went keeps its number (`kineme.library.vocabulary.numbering`); a number is never given twice.
 
 **Computed and said are apart.** Tables hold what was computed. Names, merges and splits
 (`kineme.library.edits`) are kept in a file of their own, and applied whenever tables are read.
