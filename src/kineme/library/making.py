@@ -62,4 +62,5 @@ def make_piece(
 def _moments(signals: Signals) -> NDArray[np.float32]:
     found = moments_of(signals)
     columns = np.column_stack([found.frames / signals.fps, found.means, found.deviations])
-    return np.clip(columns, -LARGEST_MOMENT, LARGEST_MOMENT).astype(np.float32)
+    held: NDArray[np.float32] = np.clip(columns, -LARGEST_MOMENT, LARGEST_MOMENT).astype(np.float32)
+    return held

@@ -180,7 +180,7 @@ def read_moments(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
     path = folder / f"{key}{MOMENTS}"
     with _opening(path):
         rows: NDArray[np.float32] = np.load(near(path), mmap_mode="r", allow_pickle=False)
-        rows = np.array(rows[::step])
+        rows = np.array(rows[min(step, len(rows)) // 2 :: step])  # recordings begin at rest
         if rows.ndim != 2 or rows.dtype != np.float32 or not len(rows) or rows.shape[1] % 2 == 0:
             raise ValueError("not rows of moments")
         deviations = rows[:, 1 + rows.shape[1] // 2 :]
