@@ -8,12 +8,13 @@ are written first: where there is a Parquet file, the piece is whole.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,13 +142,7 @@ def read_parts(
     """
     path = folder / f"{key}{FEATURES}"
     with _opening(path), near(path).open("rb", buffering=0) as file:
-        head = file.read(10)
-        data = 10 + int.from_bytes(head[8:10], "little")  # after the header of an npy file
-        for start, part in zip(starts, into, strict=True):
-            file.seek(data + part.itemsize * part.shape[1] * start)
-            if file.readinto(part) != part.nbytes:  # type: ignore[arg-type]
-                raise ValueError("shorter than was written")
-            _check_sound(part)
+        _fill(file, _laid(file)[0], starts, into)
 
 
 def read_spans(
@@ -161,11 +156,10 @@ def read_spans(
         They are gone or damaged.
     """
     path = folder / f"{key}{FEATURES}"
-    with _opening(path):
-        whole = np.load(near(path), mmap_mode="r", allow_pickle=False)
-        parts = [_sound(np.array(whole[start:stop]), np.float32) for start, stop in spans]
-        if any(len(part) != stop - start for part, (start, stop) in zip(parts, spans, strict=True)):
-            raise ValueError("shorter than was written")
+    with _opening(path), near(path).open("rb", buffering=0) as file:
+        start, dims = _laid(file)
+        parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
+        _fill(file, start, [first for first, _ in spans], parts)
     return parts
 
 
@@ -187,6 +181,26 @@ def read_moments(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
         if not ((np.abs(rows) <= LARGEST_MOMENT).all() and (deviations >= 0).all()):
             raise ValueError("moments that no recording has")
     return rows
+
+
+def _laid(file: IO[bytes]) -> tuple[int, int]:
+    """Where the rows of an npy file begin, and how many float32 numbers each has."""
+    length = int.from_bytes(file.read(10)[8:], "little")
+    told = re.search(rb"'descr': '<f4'.*'shape': \(\d+, (\d+)\)", file.read(length))
+    if told is None:
+        raise ValueError("not rows of features")
+    return 10 + length, int(told[1])
+
+
+def _fill(
+    file: IO[bytes], start: int, firsts: Iterable[int], parts: Iterable[NDArray[np.float32]]
+) -> None:
+    """Rows of an npy file from some samples on."""
+    for first, part in zip(firsts, parts, strict=True):
+        file.seek(start + part.itemsize * part.shape[1] * first)
+        if file.readinto(part) != part.nbytes:  # type: ignore[attr-defined]
+            raise ValueError("shorter than was written")
+        _check_sound(part)
 
 
 def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
