@@ -151,7 +151,6 @@ def show_growth(folder: Path, sizes: list[int], most: int) -> None:
         record(f"vocabulary.growth.{size}.seconds", round(work, 1), unit="s")
         record(f"vocabulary.growth.{size}.rest", round(rest, 2), unit="s")
         record(f"vocabulary.growth.{size}.travels", round(travelled / 1e6, 1), unit="MB")
-        record(f"vocabulary.growth.{size}.two_processes", round(clocks[1] / clocks[2], 2))
 
 
 class Counted:
