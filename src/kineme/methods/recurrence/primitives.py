@@ -18,7 +18,7 @@ from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.repeating.ends import fitted_ends
 from kineme.methods.recurrence.repeating.occurrences import moved, occurrences
 from kineme.methods.recurrence.repeating.parts import clusters_of_repetitions
-from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed
+from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed, without_still
 from kineme.methods.recurrence.repeating.repetitions import Repetitions, repetitions
 from kineme.methods.samples import single_poses
 
@@ -98,8 +98,8 @@ def with_occurrences(
 
     An activity with a single repetition has no count that could be. An action gives its
     repetitions up where occurrences explain more of it than these are probable. Transitions
-    that are no more than the ends of two activities are left alone. Single repetitions in
-    which hardly anything moves are no primitives.
+    that are no more than the ends of two activities are left alone. An action of single
+    repetitions in which hardly anything moves has no primitives.
 
     Parameters
     ----------
@@ -112,12 +112,7 @@ def with_occurrences(
     """
     poses = single_poses(recurring.features, preset.offsets)
     segments = _occurring(poses, segments, counts, preset)
-    time = moved(poses, preset)[segments.primitives]
-    single = segments.repeats & (segments.counts[segments.parents] == 1)
-    still = single & (np.diff(time) < preset.min_event)
-    if not still.any():
-        return segments
-    return replace(segments, clusters=np.where(still, -1, segments.clusters))
+    return without_still(segments, moved(poses, preset), preset.min_event)
 
 
 def _occurring(
