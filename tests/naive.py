@@ -1024,7 +1024,7 @@ def followed_score(samples, costs, ends, scale, worst):
 
 
 def recurrences_of(start, stop, paths, free, cover):
-    """Where a stretch recurs by paths (first sample, partners, sums): spans and gains."""
+    """Where a stretch recurs by paths (first sample, partners, sums): spans, gains, what of it."""
     found = []
     for first, partners, sums in paths:
         low, high = max(start, first), min(stop, first + len(sums))
@@ -1039,13 +1039,13 @@ def recurrences_of(start, stop, paths, free, cover):
         begin, end = round(partners[low - first]), round(partners[high - 1 - first]) + 1
         elsewhere = end <= start or begin >= stop
         if gain > 0 and elsewhere and 2 * (end - begin) >= stop - start:
-            found.append((begin, end, gain))
+            found.append((begin, end, gain, (low, high)))
     kept = []
-    for begin, end, gain in sorted(found, key=lambda each: -each[2]):
+    for begin, end, gain, part in sorted(found, key=lambda each: -each[2]):
         if 5 * free[begin:end].sum() >= 4 * (end - begin) and all(
-            end <= b or begin >= e for b, e, _ in kept
+            end <= b or begin >= e for b, e, *_ in kept
         ):
-            kept.append((begin, end, gain))
+            kept.append((begin, end, gain, part))
     return kept
 
 

@@ -27,6 +27,8 @@ SHARED = (
     "pyarrow.parquet",
 )
 """What takes long to import."""
+_SOON = threading.Event()
+"""Set where this was begun before it was known what there is to do."""
 
 
 class Processes:
@@ -50,9 +52,9 @@ class Processes:
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Each task and what came of it, as they come; see `Executor`.
 
-        For one task alone no process is started either.
+        For one task alone no process is started either, unless that is begun already.
         """
-        if self._pool is None and (workers == 0 or len(tasks) == 1):
+        if not (self._pool or _SOON.is_set()) and (workers == 0 or len(tasks) == 1):
             yield from Here().completed(work, tasks)
             return
         waiting = list(reversed(tasks))
@@ -63,10 +65,13 @@ class Processes:
                 if dying:
                     yield task, None
 
-    def close(self) -> None:
-        """End the processes, once they are done with what they are at."""
+    def close(self, *, wait: bool = False) -> None:
+        """End the processes once they are done with what they are at, and wait for that.
+
+        Python that ends at the same time as they do may complain of it.
+        """
         if self._pool is not None:
-            self._pool.shutdown(wait=False, cancel_futures=True)
+            self._pool.shutdown(wait=wait, cancel_futures=True)
         self._pool = None
 
     def _done(
@@ -105,8 +110,10 @@ def processes(jobs: int) -> Iterator[Executor]:
     several = Processes(jobs)
     try:
         yield several
-    finally:
+    except BaseException:
         several.close()
+        raise
+    several.close(wait=True)
 
 
 def start_soon() -> None:
@@ -114,6 +121,7 @@ def start_soon() -> None:
     if sys.platform == "linux":
         _context()
         forkserver.ensure_running()
+        _SOON.set()
 
 
 def _context() -> BaseContext:
