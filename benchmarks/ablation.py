@@ -19,13 +19,7 @@ import numpy as np
 
 from _recordings import hdm05, subject_86, synthetic
 from fairness import show
-from kineme.methods.recurrence import (
-    analysis as action_analysis,
-)
-from kineme.methods.recurrence import (
-    change_points,
-    transitions,
-)
+from kineme.methods.recurrence import activities, change_points, transitions
 from kineme.methods.recurrence.actions import Actions
 from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.segments import by_first_appearance
@@ -56,7 +50,7 @@ STAGES: dict[str, tuple[dict[str, Any], list[Any]]] = {
     ),
     "actions not linked": ({"link_similarity": 1.0}, []),
     "linked at one pace": ({"any_pace": False}, []),
-    "samples not given anew": ({}, [patch.object(action_analysis, "refine", not_refined)]),
+    "samples not given anew": ({}, [patch.object(activities, "refine", not_refined)]),
     "no transitions at ends": ({"max_transition": 0.0}, []),
     "one vote on their length": ({"transition_spread": 0.0}, []),
     "not cut where slowest": ({}, [patch.object(transitions, "_slowest", not_slowest)]),

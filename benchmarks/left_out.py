@@ -35,7 +35,7 @@ VALUES = {
     "distinct_share": (0.5, 0.6, 0.65, 0.7, 0.8),
     "link_gap": (0.15, 0.2, 0.25, 0.3, 0.4),
     "sure_pace": (0.0, 0.75, 0.8, 0.9, 1.0),
-    "min_periodic": (0.0, 0.2, 0.25, 0.3, 0.5),
+    "min_periodic": (0.25, 0.35, 0.5, 0.6, 0.75),
 }
 JUDGED = ("one_to_one", "border_f1", "count_exact")
 PLATEAU = 0.005

@@ -1024,7 +1024,7 @@ def followed_score(samples, costs, ends, scale, worst):
 
 
 def recurrences_of(start, stop, paths, free, cover):
-    """Where a stretch recurs by paths (first sample, partners, sums): spans and gains."""
+    """Where a stretch recurs by paths (first sample, partners, sums): spans, gains, what of it."""
     found = []
     for first, partners, sums in paths:
         low, high = max(start, first), min(stop, first + len(sums))
@@ -1039,17 +1039,17 @@ def recurrences_of(start, stop, paths, free, cover):
         begin, end = round(partners[low - first]), round(partners[high - 1 - first]) + 1
         elsewhere = end <= start or begin >= stop
         if gain > 0 and elsewhere and 2 * (end - begin) >= stop - start:
-            found.append((begin, end, gain))
+            found.append((begin, end, gain, (low, high)))
     kept = []
-    for begin, end, gain in sorted(found, key=lambda each: -each[2]):
+    for begin, end, gain, part in sorted(found, key=lambda each: -each[2]):
         if 5 * free[begin:end].sum() >= 4 * (end - begin) and all(
-            end <= b or begin >= e for b, e, _ in kept
+            end <= b or begin >= e for b, e, *_ in kept
         ):
-            kept.append((begin, end, gain))
+            kept.append((begin, end, gain, part))
     return kept
 
 
-def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
+def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share):
     """Cost and clusters of the cheapest grouping: all clusters compared before each union."""
     clusters = [[g] for g in range(len(lengths))]
 
@@ -1058,6 +1058,12 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
 
     def size(a):
         return sum(lengths[g] for g in a)
+
+    def mean(a, b):
+        return total(a, b) / (size(a) * size(b))
+
+    def distance(a, b):
+        return mean(a, b) - spread_share * (mean(a, a) + mean(b, b)) / 2
 
     best = None
     while True:
@@ -1070,7 +1076,7 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
         if len(clusters) == 1:
             return best
         pairs = [(a, b) for i, a in enumerate(clusters) for b in clusters[i + 1 :]]
-        a, b = min(pairs, key=lambda p: total(*p) / (size(p[0]) * size(p[1])))
+        a, b = min(pairs, key=lambda pair: distance(*pair))
         clusters = [c for c in clusters if c not in (a, b)] + [a + b]
 
 

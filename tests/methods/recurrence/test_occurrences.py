@@ -83,17 +83,20 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     row_ptr = np.append(0, np.cumsum(np.bincount(rows, minlength=n)))
     flat = [np.concatenate([path[k] for path in paths]) for k in (1, 2)]
     lengths = np.array([3, 5, 8])
-    spans, gains = np.empty((n, 2), np.int64), np.empty(n)
-    totals = {}
+    spans, gains = np.empty((n, 4), np.int64), np.empty(n)
+    totals: dict[tuple[int, int], float] = {}
     for start in range(n):
         for stop in start + lengths[start + lengths <= n]:
             total, count = kernels.recurrences(
                 start, stop, starts, ptr, *flat, row_ptr, row_paths, room, cover, spans, gains
             )
             expected = naive.recurrences_of(start, stop, paths, free, cover)
-            assert [tuple(span) for span in spans[:count].tolist()] == [e[:2] for e in expected]
-            assert total == pytest.approx(sum(gain for *_, gain in expected))
-            totals[start, int(stop)] = total if free[start:stop].all() else 0
+            of = [(begin, end, *part) for begin, end, _, part in expected]
+            assert [tuple(span) for span in spans[:count].tolist()] == of
+            assert total == pytest.approx(sum(gain for _, _, gain, _ in expected))
+            if expected and free[start:stop].all():
+                covered = min(low for *_, low, _ in of), max(high for *_, high in of)
+                totals[covered] = max(total, totals.get(covered, 0))
     places, _, ranks = kernels.best_sets(
         lengths, starts, ptr, *flat, row_ptr, row_paths, free, cover
     )

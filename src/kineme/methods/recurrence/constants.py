@@ -156,7 +156,7 @@ class RecurrenceConstants(CountingPreset):
     )  # fmt: skip
     # Occurrences: what recurs anywhere.
     min_periodic: float = constant(
-        "actions whose counts are less probable than this, in the mean over their time, may be "
+        "actions whose counts are less probable than this, in the mean of their activities, may be "
         "occurrences instead of repetitions", limits=SHARE, fine=True,
     )  # fmt: skip
     event_scale: float = constant(
@@ -180,7 +180,10 @@ class RecurrenceConstants(CountingPreset):
         "occurrences are found no farther apart than this, in movement time", unit="s",
         limits=SOME_TIME, fine=True,
     )  # fmt: skip
-    min_event: float = constant("shortest event, in movement time", unit="s", limits=SOME_TIME)
+    min_event: float = constant(
+        "shortest event, in movement time; a single repetition that is shorter is none", unit="s",
+        limits=SOME_TIME,
+    )  # fmt: skip
     max_event: float = constant(
         "longest event, in movement time", unit="s", limits=SOME_TIME, fine=True
     )

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from kineme._threads import map_threads
 from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.repeating.ends import fitted_ends
-from kineme.methods.recurrence.repeating.occurrences import occurrences
+from kineme.methods.recurrence.repeating.occurrences import moved, occurrences
 from kineme.methods.recurrence.repeating.parts import clusters_of_repetitions
-from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed
+from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed, without_still
 from kineme.methods.recurrence.repeating.repetitions import Repetitions, repetitions
 from kineme.methods.samples import single_poses
 
@@ -98,7 +98,8 @@ def with_occurrences(
 
     An activity with a single repetition has no count that could be. An action gives its
     repetitions up where occurrences explain more of it than these are probable. Transitions
-    that are no more than the ends of two activities are left alone.
+    that are no more than the ends of two activities are left alone. An action of single
+    repetitions in which hardly anything moves has no primitives.
 
     Parameters
     ----------
@@ -109,16 +110,25 @@ def with_occurrences(
         How probable the count of each is.
     preset : RecurrenceConstants
     """
+    poses = single_poses(recurring.features, preset.offsets)
+    segments = _occurring(poses, segments, counts, preset)
+    return without_still(segments, moved(poses, preset), preset.min_event)
+
+
+def _occurring(
+    poses: NDArray[np.float32], segments: Segments, counts: Floats, preset: RecurrenceConstants
+) -> Segments:
+    """Occurrences for primitives where counts are not probable; see `with_occurrences`."""
     borders, labels = segments.borders, segments.labels
     lengths = np.diff(borders)
     ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
-    sure = of_actions(counts * (segments.counts > 1), lengths, labels)
+    sure = of_actions(counts * (segments.counts > 1), np.ones_like(labels), labels)
     weak = (sure < preset.min_periodic) & ~ends
     if not weak.any():
         return segments
     # Where an activity is in question, what recurs is told by the whole recording.
     looked_at = np.repeat(weak | (weak & (labels >= 0)).any(), lengths)
-    found = occurrences(single_poses(recurring.features, preset.offsets), looked_at, preset)
+    found = occurrences(poses, looked_at, preset)
     explained = of_actions(found.within(borders, weak).explained(borders), lengths, labels)
     free = weak & ((labels < 0) | (explained > sure))
     found = found.within(borders, free)

@@ -134,8 +134,8 @@ def recurrences(
 ):
     """Where ``[start, stop)`` recurs, written to spans and gains: their sum and their number.
 
-    Each is the partner of what a path covers of it, ``cover`` at least; the
-    strongest come first, none reaches into another, into itself or into
+    Each is the partner of what a path covers of it, ``cover`` at least, and that comes
+    after it; the strongest are first, none reaches into another, into itself or into
     samples that are not free. ``room`` is how many are before each.
     """
     length = stop - start
@@ -158,10 +158,12 @@ def recurrences(
         if score > 0 and (end <= start or begin >= stop) and 2 * (end - begin) >= length:
             place = n  # among those found before, the strongest first
             while place > 0 and gains[place - 1] < score:
-                spans[place, 0], spans[place, 1] = spans[place - 1, 0], spans[place - 1, 1]
+                for column in range(4):
+                    spans[place, column] = spans[place - 1, column]
                 gains[place] = gains[place - 1]
                 place -= 1
             spans[place, 0], spans[place, 1], gains[place] = begin, end, score
+            spans[place, 2], spans[place, 3] = low, high
             n += 1
     total, count = 0.0, 0
     for k in range(n):
@@ -170,7 +172,9 @@ def recurrences(
         for other in range(count):
             clear = clear and (end <= spans[other, 0] or begin >= spans[other, 1])
         if clear:
-            spans[count, 0], spans[count, 1], gains[count] = begin, end, gains[k]
+            for column in range(4):
+                spans[count, column] = spans[k, column]
+            gains[count] = gains[k]
             total += gains[k]
             count += 1
     return total, count
@@ -209,7 +213,7 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
     most = 0
     for i in range(n):
         most = max(most, row_ptr[i + 1] - row_ptr[i])
-    spans, gains = np.empty((most, 2), np.int64), np.empty(most)
+    spans, gains = np.empty((most, 4), np.int64), np.empty(most)
     room = np.empty(n + 1, np.int64)
     count_before(free, room)
     of_stretch = np.zeros((n, sizes))
@@ -236,8 +240,11 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
             start, stop, starts, ptr, partners, sums, row_ptr, row_paths, room, cover, spans, gains
         )
         if known[start, k] == rank and count > 0:
-            found.append((start, stop, gains[largest(gains, count)], rank))
-            free[start:stop] = False
+            covered, stop = stop, start  # what recurs of it
+            for other in range(count):
+                covered, stop = min(covered, spans[other, 2]), max(stop, spans[other, 3])
+            found.append((covered, stop, gains[largest(gains, count)], rank))
+            free[covered:stop] = False
             for other in range(count):
                 found.append((spans[other, 0], spans[other, 1], gains[other], rank))
                 free[spans[other, 0] : spans[other, 1]] = False

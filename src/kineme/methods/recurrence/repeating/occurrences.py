@@ -151,19 +151,35 @@ def occurrences(
     return Occurrences(starts, stops, by_first_appearance(ranks), similarity)
 
 
+def moved(poses: NDArray[np.floating], preset: RecurrenceConstants) -> Floats:
+    """Seconds of movement time up to each frame, and to the end."""
+    velocities = _velocities(np.asarray(poses, np.float64), preset)
+    return _movement_time(velocities, preset) / preset.working_fps
+
+
+def _velocities(poses: Floats, preset: RecurrenceConstants) -> Floats:
+    """Of each frame, body sizes a second."""
+    frames = np.arange(len(poses))
+    before, after = np.maximum(frames - 1, 0), np.minimum(frames + 1, len(poses) - 1)
+    elapsed = np.maximum(after - before, 1)[:, None] / preset.working_fps
+    velocities: Floats = (poses[after] - poses[before]) / elapsed
+    return velocities
+
+
+def _movement_time(velocities: Floats, preset: RecurrenceConstants) -> Floats:
+    """Frames of usual movement up to each frame, and to the end."""
+    speeds = np.linalg.norm(velocities, axis=1)
+    rates = preset.event_rest + (1 - preset.event_rest) * speeds / max(speeds.mean(), 1e-12)
+    return np.append(0, np.cumsum(rates))
+
+
 def _samples(poses: Floats, free: NDArray[np.bool_], preset: RecurrenceConstants) -> _Samples:
     """The free frames at equal steps of movement time."""
     n, step = len(poses), preset.step
-    frames = np.arange(n)
-    before, after = np.maximum(frames - 1, 0), np.minimum(frames + 1, n - 1)
-    elapsed = np.maximum(after - before, 1)[:, None] / preset.working_fps
-    velocities = (poses[after] - poses[before]) / elapsed
-    speeds = np.linalg.norm(velocities, axis=1)
-    usual = speeds.mean()
-    if usual * preset.max_event < preset.event_scale:  # nobody moves: all is one pose
-        free = np.zeros(n, np.bool_)
-    rates = preset.event_rest + (1 - preset.event_rest) * speeds / max(usual, 1e-12)
-    time = np.append(0, np.cumsum(rates))
+    velocities = _velocities(poses, preset)
+    if np.linalg.norm(velocities, axis=1).mean() * preset.max_event < preset.event_scale:
+        free = np.zeros(n, np.bool_)  # nobody moves: all is one pose
+    time = _movement_time(velocities, preset)
     at = np.interp(np.arange(0, time[-1], step), time, np.arange(n + 1))
     edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
     edges = np.column_stack([edges[:-1], edges[1:]])

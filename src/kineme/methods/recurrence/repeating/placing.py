@@ -7,7 +7,7 @@ between activities that falls into one moves to its nearer end.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,6 +112,28 @@ def placed(segments: Segments, found: Occurrences, free: NDArray[np.bool_]) -> S
         clusters[inside] = first + found.clusters[which[inside]]
     loose = np.unique(labels[free & (labels >= 0)])
     return Segments(borders, labels, segments.own[old], primitives, clusters, loose)
+
+
+def without_still(segments: Segments, time: NDArray[np.float64], least: float) -> Segments:
+    """The segments without primitives in actions that neither repeat nor move.
+
+    Parameters
+    ----------
+    segments : Segments
+    time : (frames + 1,) array
+        Seconds of movement up to each frame, and to the end.
+    least : float
+        Seconds of movement that a single repetition takes at least.
+    """
+    actions, own = segments.labels[segments.parents], segments.repeats
+    lasting = np.diff(time[segments.primitives]) >= least
+    several = segments.counts[segments.parents] > 1
+    still = np.setdiff1d(actions[own], actions[own & (lasting | several)])
+    if not len(still):
+        return segments
+    clusters = np.where(own & np.isin(actions, still), -1, segments.clusters)
+    not_periodic = np.union1d(segments.not_periodic, still)
+    return replace(segments, clusters=clusters, not_periodic=not_periodic)
 
 
 def _place(borders: Frames, frames: Frames) -> Frames:
