@@ -14,6 +14,7 @@ from kineme._version import __version__
 from kineme.library import Settings
 from kineme.library.compiling import compiled
 from kineme.library.constants import VOCABULARY
+from kineme.library.executors.here import Here
 from kineme.library.index.kept import write_index
 from kineme.library.making import make_piece
 from kineme.library.storage.layout import HEAD, PIECES, SCHEMA, write_json
@@ -43,7 +44,7 @@ def joined(folder: Path, keys: Mapping[str, str]) -> float:
     """Leave head and tables of pieces by the names of their recordings; seconds that it took."""
     start = perf_counter()
     entries = [(name, folder / name, key) for name, key in sorted(keys.items())]
-    tables, following = compiled(folder, entries, None, 0)
+    tables, following = compiled(folder, entries, None, 0, Here(), lambda _: None)
     head = {
         "schema": SCHEMA,
         "kineme": __version__,
@@ -67,9 +68,9 @@ def simulated(folder: Path, hours: float) -> float:
     made = [make_piece(read(path), Settings()) for path in sorted((DATA / "cmu86").glob("*.amc"))]
     keys = {}
     for number in range(round(hours * 3600 / LASTS_S)):
-        piece, own = made[number % len(made)]
+        piece, own, _ = made[number % len(made)]
         n = round(LASTS_S * piece.facts["features_fps"])
-        parts = [features for _, features in made]
+        parts = [features for _, features, _ in made]
         whole = np.concatenate([own, *parts, *parts])[:n]
         shaken = whole + SHAKEN * rng.normal(size=whole.shape).astype(np.float32)
         shaken /= np.linalg.norm(shaken, axis=1, keepdims=True)

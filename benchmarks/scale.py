@@ -68,7 +68,7 @@ def costs() -> None:
             ticks.append(process_time())
             segment(recording)
             ticks.append(process_time())
-            piece, features = make_piece(recording, Settings())
+            piece, features, _ = make_piece(recording, Settings())
             write_piece(Path(home), path.stem, piece, features)
             ticks.append(process_time())
             own = np.diff(ticks)
@@ -180,7 +180,7 @@ def simulated(folder: Path, hours: float) -> None:
         for mirrored in (False, True)
     ]
     n = round(LASTS_S * MATCHING_FPS)
-    table, _ = make_piece(read(bundled_recording()), Settings())
+    table, *_ = make_piece(read(bundled_recording()), Settings())
     segments = nameless(table.table)
     keys = {}
     for number in range(round(hours * 3600 / LASTS_S)):
@@ -205,17 +205,24 @@ def larger() -> None:
     """What many hours take, from the figures that were recorded."""
     figures = json.loads(FIGURES.read_text(encoding="utf-8"))
     told = {name: entry["value"] for name, entry in figures.items()}
-    few, many = (told[f"vocabulary.growth.{size}.seconds"] for size in GROWTH)
-    a_word = (many - few) / (GROWTH[1] - GROWTH[0])
-    record("scale.join.word", round(1000 * a_word), unit="ms")
+    parted, alone = (
+        (
+            told[f"vocabulary.growth.{GROWTH[1]}.{part}"]
+            - told[f"vocabulary.growth.{GROWTH[0]}.{part}"]
+        )
+        / (GROWTH[1] - GROWTH[0])
+        for part in ("seconds", "rest")
+    )
+    record("scale.join.word", round(1000 * parted, 1), unit="ms")
+    record("scale.join.alone", round(1000 * alone, 2), unit="ms")
     for hours in LARGER:
-        build = told["scale.total"] * hours / 3600
+        build, words = told["scale.total"] * hours / 3600, told["scale.words"] * hours / 3600
         values = {
             "build": build,
             "16_cores": build / 16,
             "128_cores": build / 128,
             "kept": told["scale.kept"] * hours / 1e6,
-            "join": a_word * told["scale.words"] * hours / 3600,
+            **{f"join.{cores}": (parted / cores + alone) * words for cores in (1, 16, 128)},
         }
         print(f"{hours} h:", {name: float(f"{value:.2g}") for name, value in values.items()})
         for name, value in values.items():

@@ -10,17 +10,24 @@ were looked at when the constants were chosen. ``--most`` lets so many words at 
 each with each, as in larger libraries. ``--keep`` keeps what was found in each recording alone
 for the next time.
 
-``--growth 100 1000 10000`` measures instead what joining so many words takes: shaken copies of
-those of subject 86, in seconds of processors.
+``--growth 100 1000 10000`` measures instead what joining so many words takes, those of shaken
+copies of subject 86: processor seconds of the tasks and of what is done between them, how many
+bytes go to the tasks and come back, and seconds by the clock with one thread and in two processes,
+which find the same.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
+import pickle
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import process_time
+from time import perf_counter, process_time
+from typing import Any
 
 import numpy as np
 
@@ -32,12 +39,13 @@ from kineme import Library
 from kineme.evaluation import Annotation, Labelling
 from kineme.evaluation.frames import one_to_one_accuracy
 from kineme.evaluation.labelling import TRANSITION
+from kineme.library.compiling import compiled
 from kineme.library.constants import VOCABULARY
+from kineme.library.executors import Executor, Outcome, Task
+from kineme.library.executors.processes import processes
 from kineme.library.storage.layout import PIECES
-from kineme.library.storage.pieces import read_piece
-from kineme.library.vocabulary.crowds import Crowd, clusters_in
-from kineme.library.vocabulary.joining import Word
-from kineme.library.vocabulary.words import crowd_of, places_in
+from kineme.library.storage.pieces import read_features, read_piece, write_piece
+from kineme.library.vocabulary.words import places_in
 
 SEQUENCES, MORE = 6, 5
 
@@ -113,37 +121,80 @@ def show_others(folder: Path) -> None:
 
 
 def show_growth(folder: Path, sizes: list[int], most: int) -> None:
-    """What joining so many words takes."""
+    """What joining so many words takes, in this process and in two."""
+    os.environ["KINEME_THREADS"] = "1"
+    kineme.library.compiling.VOCABULARY = replace(VOCABULARY, most=most)
     cases = subject_86()
     library = library_of(folder / "subject_86", [(case.name, case.motion) for case in cases])
-    keys = library.recordings["piece"]
-    pieces = [read_piece(library.folder / PIECES, key) for key in keys]
-    places = [place for i, piece in enumerate(pieces) for place in places_in(piece, i)]
-    few = crowd_of(places, pieces, library.folder / PIECES, keys)
     for size in sizes:
-        start = process_time()
-        found = clusters_in(many(few, size), replace(VOCABULARY, most=most))
-        seconds = process_time() - start
-        print(f"{size} words: {seconds:.1f} s, {found.labels.max() + 1} clusters", flush=True)
-        record(f"vocabulary.growth.{size}.seconds", round(seconds, 1), unit="s")
+        with TemporaryDirectory() as home:
+            entries = many(library, size, Path(home))
+            clocks, made = {}, []
+            for jobs in (1, 2):
+                with processes(jobs) as executor:
+                    counted = Counted(executor)
+                    started, clock = process_time(), perf_counter()
+                    tables, _ = compiled(Path(home), entries, None, 0, counted, lambda _: None)
+                    clocks[jobs] = perf_counter() - clock
+                    spent = process_time() - started
+                made.append(tables["words"])
+                if jobs == 1:
+                    work, rest, travelled = counted.seconds, spent - counted.seconds, counted.bytes
+            n, clusters = len(made[0]), len(set(made[0].column("cluster").to_pylist()))
+            assert repr(made[0].to_pydict()) == repr(made[1].to_pydict())  # of nan as well
+        print(
+            f"{n} words: {work:.1f} s in {counted.tasks} tasks and {rest:.1f} s between them, "
+            f"{travelled / 1e6:.1f} MB there and back, {clusters} clusters; by the clock "
+            f"{clocks[1]:.1f} s, in two processes {clocks[2]:.1f} s",
+            flush=True,
+        )
+        record(f"vocabulary.growth.{size}.seconds", round(work, 1), unit="s")
+        record(f"vocabulary.growth.{size}.rest", round(rest, 2), unit="s")
+        record(f"vocabulary.growth.{size}.travels", round(travelled / 1e6, 1), unit="MB")
 
 
-def many(few: Crowd, size: int) -> Crowd:
-    """Shaken copies of words, each of which is shaken in its own way."""
-    m = len(few.seconds)
+class Counted:
+    """An executor that counts the processor seconds of tasks, and the bytes of them and back."""
 
-    def word(number: int) -> Word:
-        rng, own = np.random.default_rng(number), few.word(number % m)
-        shaken = []
-        for part in (own.example, own.context):
-            values = part + SHAKEN * rng.normal(size=part.shape).astype(np.float32)
-            shaken.append(values / np.linalg.norm(values, axis=1, keepdims=True))
-        return Word(shaken[0], shaken[1], number // m, own.seconds)
+    def __init__(self, executor: Executor):
+        self._executor = executor
+        self.tasks, self.bytes, self.seconds = 0, 0, 0.0
 
-    at = np.arange(size) % m
-    order = np.random.default_rng(0).permutation(size)
-    recording = np.arange(size) // m
-    return Crowd(word, recording, few.seconds[at], few.embeddings[at], order)
+    def completed(
+        self, work: Callable[[Task], Outcome], tasks: Sequence[Task], **options: Any
+    ) -> Iterator[tuple[Task, Outcome | None]]:
+        self.tasks += len(tasks)
+        for task, told in self._executor.completed(partial(timed, work), tasks, **options):
+            outcome, seconds, size = told or (None, 0.0, 0)
+            self.seconds += seconds
+            self.bytes += size
+            yield task, outcome
+
+
+def timed(work: Callable[[Task], Outcome], task: Task) -> tuple[Outcome, float, int]:
+    start = process_time()
+    outcome = work(task)
+    seconds = process_time() - start
+    return outcome, seconds, len(pickle.dumps(task)) + len(pickle.dumps(outcome))
+
+
+def many(library: Library, size: int, home: Path) -> list[tuple[str, Path, str]]:
+    """Shaken copies of recordings with so many words, each of which is shaken in its own way."""
+    (home / PIECES).mkdir()
+    keys = library.recordings["piece"]
+    own = [(read_piece(library.folder / PIECES, key), key) for key in keys]
+    entries, n = [], 0
+    while n < size:
+        piece, key = own[len(entries) % len(own)]
+        rng = np.random.default_rng(len(entries))
+        features = read_features(library.folder / PIECES, key)
+        features = features + np.float32(SHAKEN) * rng.standard_normal(features.shape, np.float32)
+        features /= np.linalg.norm(features, axis=1, keepdims=True)
+        name = f"{len(entries):032x}"
+        write_piece(home / PIECES, name, piece, features)
+        entries.append((name, home / name, name))
+        n += len(places_in(piece, 0))
+    return entries
 
 
 def main() -> None:

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 
-def write_channels(path: Path) -> None:
+def write_channels(path: Path, seed: int = 0) -> None:
     """Forty seconds of a slow, then a fast movement."""
-    random = np.random.default_rng(0)
+    random = np.random.default_rng(seed)
     times = np.arange(1200) / 30
     slow, fast = np.sin(2 * np.pi * 0.7 * times), np.sin(2 * np.pi * 1.9 * times)
     shape = np.where(times < 20, slow, 0.4 * fast) + 0.02 * random.normal(size=1200)

@@ -1049,7 +1049,7 @@ def recurrences_of(start, stop, paths, free, cover):
     return kept
 
 
-def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
+def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share):
     """Cost and clusters of the cheapest grouping: all clusters compared before each union."""
     clusters = [[g] for g in range(len(lengths))]
 
@@ -1058,6 +1058,12 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
 
     def size(a):
         return sum(lengths[g] for g in a)
+
+    def mean(a, b):
+        return total(a, b) / (size(a) * size(b))
+
+    def distance(a, b):
+        return mean(a, b) - spread_share * (mean(a, a) + mean(b, b)) / 2
 
     best = None
     while True:
@@ -1070,7 +1076,7 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
         if len(clusters) == 1:
             return best
         pairs = [(a, b) for i, a in enumerate(clusters) for b in clusters[i + 1 :]]
-        a, b = min(pairs, key=lambda p: total(*p) / (size(p[0]) * size(p[1])))
+        a, b = min(pairs, key=lambda pair: distance(*pair))
         clusters = [c for c in clusters if c not in (a, b)] + [a + b]
 
 

@@ -80,7 +80,8 @@ ROOMS = {
     ),
     "library": Room(
         "collections of recordings, segmented once, with clusters in common, searched by example",
-        "clips features formats labels matching methods plot recordings segmentation segments",
+        "clips features formats labels matching methods plot recordings segmentation segments "
+        "transfer",
     ),
     "datasets": Room(
         "recordings with known truth, the bundled one among them; CMU's, fetched",

@@ -21,10 +21,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from os import PathLike, fspath
+from typing import Any
 
 
 class KinemeError(Exception):
-    """Base of every error raised on purpose."""
+    """Base of every error raised on purpose; all of them get from one process to another."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _as_it_was, (type(self), self.args, vars(self))
 
 
 class FileError(KinemeError):
@@ -86,3 +90,10 @@ class MissingDependencyError(KinemeError, ImportError):
 
 class KinemeWarning(UserWarning):
     """Something unusual was accepted; the message says what was made of it."""
+
+
+def _as_it_was(kind: type[KinemeError], args: tuple[Any, ...], told: dict[str, Any]) -> KinemeError:
+    """An error that was pickled: those that are made of other things than ``args`` as well."""
+    error = kind.__new__(kind, *args)
+    vars(error).update(told)
+    return error

@@ -18,7 +18,7 @@ from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Library, Settings, build
 from kineme.library import work as work_module
 from kineme.library.duplicates import Group
-from kineme.library.executors.processes import Processes
+from kineme.library.vocabulary import moments
 from library_folders import contents, write_channels
 
 
@@ -138,6 +138,42 @@ def test_the_number_of_processes_changes_no_byte(built: Path, takes: Path, tmp_p
     assert contents(tmp_path / "library") == contents(built)
 
 
+class Backwards:
+    """Works on the last task first."""
+
+    def completed(self, work, tasks, *, workers=None):
+        return ((task, work(task)) for task in reversed(tasks))
+
+
+def test_channels_have_clusters_in_common_that_keep_number_and_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own, folder = tmp_path / "takes", tmp_path / "library"
+    own.mkdir()
+    for seed, name in enumerate("abc"):
+        write_channels(own / f"{name}.csv", seed)
+
+    def numbers(library: Library) -> dict[str, set[int]]:
+        """Clusters of the slow movement, and of the fast one, over all recordings."""
+        rows = [row for row in library.table("segments").to_pylist() if row["kind"] == "activity"]
+        slow = {row["cluster"] for row in rows if row["stop_s"] < 19}
+        return {"slow": slow, "fast": {row["cluster"] for row in rows if row["start_s"] > 21}}
+
+    build([own / "a.csv", own / "b.csv"], folder)
+    before = numbers(Library(folder))
+    assert len(before["slow"]) == len(before["fast"]) == 1
+    assert before["slow"] != before["fast"]
+    Library(folder).name(*before["fast"], "fast")
+    build(own / "c.csv", folder)
+    assert numbers(Library(folder)) == before
+    labels = {row["label"] for row in Library(folder).table("segments").to_pylist()}
+    assert labels == {"", "fast"}
+    build(own, tmp_path / "once")
+    monkeypatch.setattr(moments, "AT_ONCE", 1)
+    build(own, tmp_path / "backwards", client=Backwards())
+    assert contents(tmp_path / "backwards") == contents(tmp_path / "once")
+
+
 def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:
     paths = [tmp_path / name for name in "abcdefgh"]
     for size, jobs in ((10, 1), (work_module.PER_WORKER, 4)):
@@ -146,7 +182,7 @@ def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:
         paths[5].write_bytes(b" " * (size + 1))
         tasks = work_module.tasks_for(paths, tmp_path, Settings())
         assert tasks[0].path == paths[5]  # the largest is worked on first
-        assert work_module.executor_for(tasks, 4) == Processes(jobs)
+        assert min(work_module.workers_for(tasks), 4) == jobs
 
 
 def pieces_in(folder: Path) -> list[str]:

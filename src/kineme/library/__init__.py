@@ -10,6 +10,7 @@ A library is a folder. `build` fills it from recordings; `Library` opens it.
 ``pieces/KEY.parquet``        segments and embeddings of one recording, as it was found alone
 ``pieces/KEY.npy``            its matching features, float32 (samples, dims)
 ``pieces/KEY.windows.npy``    their windows, int8 (windows, 32): see `kineme.library.index`
+``pieces/KEY.moments.npy``    of signals: means and deviations of channels, five times a second
 ``edits.json``                what people said: names, merges and splits of clusters
 ``seen.json``                 size and time of every file when it was read; may be deleted
 ============================= ==================================================================
@@ -20,9 +21,9 @@ is there is never made again, so a build that was ended at any moment goes on wh
 what a library holds depends neither on the number of processes nor on the order of their work.
 
 **One vocabulary.** The clusters of single recordings are joined over all of them by what they
-look like (`kineme.library.vocabulary`), bodies and each set of channels for itself. A cluster that
-is found again after recordings came or went keeps its number
-(`kineme.library.vocabulary.numbering`); a number is never given twice.
+look like (`kineme.library.vocabulary`), bodies and each set of channels for itself; those of
+channels by what all recordings have together. A cluster that is found again after recordings came
+or went keeps its number (`kineme.library.vocabulary.numbering`); a number is never given twice.
 
 **Computed and said are apart.** Tables hold what was computed. Names, merges and splits
 (`kineme.library.edits`) are kept in a file of their own, and applied whenever tables are read.

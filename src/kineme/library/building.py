@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,9 +14,11 @@ from kineme.library.constants import VOCABULARY
 from kineme.library.edits import read_edits
 from kineme.library.executors import Executor
 from kineme.library.executors.cluster import connected
-from kineme.library.gathering import Progress, gather
+from kineme.library.executors.processes import processes
+from kineme.library.gathering import gather
 from kineme.library.index.kept import write_index
-from kineme.library.planning import AnyPath, Plan, absolute, as_paths, opened, plan_of
+from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, opened, plan_of
+from kineme.library.progress import Progress
 from kineme.library.settings import Settings
 from kineme.library.sources import listed, names_of
 from kineme.library.storage.layout import (
@@ -39,8 +40,6 @@ Head = Mapping[str, Any]
 """What ``library.json`` says; nothing where there is none yet."""
 Known = Mapping[Path, tuple[str, str]]
 """Name and piece of recordings that the library has."""
-Entry = tuple[str, Path, str]
-"""A recording: its name, where it was read from, and its piece."""
 
 NOT_THERE = "there is no such file or folder"
 GONE = "is not there: its recordings are kept; --remove takes them out"
@@ -142,7 +141,7 @@ def build(
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
     check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
     check_type(settings, (Settings, type(None)), "build", "kineme.library.Settings() makes one")
-    with nullcontext(int(jobs)) if client is None else connected(client) as executor:
+    with processes(int(jobs)) if client is None else connected(client) as executor:
         folder = opened(into)
         with held(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
@@ -150,7 +149,7 @@ def build(
             return _built(plan, head, executor, progress or (lambda _: None))
 
 
-def _built(plan: Plan, head: Head, executor: Executor | int, progress: Progress) -> Built:
+def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Built:
     """The library brought up to date, for one that holds it."""
     progress("looking for recordings")
     before = _before(plan.folder, head)
@@ -168,7 +167,7 @@ def _built(plan: Plan, head: Head, executor: Executor | int, progress: Progress)
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
     with held(plan.folder, "build", LOCK_EDITS):
-        tables = _written(plan, head, before, entries, failed, progress)
+        tables = _written(plan, head, before, entries, failed, executor, progress)
     _clean(plan.folder, {key for _, _, key in entries}, tables)
     return Built(
         plan.folder,
@@ -205,6 +204,7 @@ def _written(
     before: Known,
     entries: Sequence[Entry],
     failed: Mapping[Path, str],
+    executor: Executor,
     progress: Progress,
 ) -> str:
     """The name of the tables of these recordings, which the head of the library tells now."""
@@ -225,7 +225,9 @@ def _written(
 
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)
-        made, following = compiled(plan.folder, entries, head.get("tables"), following)
+        made, following = compiled(
+            plan.folder, entries, head.get("tables"), following, executor, progress
+        )
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**wanted, "following": following, "tables": tables}

@@ -12,7 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.library.constants import VOCABULARY
-from kineme.library.storage.layout import EMBEDDED, PIECES, arrow, as_array, as_column
+from kineme.library.executors import Executor
+from kineme.library.planning import Entry
+from kineme.library.progress import Progress
+from kineme.library.storage.layout import BODIES, EMBEDDED, PIECES, arrow, as_array, as_column
 from kineme.library.storage.pieces import Piece, read_piece
 from kineme.library.storage.tables import read_table, table_of
 from kineme.library.vocabulary.crowds import clusters_in
@@ -20,8 +23,6 @@ from kineme.library.vocabulary.numbering import Spans, lasting_numbers
 from kineme.library.vocabulary.words import Place, crowd_of, places_in
 from kineme.segments.table import COLUMNS
 
-Entry = tuple[str, Path, str]
-"""A recording: its name, where it was read from, and its piece."""
 Columns = dict[str, Any]
 Ints = NDArray[np.int64]
 
@@ -38,7 +39,12 @@ class _Words:
 
 
 def compiled(
-    folder: Path, entries: Sequence[Entry], before: str | None, following: int
+    folder: Path,
+    entries: Sequence[Entry],
+    before: str | None,
+    following: int,
+    executor: Executor,
+    progress: Progress,
 ) -> tuple[dict[str, Any], int]:
     """The tables of a library.
 
@@ -51,6 +57,10 @@ def compiled(
         The tables that were valid so far: clusters that are found again keep their numbers.
     following : int
         The first number of a cluster that was never given.
+    executor : Executor
+        Where clusters are compared.
+    progress : callable
+        Called with a sentence on how far it is.
 
     Returns
     -------
@@ -59,7 +69,7 @@ def compiled(
         The first number that was not given now either.
     """
     pieces = [read_piece(folder / PIECES, key) for _, _, key in entries]
-    words = _joined_words(folder, entries, pieces)
+    words = _joined_words(folder, entries, pieces, executor, progress)
     shared = _shared(pieces, words)
     new = {
         name: _spans(piece.table.columns(), clusters)
@@ -78,7 +88,13 @@ def compiled(
     )
 
 
-def _joined_words(folder: Path, entries: Sequence[Entry], pieces: Sequence[Piece]) -> _Words:
+def _joined_words(
+    folder: Path,
+    entries: Sequence[Entry],
+    pieces: Sequence[Piece],
+    executor: Executor,
+    progress: Progress,
+) -> _Words:
     """The words of each vocabulary, joined; clusters are counted on from one to the next."""
     places: list[Place] = []
     parts: list[tuple[Ints, Ints, Any, Any]] = []
@@ -92,8 +108,14 @@ def _joined_words(folder: Path, entries: Sequence[Entry], pieces: Sequence[Piece
         ]
         if not own:
             continue
-        crowd = crowd_of(own, pieces, folder / PIECES, [key for _, _, key in entries])
-        found = clusters_in(crowd, VOCABULARY)
+        keys = [key for _, _, key in entries]
+        if vocabulary == BODIES or len({place.recording for place in own}) == 1:
+            crowd = crowd_of(own, pieces, folder / PIECES, keys)
+            found = clusters_in(crowd, VOCABULARY, executor, progress)
+        else:
+            from kineme.library.vocabulary.moments import clusters_of_moments
+
+            found = clusters_of_moments(own, pieces, folder / PIECES, keys, executor)
         following = np.where(found.following < 0, -1, found.following + count)
         places += own
         parts.append((found.labels + count, following, found.confidence, found.spread))

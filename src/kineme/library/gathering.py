@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -15,11 +14,11 @@ from kineme.library.duplicates import by_content
 from kineme.library.executors import Executor
 from kineme.library.executors.here import Here
 from kineme.library.planning import Plan
+from kineme.library.progress import Progress, Watch
 from kineme.library.sources import Glances
 from kineme.library.storage.layout import SEEN, read_json, write_json
-from kineme.library.work import Outcome, Task, executor_for, outcomes_of, tasks_for
+from kineme.library.work import Outcome, Task, outcomes_of, tasks_for
 
-Progress = Callable[[str], None]
 UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
 """What is said of such a file."""
 
@@ -43,9 +42,7 @@ class Gathered:
     new: int = 0
 
 
-def gather(
-    plan: Plan, found: Sequence[Path], executor: Executor | int, progress: Progress
-) -> Gathered:
+def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Progress) -> Gathered:
     """The pieces of recordings, made where there is none.
 
     Files that look as they did when they were last read are not read again.
@@ -55,8 +52,8 @@ def gather(
     plan : Plan
     found : sequence of Path
         The recordings.
-    executor : Executor or int
-        Where they are made; a number is that of processes of this machine at most.
+    executor : Executor
+        Where they are made.
     progress : callable
         Called with a sentence on how far it is.
 
@@ -96,7 +93,7 @@ def _unchanged(
 def _make(
     plan: Plan,
     waiting: Sequence[Path],
-    executor: Executor | int,
+    executor: Executor,
     progress: Progress,
     into: Gathered,
 ) -> None:
@@ -105,11 +102,9 @@ def _make(
     groups = {
         group.tasks[0]: group for group in by_content(tasks, plan.settings.options().skeleton)
     }
-    if isinstance(executor, int):
-        executor = executor_for(list(groups), executor)
     if not isinstance(executor, Here):  # what comes next is imported while others work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
-    watch = _Watch(tasks, progress)
+    watch = Watch(progress, len(tasks), sum(task.size for task in tasks))
     alone: list[Task] = []
     for task, outcome in outcomes_of(list(groups), executor):
         _note(plan, task, outcome, into)
@@ -119,10 +114,10 @@ def _make(
         else:  # it failed, and says so of this one, or has changed since
             alone += others
             others = []
-        watch.done([task, *others])
+        watch.done(1 + len(others), task.size * (1 + len(others)))
     for task, outcome in outcomes_of(alone, executor):
         _note(plan, task, outcome, into)
-        watch.done([task])
+        watch.done(1, task.size)
 
 
 def _note(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
@@ -134,22 +129,3 @@ def _note(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
     else:
         into.digests[task.path] = outcome.digest
     into.new += outcome.new
-
-
-class _Watch:
-    """Tells how far it is, and for how many seconds it goes on."""
-
-    def __init__(self, tasks: Sequence[Task], progress: Progress):
-        self._progress = progress
-        self._started = time.monotonic()
-        self._tasks, self._bytes = len(tasks), sum(task.size for task in tasks)
-        self._tasks_done = self._bytes_done = 0
-
-    def done(self, tasks: Sequence[Task]) -> None:
-        self._tasks_done += len(tasks)
-        self._bytes_done += sum(task.size for task in tasks)
-        left = self._bytes - self._bytes_done
-        left_s = (time.monotonic() - self._started) * left / max(self._bytes_done, 1)
-        shown = f"{left_s:.0f} s" if left_s < 90 else f"{left_s / 60:.0f} min"
-        more = f", {shown} left" if self._tasks_done < self._tasks else ""
-        self._progress(f"{self._tasks_done} of {self._tasks}{more}")

@@ -15,6 +15,8 @@ from kineme.library.storage.layout import HEAD, PIECES, read_head, read_json
 from kineme.library.storage.places import is_remote, place
 
 AnyPath = str | PathLike[str]
+Entry = tuple[str, Path, str]
+"""A recording: its name, where it was read from, and its piece."""
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.methods.presets import DEFAULT, resolve_preset
 
-PIECE = "kineme.library.piece/3"
+PIECE = "kineme.library.piece/4"
 """Schema of a piece: a change of what is kept of a recording gets the next number."""
 
 

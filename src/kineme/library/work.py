@@ -16,8 +16,6 @@ from threadpoolctl import threadpool_limits
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, WriteError
 from kineme.formats import read_quietly
 from kineme.library.executors import Executor
-from kineme.library.executors.here import Here
-from kineme.library.executors.processes import Processes
 from kineme.library.settings import Settings
 from kineme.library.sources import content_digest, size_of
 from kineme.library.storage.pieces import has_piece, write_piece
@@ -91,22 +89,13 @@ def outcomes_of(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Tas
     task : Task
     outcome : Outcome
     """
-    for task, outcome in executor.completed(work_on, tasks):
+    for task, outcome in executor.completed(work_on, tasks, workers=workers_for(tasks)):
         yield task, outcome or Outcome(error=DIED)
 
 
-def executor_for(tasks: Sequence[Task], jobs: int) -> Executor:
-    """As many processes as pay for so many and so large recordings.
-
-    Parameters
-    ----------
-    tasks : sequence of Task
-    jobs : int
-        Processes at most; 1 stays in this one.
-    """
-    if jobs == 1 or len(tasks) < 2:
-        return Here()
-    return Processes(min(jobs, 1 + sum(task.size for task in tasks) // PER_WORKER))
+def workers_for(tasks: Iterable[Task]) -> int:
+    """How many processes are worth to be started for so many and so large recordings."""
+    return 1 + sum(task.size for task in tasks) // PER_WORKER
 
 
 def work_on(task: Task) -> Outcome:

@@ -180,15 +180,16 @@ class SegmentTable:
 
 def _picked(rows: ArrayLike, n: int) -> NDArray[Any]:
     """A mask or row numbers of a table of n rows, checked."""
-    advice = f"rows are picked by a slice, a mask or row numbers, not by {rows!r:.60}"
     try:
         picked = np.asarray(rows)
     except ValueError:
-        raise ParameterError(advice) from None
+        picked = np.empty(())  # of lists of several lengths
     if picked.shape == (0,):
         return picked.astype(np.int64)
     if picked.ndim != 1 or picked.dtype.kind not in "biu":
-        raise ParameterError(advice)
+        raise ParameterError(
+            f"rows are picked by a slice, a mask or row numbers, not by {rows!r:.60}"
+        )
     if picked.dtype.kind == "b" and len(picked) != n:
         raise ParameterError(f"a mask of {len(picked)} does not fit a table of {n} rows")
     if picked.dtype.kind != "b" and not (-n <= picked.min() and picked.max() < n):

@@ -83,6 +83,41 @@ def moments_of(signals: Signals) -> Moments:
     )
 
 
+@dataclass(frozen=True, eq=False)
+class Units:
+    """Those of a collection, in which the moments of its recordings are compared.
+
+    Parameters
+    ----------
+    varies : (channels,) array
+        How much the means of each channel vary in the collection.
+    means, energies : (2, channels) array
+        What is taken off these features, and what they are divided by.
+    """
+
+    varies: Floats
+    means: Floats
+    energies: Floats
+
+    @classmethod
+    def of(cls, means: Float32s, deviations: Float32s) -> Units:
+        """The units of these moments, (moments, channels) each."""
+        values, within = means.astype(np.float64), deviations.astype(np.float64)
+        varies = values.std(axis=0)
+        varies = np.where(varies > 0, varies, np.sqrt((within**2).mean(axis=0)))
+        return cls(varies, _scale(values), _scale(_energies(within, varies)))
+
+    def features(self, means: Float32s, deviations: Float32s) -> Float32s:
+        """Moments as they are compared, (moments, 2 · channels)."""
+        values = means.astype(np.float64)
+        energies = _energies(deviations.astype(np.float64), self.varies)
+        parts = [
+            (part - centre) / scale
+            for part, (centre, scale) in ((values, self.means), (energies, self.energies))
+        ]
+        return np.hstack(parts).astype(np.float32)
+
+
 def in_common_units(recordings: Sequence[Moments]) -> list[Float32s]:
     """Features (moments, 2 · channels) of each recording, in units of all of them.
 
@@ -106,14 +141,11 @@ def in_common_units(recordings: Sequence[Moments]) -> list[Float32s]:
                 "clusters are shared over recordings of the same channels, not of "
                 f"{', '.join(recordings[0].names):.80} and of {', '.join(one.names):.80}"
             )
-    means = np.concatenate([one.means for one in recordings]).astype(np.float64)
-    deviations = np.concatenate([one.deviations for one in recordings]).astype(np.float64)
-    varies = means.std(axis=0)
-    varies = np.where(varies > 0, varies, np.sqrt((deviations**2).mean(axis=0)))
-    energies = np.log(deviations / np.where(varies > 0, varies, 1.0) + STILL)
-    features = np.hstack([_standardized(means), _standardized(energies)]).astype(np.float32)
-    ends = np.cumsum([len(one.frames) for one in recordings])[:-1]
-    return np.split(features, ends)
+    units = Units.of(
+        np.concatenate([one.means for one in recordings]),
+        np.concatenate([one.deviations for one in recordings]),
+    )
+    return [units.features(one.means, one.deviations) for one in recordings]
 
 
 def _means(values: Floats, first: Ints, last: Ints) -> Floats:
@@ -122,8 +154,14 @@ def _means(values: Floats, first: Ints, last: Ints) -> Floats:
     return means
 
 
-def _standardized(values: Floats) -> Floats:
-    centred = values - values.mean(axis=0)
-    deviation = centred.std(axis=0)
-    scaled: Floats = centred / np.where(deviation > 1e-9 * np.abs(values).max(), deviation, np.inf)
-    return scaled
+def _energies(deviations: Floats, varies: Floats) -> Floats:
+    energies: Floats = np.log(deviations / np.where(varies > 0, varies, 1.0) + STILL)
+    return energies
+
+
+def _scale(values: Floats) -> Floats:
+    """Mean and deviation of each column; infinite where it does not vary."""
+    centre = values.mean(axis=0)
+    deviation = (values - centre).std(axis=0)
+    varies = deviation > 1e-9 * np.abs(values).max()
+    return np.stack([centre, np.where(varies, deviation, np.inf)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -77,7 +78,12 @@ def build(
     """
     request = Request.of(preset or DEFAULT, constants, reading, effectors)
     failures = Failures()
+    processes = _cores() if jobs is None else jobs
     with failures.caught(into):
+        if processes > 1 and scheduler is None and _is_much(files or (), into):
+            from kineme.library.executors.processes import start_soon
+
+            start_soon()  # what is imported next takes a while as well
         from kineme.library import Settings
         from kineme.library.building import build as build_library
         from kineme.library.planning import known_sources
@@ -97,7 +103,7 @@ def build(
                 remove=remove or (),
                 recursive=recursive,
                 settings=settings,
-                jobs=_cores() if jobs is None else jobs,
+                jobs=processes,
                 client=scheduler,
                 progress=stage,
             )
@@ -108,6 +114,12 @@ def build(
         _say_elsewhere(built, elsewhere)
         _exit(built, Batch(here, recursive=built.recursive))
     failures.exit()
+
+
+def _is_much(files: Sequence[Path], into: Path) -> bool:
+    """Whether there is work for several processes, as far as a glance tells."""
+    fresh = not (into / "library.json").exists()
+    return fresh and (len(files) > 1 or any(file.is_dir() for file in files))
 
 
 def _say_elsewhere(built: Built, sources: set[Path]) -> None:

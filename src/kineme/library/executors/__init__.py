@@ -19,16 +19,23 @@ class Executor(Protocol):
     """Where tasks are worked on."""
 
     def completed(
-        self, work: Callable[[Task], Outcome], tasks: Sequence[Task]
+        self,
+        work: Callable[[Task], Outcome],
+        tasks: Sequence[Task],
+        *,
+        workers: int | None = None,
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Each task and what came of it, as they come.
 
         Parameters
         ----------
         work : callable
-            A function of a module, which raises nothing.
+            A function of a module. What it raises ends all.
         tasks : sequence
             Each is pickled where it goes to another process.
+        workers : int, optional
+            How many processes are worth to be started for these tasks, any by default; 0: none,
+            but those that are there already may work on them.
 
         Yields
         ------

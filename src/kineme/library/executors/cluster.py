@@ -54,7 +54,11 @@ class Cluster:
                 )
 
     def completed(
-        self, work: Callable[[Task], Outcome], tasks: Sequence[Task]
+        self,
+        work: Callable[[Task], Outcome],
+        tasks: Sequence[Task],
+        *,
+        workers: int | None = None,  # noqa: ARG002 (they are there already)
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Each task and what came of it, as they come; see `Executor`."""
         distributed = _distributed()
@@ -115,11 +119,12 @@ def _outcome(future: Any) -> Any:
     """What came of a task; None where its workers died."""
     if future.status == "finished":
         return future.result()
-    if future.status == "error" and isinstance(
-        error := future.exception(), _distributed().KilledWorker
-    ):
+    error = future.exception() if future.status == "error" else None
+    if isinstance(error, _distributed().KilledWorker):
         return None
-    reason = f"{error}" if future.status == "error" else "the scheduler is gone"
+    if isinstance(error, KinemeError):
+        raise error
+    reason = "the scheduler is gone" if error is None else f"{error}"
     raise KinemeError(
         f"the cluster gave up: {' '.join(reason.split())[:200]}; what is done is kept, try again"
     )

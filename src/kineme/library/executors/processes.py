@@ -8,62 +8,120 @@ import threading
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
-from multiprocessing import get_context, parent_process
+from contextlib import contextmanager
+from multiprocessing import forkserver, get_context, parent_process
 from multiprocessing.connection import wait as wait_for
 from multiprocessing.context import BaseContext
 
 from kineme._threads import n_threads
-from kineme.library.executors import Outcome, Task
+from kineme.library.executors import Executor, Outcome, Task
+from kineme.library.executors.here import Here
 
-SHARED = ("kineme.library.making", "kineme.methods.recurrence.analysis", "pyarrow.parquet")
+SHARED = (
+    "kineme.library.work",
+    "kineme.library.making",
+    "kineme.library.vocabulary.crowds",
+    "kineme.formats.skeletons._amc_kernels",
+    "kineme.methods.recurrence.analysis",
+    "kineme.methods.recurrence.levels",
+    "pyarrow.parquet",
+)
 """What takes long to import."""
+_SOON = threading.Event()
+"""Set where this was begun before it was known what there is to do."""
 
 
-@dataclass(frozen=True)
 class Processes:
-    """So many processes of this machine at most."""
+    """So many processes of this machine at most, which go on from one work to the next.
 
-    jobs: int
+    Parameters
+    ----------
+    jobs : int
+    """
+
+    def __init__(self, jobs: int):
+        self._jobs = jobs
+        self._pool: ProcessPoolExecutor | None = None
 
     def completed(
-        self, work: Callable[[Task], Outcome], tasks: Sequence[Task]
+        self,
+        work: Callable[[Task], Outcome],
+        tasks: Sequence[Task],
+        *,
+        workers: int | None = None,
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Each task and what came of it, as they come; see `Executor`."""
+        """Each task and what came of it, as they come; see `Executor`.
+
+        For one task alone no process is started either, unless that is begun already.
+        """
+        if not (self._pool or _SOON.is_set()) and (workers == 0 or len(tasks) == 1):
+            yield from Here().completed(work, tasks)
+            return
         waiting = list(reversed(tasks))
         while waiting:
-            suspects = yield from _in_a_pool(work, waiting, self.jobs)
+            suspects = yield from self._done(work, waiting, min(self._jobs, workers or self._jobs))
             for task in suspects:  # alone, so that it is known who ends its process
-                dying = yield from _in_a_pool(work, [task], 1)
+                dying = yield from self._done(work, [task], 1)
                 if dying:
                     yield task, None
 
+    def close(self, *, wait: bool = False) -> None:
+        """End the processes once they are done with what they are at, and wait for that.
 
-def _in_a_pool(
-    work: Callable[[Task], Outcome], waiting: list[Task], jobs: int
-) -> Generator[tuple[Task, Outcome], None, list[Task]]:
-    """Work on tasks from the end of the list; those in work when a process died are returned."""
-    share = max(1, n_threads() // jobs)
-    pool = ProcessPoolExecutor(
-        min(jobs, len(waiting)),
-        mp_context=_context(),
-        initializer=_prepare,
-        initargs=(share,),
-    )
-    running: dict[Future[Outcome], Task] = {}
+        Python that ends at the same time as they do may complain of it.
+        """
+        if self._pool is not None:
+            self._pool.shutdown(wait=wait, cancel_futures=True)
+        self._pool = None
+
+    def _done(
+        self, work: Callable[[Task], Outcome], waiting: list[Task], most: int
+    ) -> Generator[tuple[Task, Outcome], None, list[Task]]:
+        """Work on tasks from the end of the list; those in work when one died are returned."""
+        if self._pool is None:
+            share = max(1, n_threads() // self._jobs)
+            self._pool = ProcessPoolExecutor(
+                self._jobs, mp_context=_context(), initializer=_prepare, initargs=(share,)
+            )
+        running: dict[Future[Outcome], Task] = {}
+        try:
+            while waiting or running:
+                while waiting and len(running) < most:
+                    running[self._pool.submit(work, waiting[-1])] = waiting[-1]
+                    waiting.pop()
+                for future in wait(running, return_when=FIRST_COMPLETED).done:
+                    outcome = future.result()
+                    yield running.pop(future), outcome
+        except BrokenProcessPool:
+            self.close()
+            return list(running.values())
+        finally:
+            if running:  # nobody asks any more
+                self.close()
+        return []
+
+
+@contextmanager
+def processes(jobs: int) -> Iterator[Executor]:
+    """So many processes of this machine at most; 1 is this one."""
+    if jobs == 1:
+        yield Here()
+        return
+    several = Processes(jobs)
     try:
-        while waiting or running:
-            while waiting and len(running) < jobs:
-                task = waiting.pop()
-                running[pool.submit(work, task)] = task
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
-                outcome = future.result()
-                yield running.pop(future), outcome
-    except BrokenProcessPool:
-        return list(running.values())
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-    return []
+        yield several
+    except BaseException:
+        several.close()
+        raise
+    several.close(wait=True)
+
+
+def start_soon() -> None:
+    """Start what processes are copies of: that takes a second, in which this one can go on."""
+    if sys.platform == "linux":
+        _context()
+        forkserver.ensure_running()
+        _SOON.set()
 
 
 def _context() -> BaseContext:

@@ -1,19 +1,20 @@
 """Pieces: what is kept of one recording, as it was found alone.
 
 The segments with their embeddings are a Parquet file, whose metadata tell of the recording; its
-features, and their windows for an index, are plain arrays beside it. These are written first: where
-there is a Parquet file, the piece is whole.
+features, their windows for an index, and the moments of signals are plain arrays beside it. These
+are written first: where there is a Parquet file, the piece is whole.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,9 +27,11 @@ from kineme.library.storage.places import near, written
 from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
 
 METADATA = b"kineme.library"
-FEATURES, WINDOWS = ".npy", ".windows.npy"
+FEATURES, WINDOWS, MOMENTS = ".npy", ".windows.npy", ".moments.npy"
 LARGEST = 1e30
 """Sum of the squares of all features of a recording; no distance overflows below it."""
+LARGEST_MOMENT = 1e18
+"""Of any number in moments."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +41,8 @@ class Piece:
     Attributes
     ----------
     facts : dict
-        ``format``, ``n_frames``, ``fps``, ``vocabulary``, ``features_fps``, ``samples``, ``notes``.
+        ``format``, ``n_frames``, ``fps``, ``vocabulary``, ``features_fps``, ``samples``,
+        ``moments``, ``notes``.
     table : SegmentTable
         Its segments, with the clusters of this recording alone.
     embeddings : (segments, 32) array of float32
@@ -50,13 +54,21 @@ class Piece:
     embeddings: NDArray[np.float32]
 
 
-def write_piece(folder: Path, key: str, piece: Piece, features: NDArray[np.float32]) -> None:
-    """Leave a piece, and the features (samples, dims) of its recording, in a folder."""
+def write_piece(
+    folder: Path,
+    key: str,
+    piece: Piece,
+    features: NDArray[np.float32],
+    moments: NDArray[np.float32] | None = None,
+) -> None:
+    """Leave a piece in a folder, with the features (samples, dims) and moments of its recording."""
     pa, parquet = arrow()
     values = np.ascontiguousarray(features, np.float32)
     arrays: dict[str, NDArray[Any]] = {FEATURES: values}
     if piece.facts["vocabulary"] == BODIES:
         arrays[WINDOWS] = all_windows(values)
+    if moments is not None:
+        arrays[MOMENTS] = moments
     for suffix, held in arrays.items():
         array = BytesIO()  # into a file itself, numpy does not tell that the disk is full
         np.save(array, held, allow_pickle=False)
@@ -130,13 +142,65 @@ def read_parts(
     """
     path = folder / f"{key}{FEATURES}"
     with _opening(path), near(path).open("rb", buffering=0) as file:
-        head = file.read(10)
-        data = 10 + int.from_bytes(head[8:10], "little")  # after the header of an npy file
-        for start, part in zip(starts, into, strict=True):
-            file.seek(data + part.itemsize * part.shape[1] * start)
-            if file.readinto(part) != part.nbytes:  # type: ignore[arg-type]
-                raise ValueError("shorter than was written")
-            _check_sound(part)
+        _fill(file, _laid(file)[0], starts, into)
+
+
+def read_spans(
+    folder: Path, key: str, spans: Sequence[tuple[int, int]]
+) -> list[NDArray[np.float32]]:
+    """The features in a piece from some samples to others.
+
+    Raises
+    ------
+    ReadError
+        They are gone or damaged.
+    """
+    path = folder / f"{key}{FEATURES}"
+    with _opening(path), near(path).open("rb", buffering=0) as file:
+        start, dims = _laid(file)
+        parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
+        _fill(file, start, [first for first, _ in spans], parts)
+    return parts
+
+
+def read_moments(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
+    """The moments in a piece, each of so many: its second, means and deviations of channels.
+
+    Raises
+    ------
+    ReadError
+        They are gone or damaged.
+    """
+    path = folder / f"{key}{MOMENTS}"
+    with _opening(path):
+        rows: NDArray[np.float32] = np.load(near(path), mmap_mode="r", allow_pickle=False)
+        rows = np.array(rows[min(step, len(rows)) // 2 :: step])  # recordings begin at rest
+        if rows.ndim != 2 or rows.dtype != np.float32 or not len(rows) or rows.shape[1] % 2 == 0:
+            raise ValueError("not rows of moments")
+        deviations = rows[:, 1 + rows.shape[1] // 2 :]
+        if not ((np.abs(rows) <= LARGEST_MOMENT).all() and (deviations >= 0).all()):
+            raise ValueError("moments that no recording has")
+    return rows
+
+
+def _laid(file: IO[bytes]) -> tuple[int, int]:
+    """Where the rows of an npy file begin, and how many float32 numbers each has."""
+    length = int.from_bytes(file.read(10)[8:], "little")
+    told = re.search(rb"'descr': '<f4'.*'shape': \(\d+, (\d+)\)", file.read(length))
+    if told is None:
+        raise ValueError("not rows of features")
+    return 10 + length, int(told[1])
+
+
+def _fill(
+    file: IO[bytes], start: int, firsts: Iterable[int], parts: Iterable[NDArray[np.float32]]
+) -> None:
+    """Rows of an npy file from some samples on."""
+    for first, part in zip(firsts, parts, strict=True):
+        file.seek(start + part.itemsize * part.shape[1] * first)
+        if file.readinto(part) != part.nbytes:  # type: ignore[attr-defined]
+            raise ValueError("shorter than was written")
+        _check_sound(part)
 
 
 def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:

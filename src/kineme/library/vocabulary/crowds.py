@@ -12,7 +12,7 @@ little of it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,52 +21,50 @@ from threadpoolctl import threadpool_limits
 
 from kineme._threads import map_threads
 from kineme.library.constants import VocabularyConstants
-from kineme.library.vocabulary.joining import Contexts, Floats, Ints, Joined, Word, joined
+from kineme.library.executors import Executor
+from kineme.library.progress import Progress, Watch
+from kineme.library.vocabulary.comparing import Contexts, Crowd, results, two_way_distances
+from kineme.library.vocabulary.joining import Ints, Joined, joined
 
 Float32s = NDArray[np.float32]
 
-
-@dataclass(frozen=True, eq=False)
-class Crowd:
-    """Words of one vocabulary, which are loaded when they are compared.
-
-    Attributes
-    ----------
-    word : callable
-        The word of a number from 0.
-    recording : (words,) array
-        Number of the recording that each is of.
-    seconds : (words,) array
-        Of all its segments.
-    embeddings : (words, 32) array
-        Of its typical segment.
-    order : (words,) array
-        The words, in the order in which they are drawn for a sample.
-    """
-
-    word: Callable[[int], Word]
-    recording: Ints
-    seconds: Floats
-    embeddings: Float32s
-    order: Ints
+AT_ONCE = 200
+"""Words of a task that looks for their clusters."""
+PER_WORKER = 2000
+"""Words for which one process more is started: some seconds of work."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Typical:
     """The most typical words of the clusters of a turn, one cluster after the other."""
 
-    words: list[Word]
-    embeddings: Float32s
+    words: Crowd
     labels: Ints
 
 
-def clusters_in(crowd: Crowd, constants: VocabularyConstants) -> Joined:
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """Words, by their numbers, whose clusters are looked for among those of a turn."""
+
+    numbers: Ints
+    words: Crowd
+    typical: _Typical
+    constants: VocabularyConstants
+
+
+def clusters_in(
+    crowd: Crowd, constants: VocabularyConstants, executor: Executor, progress: Progress
+) -> Joined:
     """The clusters of words, however many.
 
     Parameters
     ----------
     crowd : Crowd
     constants : VocabularyConstants
+    executor : Executor
+        Where words are compared.
+    progress : callable
+        Called with a sentence on how far it is.
 
     Returns
     -------
@@ -74,54 +72,87 @@ def clusters_in(crowd: Crowd, constants: VocabularyConstants) -> Joined:
         As if each had been compared with each where there are no more than ``most``. Of more,
         spread and confidence are those in the turn in which a word found its cluster.
     """
-    n = len(crowd.seconds)
+    n = len(crowd)
+    workers = n // PER_WORKER
     if n <= constants.most:
-        return joined([crowd.word(number) for number in range(n)], constants)
+        return _each_with_each(crowd, constants, executor, workers)
     labels, following = np.full(n, -1), np.full(n, -1)
     confidence, spread = np.full(n, np.nan), np.zeros(n)
-    waiting, count = crowd.order, 0
+    waiting, count = np.argsort(crowd.drawn, kind="stable"), 0
+    watch = Watch(progress, n, 0, "clusters in common: ")
     while len(waiting):
         sample, others = np.sort(waiting[: constants.most]), waiting[constants.most :]
-        words = [crowd.word(number) for number in sample.tolist()]
-        found = joined(words, constants)
-        typical = _typical(words, crowd.embeddings[sample], found, constants.typical)
-        met = _assigned(crowd, others, typical, constants)
-        for numbers, each in ((sample, found), (others, met)):
+        watch.more(len(sample) ** 2 + len(others) * _searches(constants))
+        found = _each_with_each(crowd.part(sample), constants, executor, workers)
+        watch.done(len(sample), len(sample) ** 2)
+        typical = _typical(crowd, sample, found, constants.typical)
+        met = _met(crowd, others, typical, constants, executor, watch)
+        for numbers, each in ((sample, found), *met):
             at = np.flatnonzero(each.labels >= 0)
             rows = numbers[at]
             labels[rows] = each.labels[at] + count
             following[rows] = np.where(each.following[at] < 0, -1, each.following[at] + count)
             confidence[rows], spread[rows] = each.confidence[at], each.spread[at]
         count += int(found.labels.max()) + 1
-        waiting = others[met.labels < 0]
+        waiting = others[labels[others] < 0]
     rank = np.argsort(np.argsort(-np.bincount(labels, crowd.seconds), kind="stable"))
     return Joined(rank[labels], np.where(following < 0, -1, rank[following]), confidence, spread)
 
 
-def _typical(words: Sequence[Word], embeddings: Float32s, found: Joined, most: int) -> _Typical:
+def _each_with_each(
+    crowd: Crowd, constants: VocabularyConstants, executor: Executor, workers: int
+) -> Joined:
+    distances = two_way_distances(crowd, executor, workers)
+    return joined(distances, crowd.recording, crowd.seconds, constants)
+
+
+def _searches(constants: VocabularyConstants) -> int:
+    """How often a word that is not in the sample is searched, or others in it, at most."""
+    return 2 * constants.nearest * constants.typical
+
+
+def _typical(crowd: Crowd, sample: Ints, found: Joined, most: int) -> _Typical:
     """The most typical words of each cluster."""
     order = np.lexsort((found.spread, found.labels))
     first = np.searchsorted(found.labels[order], found.labels[order])
     chosen = order[np.arange(len(order)) - first < most]
-    return _Typical([words[i] for i in chosen], embeddings[chosen], found.labels[chosen])
+    return _Typical(crowd.part(sample[chosen]), found.labels[chosen])
 
 
-def _assigned(
-    crowd: Crowd, numbers: Ints, typical: _Typical, constants: VocabularyConstants
-) -> Joined:
-    """The nearest cluster of each word, -1 where none is near enough, and the next one."""
+def _met(
+    crowd: Crowd,
+    numbers: Ints,
+    typical: _Typical,
+    constants: VocabularyConstants,
+    executor: Executor,
+    watch: Watch,
+) -> Iterator[tuple[Ints, Joined]]:
+    """Words by their numbers, and the cluster of each; -1 where none is near enough."""
+    blocks = [numbers[first : first + AT_ONCE] for first in range(0, len(numbers), AT_ONCE)]
+    tasks = [_Search(own, crowd.part(own), typical, constants) for own in blocks]
+    for task, found in results(executor, _clusters_of, tasks, len(crowd) // PER_WORKER):
+        watch.done(int((found.labels >= 0).sum()), len(task.numbers) * _searches(constants))
+        yield task.numbers, found
+
+
+def _clusters_of(task: _Search) -> Joined:
+    """The nearest cluster of each word of a task."""
+    constants, crowd, labels = task.constants, task.words, task.typical.labels
+    near = [_near(embedding, task.typical, constants.nearest) for embedding in crowd.embeddings]
+    needed = sorted({i for each in near for i in each.tolist()})
+    typical = {i: task.typical.words.load(task.typical.words.places[i]) for i in needed}
 
     def nearest(number: int) -> tuple[int, int, float, float]:
-        near = _near(crowd.embeddings[number], typical, constants.nearest)
-        word, others = crowd.word(number), [typical.words[i] for i in near]
+        at = near[number]
+        word, others = crowd.load(crowd.places[number]), [typical[i] for i in at.tolist()]
         there = Contexts(others).costs_of(word).astype(np.float64)
         back = Contexts([word])
         costs = (there + [back.costs_of(other)[0] for other in others]) / 2
-        same = [other.recording == word.recording for other in others]
+        same = task.typical.words.recording[at] == crowd.recording[number]
         costs[same] = np.maximum(costs[same], constants.told_apart)
-        clusters, at = np.unique(typical.labels[near], return_inverse=True)
+        clusters, of = np.unique(labels[at], return_inverse=True)
         costs = np.minimum(costs, constants.farthest)
-        means = np.bincount(at, costs) / np.bincount(at)
+        means = np.bincount(of, costs) / np.bincount(of)
         order = np.argsort(means, kind="stable")
         own, least = int(clusters[order[0]]), float(means[order[0]])
         if least > constants.join:
@@ -132,20 +163,14 @@ def _assigned(
         return own, int(clusters[order[1]]), float(sure), least
 
     with threadpool_limits(1):  # sums do not depend on threads
-        rows = map_threads(nearest, numbers.tolist())
-    columns = zip(*rows, strict=True) if rows else ((), (), (), ())
-    labels, following, confidence, spread = columns
-    return Joined(
-        np.array(labels, np.int64),
-        np.array(following, np.int64),
-        np.array(confidence, np.float64),
-        np.array(spread, np.float64),
-    )
+        rows = map_threads(nearest, range(len(crowd)))
+    columns = zip(*rows, strict=True)
+    return Joined(*map(np.array, columns))
 
 
 def _near(embedding: Float32s, typical: _Typical, most: int) -> Ints:
     """The typical words of the clusters of which one word's embedding is nearest."""
-    apart = ((typical.embeddings - embedding) ** 2).sum(axis=1)
+    apart = ((typical.words.embeddings - embedding) ** 2).sum(axis=1)
     order = np.argsort(apart, kind="stable")
     clusters = list(dict.fromkeys(typical.labels[order].tolist()))[:most]
     return np.flatnonzero(np.isin(typical.labels, clusters))

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.library.constants import VOCABULARY, VocabularyConstants
-from kineme.library.storage.pieces import Piece, read_features
-from kineme.library.vocabulary.crowds import Crowd
-from kineme.library.vocabulary.joining import Word
+from kineme.library.storage.pieces import Piece, read_spans
+from kineme.library.vocabulary.comparing import Crowd, Word
 from kineme.segments.table import SegmentTable
 
 Ints = NDArray[np.int64]
@@ -35,6 +36,8 @@ class Place:
         Of all its segments.
     embedding : (32,) array
         Of its typical segment.
+    spans : (segments, 2) array
+        Starts and stops of all its segments, seconds.
     """
 
     recording: int
@@ -43,6 +46,7 @@ class Place:
     stop_s: float
     seconds: float
     embedding: NDArray[np.float32]
+    spans: NDArray[np.float64]
 
 
 def places_in(piece: Piece, recording: int) -> list[Place]:
@@ -52,70 +56,90 @@ def places_in(piece: Piece, recording: int) -> list[Place]:
     counted.
     """
     table = piece.table
+    active, finer, lasts = table.kind == "activity", table.level == "primitive", table.duration_s
     places = []
-    for cluster in sorted(set(table.cluster[table.kind == "activity"].tolist()) - {-1}):
-        own = np.flatnonzero((table.cluster == cluster) & (table.kind == "activity"))
-        rows = table[own]
-        repeated = rows.level == "primitive"
-        chosen = own[repeated] if repeated.any() else own
-        order = np.argsort(table.duration_s[chosen], kind="stable")
-        row = int(chosen[order[len(order) // 2]])
-        typical = table[row]
-        longest = rows[rows.level == rows.level[0]]  # one level: activities where there are any
-        seconds = round(float(longest.duration_s.sum()), 6)
-        span, embedding = (typical.start_s, typical.stop_s), piece.embeddings[row]
-        places.append(Place(recording, cluster, *span, seconds, embedding))
+    for cluster in sorted(set(table.cluster[active].tolist()) - {-1}):
+        own = np.flatnonzero((table.cluster == cluster) & active)
+        repeated = own[finer[own]]
+        chosen = repeated if len(repeated) else own
+        row = int(chosen[np.argsort(lasts[chosen], kind="stable")[len(chosen) // 2]])
+        longest = own[finer[own] == finer[own[0]]]  # one level: activities where there are any
+        places.append(
+            Place(
+                recording,
+                cluster,
+                float(table.start_s[row]),
+                float(table.stop_s[row]),
+                round(float(lasts[longest].sum()), 6),
+                piece.embeddings[row],
+                np.column_stack([table.start_s[longest], table.stop_s[longest]]),
+            )
+        )
     return places
+
+
+class _Spans(NamedTuple):
+    """Where the features of a word lie in a piece: its example and its context, in samples."""
+
+    key: str
+    example: tuple[int, int]
+    context: tuple[int, int]
 
 
 def crowd_of(
     places: Sequence[Place], pieces: Sequence[Piece], folder: Path, keys: Sequence[str]
 ) -> Crowd:
-    """The words at these places, drawn in an order that depends on each of them alone."""
+    """The words at these places, drawn in an order that depends on each of them alone.
 
-    def word(number: int) -> Word:
-        place = places[number]
-        at = place.recording
-        return word_at(place, pieces[at], folder, keys[at], VOCABULARY)
-
+    Parameters
+    ----------
+    places : sequence of Place
+    pieces : sequence of Piece
+        Of all recordings.
+    folder : Path
+        That holds them.
+    keys : sequence of str
+        Their names there.
+    """
     names = [f"{keys[place.recording]} {place.own_cluster}" for place in places]
-    drawn = [sha256(name.encode()).digest() for name in names]
+    drawn = b"".join(sha256(name.encode()).digest()[:8] for name in names)
+    spans = [
+        _spans(place, pieces[place.recording], keys[place.recording], VOCABULARY)
+        for place in places
+    ]
     return Crowd(
-        word,
+        partial(_word_at, folder),
+        spans,
         np.array([place.recording for place in places]),
         np.array([place.seconds for place in places]),
         np.array([place.embedding for place in places]),
-        np.array(sorted(range(len(places)), key=drawn.__getitem__)),
+        np.frombuffer(drawn, ">u8"),
     )
 
 
-def word_at(
-    place: Place, piece: Piece, folder: Path, key: str, constants: VocabularyConstants
-) -> Word:
+def _word_at(folder: Path, spans: _Spans) -> Word:
     """The features of a word, as they are compared."""
-    features, fps = read_features(folder, key), piece.facts["features_fps"]
+    return Word(*read_spans(folder, spans.key, (spans.example, spans.context)))
 
-    def between(start_s: float, stop_s: float) -> NDArray[np.float32]:
-        first = min(round(start_s * fps), len(features) - 1)
-        return features[first : max(round(stop_s * fps), first + 1)]
+
+def _spans(place: Place, piece: Piece, key: str, constants: VocabularyConstants) -> _Spans:
+    fps, samples = piece.facts["features_fps"], piece.facts["samples"]
+
+    def between(start_s: float, stop_s: float) -> tuple[int, int]:
+        first = min(round(start_s * fps), samples - 1)
+        return first, min(max(round(stop_s * fps), first + 1), samples)
 
     middle = (place.start_s + place.stop_s) / 2
     half = min(place.stop_s - place.start_s, constants.longest_example) / 2
     start_s, stop_s = _around(piece.table, middle)
     reach = max(constants.longest_context, 2 * half) / 2
-    return Word(
-        between(middle - half, middle + half),
-        between(
-            max(min(start_s, middle - half), middle - reach),
-            min(max(stop_s, middle + half), middle + reach),
-        ),
-        place.recording,
-        place.seconds,
-    )
+    first_s = max(min(start_s, middle - half), middle - reach)
+    last_s = min(max(stop_s, middle + half), middle + reach)
+    return _Spans(key, between(middle - half, middle + half), between(first_s, last_s))
 
 
 def _around(table: SegmentTable, second: float) -> tuple[float, float]:
     """The activity that lies around a second."""
-    activities = table[table.level == "activity"]
-    inside = activities[(activities.start_s <= second) & (second < activities.stop_s)]
-    return (inside[0].start_s, inside[0].stop_s) if len(inside) else (second, second)
+    around = (table.level == "activity") & (table.start_s <= second) & (second < table.stop_s)
+    row = int(np.argmax(around))
+    return (float(table.start_s[row]), float(table.stop_s[row])) if around[row] else (second,) * 2

@@ -49,32 +49,47 @@ def mean_distances(features, chosen, borders, start, stop, means):
             means[g, h] = total / pairs
 
 
-@njit("void(float64[:, ::1], float64[::1], int64[::1], int64, int64[::1], float64[::1])", **OPTIONS)
-def _find_nearest(sums, lengths, owner, g, nearest, apart):
-    """The cluster whose mean distance to cluster g is least, and that distance."""
+@njit("float64(float64[:, ::1], float64[::1], int64, int64, float64)", **OPTIONS)
+def _distance(sums, lengths, g, h, spread_share):
+    """The mean distance of two clusters, less a share of the mean distance within them."""
+    within = sums[g, g] / lengths[g] ** 2 + sums[h, h] / lengths[h] ** 2
+    return sums[g, h] / (lengths[g] * lengths[h]) - spread_share * within / 2
+
+
+@njit(
+    "void(float64[:, ::1], float64[::1], int64[::1], int64, float64, int64[::1], float64[::1])",
+    **OPTIONS,
+)
+def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
+    """The cluster whose distance to cluster g is least, and that distance."""
     apart[g] = np.inf
     for h in range(len(lengths)):
         if h != g and owner[h] == h:
-            mean = sums[g, h] / (lengths[g] * lengths[h])
-            if mean < apart[g]:
-                apart[g] = mean
+            distance = _distance(sums, lengths, g, h, spread_share)
+            if distance < apart[g]:
+                apart[g] = distance
                 nearest[g] = h
 
 
-@njit("float64(float64[:, ::1], float64[::1], int64, float64, float64, int64[::1])", **OPTIONS)
-def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, labels):
-    """The least cost of a grouping of segments by average linkage; `labels` gets the grouping.
+@njit(
+    "float64(float64[:, ::1], float64[::1], int64, float64, float64, float64, int64[::1])",
+    **OPTIONS,
+)
+def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share, labels):
+    """The least cost of a grouping of segments; `labels` gets the grouping.
 
-    A grouping costs half the distances within clusters, and a price for each run of
-    segments of one cluster and for each cluster, of which there are `most` at most.
-    `sums` (summed distances of each two segments) and `lengths` are used up.
+    The two clusters that are nearest are joined, again and again: by their mean distance,
+    less `spread_share` of the mean of the distances within them. A grouping costs half the
+    distances within clusters, and a price for each run of segments of one cluster and for
+    each cluster, of which there are `most` at most. `sums` (summed distances of each two
+    segments) and `lengths` are used up.
     """
     k = len(lengths)
     owner = np.arange(k)
     nearest = np.zeros(k, np.int64)
     apart = np.full(k, np.inf)
     for g in range(k):
-        _find_nearest(sums, lengths, owner, g, nearest, apart)
+        _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
     cheapest = np.inf
     for clusters in range(k, 0, -1):
         if clusters <= most:
@@ -102,7 +117,15 @@ def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, labels):
                 owner[other] = g
         for other in range(k):
             sums[other, g] += sums[other, h]
+        _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
         for other in range(k):
-            if owner[other] == other and (other == g or nearest[other] in (g, h)):
-                _find_nearest(sums, lengths, owner, other, nearest, apart)
+            if owner[other] != other or other == g:
+                continue
+            if nearest[other] in (g, h):
+                _find_nearest(sums, lengths, owner, other, spread_share, nearest, apart)
+                continue
+            distance = _distance(sums, lengths, other, g, spread_share)
+            if distance < apart[other]:  # a union can be nearer than both of its parts were
+                apart[other] = distance
+                nearest[other] = g
     return cheapest

@@ -79,6 +79,10 @@ class HierarchyConstants(CountingPreset):
     cluster_growth: float = constant(
         "power of the duration with which that grows", limits=SHARE, fine=True
     )
+    spread_share: float = constant(
+        "clusters are nearer than their samples by this share of the distances within them",
+        limits=SHARE, fine=True,
+    )  # fmt: skip
     counting_fps: float = constant(
         "frames per second at which repetitions are counted, at most", unit="Hz", limits=RATE,
         fine=True,

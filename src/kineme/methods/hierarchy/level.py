@@ -59,6 +59,7 @@ def segments_of(features: NDArray[np.float32], preset: HierarchyConstants) -> Se
         sums,
         segment_cost=preset.samples(preset.segment_cost),
         cluster_cost=preset.cluster_price(len(features)),
+        spread_share=preset.spread_share,
         most_clusters=preset.max_clusters,
     )
     borders, labels = joined(

@@ -50,6 +50,7 @@ SENSORS = HierarchyPreset(
     segment_cost=0.15,
     cluster_cost=0.66,
     cluster_growth=0.2,
+    spread_share=0.5,
     max_clusters=16,
     counting_fps=25.0,
     link_weights=weights.SENSOR_LINK,

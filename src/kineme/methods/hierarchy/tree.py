@@ -4,12 +4,15 @@
    segments whose samples are near each other.
 2. The two neighbours whose union costs least are joined, again and again, until
    one segment is left: each number of segments is a level of the tree.
-3. At each level segments are grouped, by average linkage of their mean distances.
+3. At each level segments are grouped, the nearest clusters first. Their distance is the
+   mean one of their samples, less a share of those within each: where much is going on,
+   no two samples are near each other, whatever they are of.
 4. The level and the number of clusters are those of the shortest description:
    what samples differ within clusters, and a price for each segment and cluster.
 
 Sources: change points after Arlot, Celisse and Harchaoui 2019; bottom-up
-segmentation after Keogh, Chu, Hart and Pazzani 2001; the rest is ours.
+segmentation after Keogh, Chu, Hart and Pazzani 2001; distances of clusters less those
+within are Székely and Rizzo's energy distance (2005) where the share is 1; the rest is ours.
 """
 
 from __future__ import annotations
@@ -145,7 +148,13 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
 
 
 def best_level(
-    borders: Samples, sums: Floats, *, segment_cost: float, cluster_cost: float, most_clusters: int
+    borders: Samples,
+    sums: Floats,
+    *,
+    segment_cost: float,
+    cluster_cost: float,
+    spread_share: float,
+    most_clusters: int,
 ) -> Level:
     """The level and clusters of the shortest description.
 
@@ -157,6 +166,8 @@ def best_level(
         Of `between_segments`.
     segment_cost, cluster_cost : float
         What a segment and a cluster cost: samples at the median distance.
+    spread_share : float
+        Of the distances within two clusters, by which these are nearer than their samples.
     most_clusters : int
 
     Returns
@@ -173,7 +184,7 @@ def best_level(
         inner = np.add.reduceat(np.add.reduceat(sums, level[:-1], 0), level[:-1], 1)
         labels = np.empty(len(lengths), np.int64)
         cost = kernels.cheapest_grouping(
-            inner, lengths, most_clusters, segment_cost, cluster_cost, labels
+            inner, lengths, most_clusters, segment_cost, cluster_cost, spread_share, labels
         )
         if cost < cheapest:
             cheapest, best = cost, Level(borders[level], by_first_appearance(labels))

@@ -1,0 +1,142 @@
+"""One vocabulary of signals: clusters of the moments of all recordings, which words take.
+
+Clusters of single recordings are not comparable between recordings: one that only walks tells fast
+from slow, one that walks and sits does not. So these are not joined. A sample of the moments of all
+recordings is clustered (`kineme.transfer.vocabulary`), in units of the whole library, and each word
+takes the cluster that the moments of its segments are nearest to in the mean. docs/sets.md tells
+how well that goes.
+
+A task tells where the moments of some recordings lie; whoever works on it reads them there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.library.executors import Executor
+from kineme.library.storage.pieces import Piece, read_moments
+from kineme.library.vocabulary.comparing import results
+from kineme.library.vocabulary.joining import Joined
+from kineme.library.vocabulary.words import Place
+from kineme.transfer.moments import Units
+
+Floats = NDArray[np.float64]
+Float32s = NDArray[np.float32]
+
+SAMPLE = 20_000
+"""Moments that are clustered; of more, as many at equal steps, one of each recording at least."""
+AT_ONCE = 50
+"""Recordings of a task."""
+PER_WORKER = 1000
+"""Recordings for which one process more is started: some seconds of work."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """Words of some recordings, by the segments of each, whose nearest clusters are looked for."""
+
+    folder: Path
+    keys: Sequence[str]
+    words: Sequence[Sequence[Floats]]
+    units: Units
+    centres: Float32s
+
+
+def clusters_of_moments(
+    places: Sequence[Place],
+    pieces: Sequence[Piece],
+    folder: Path,
+    keys: Sequence[str],
+    executor: Executor,
+) -> Joined:
+    """The clusters of words of signals.
+
+    Parameters
+    ----------
+    places : sequence of Place
+        Of words of one vocabulary, recording by recording.
+    pieces : sequence of Piece
+        Of all recordings.
+    folder : Path
+        That holds them.
+    keys : sequence of str
+        Their names there.
+    executor : Executor
+        Where words are compared.
+
+    Returns
+    -------
+    Joined
+        Spread is the distance from the cluster's centre.
+    """
+    from kineme.transfer.vocabulary import centres_of, likely_number  # scikit-learn takes a second
+
+    numbers = sorted({place.recording for place in places})
+    step = -(-sum(pieces[number].facts["moments"] for number in numbers) // SAMPLE)
+    sample = np.concatenate([read_moments(folder, keys[number], step) for number in numbers])
+    units = Units.of(*_parted(sample))
+    points = units.features(*_parted(sample))
+    centres = centres_of(points, likely_number(points))
+    words: dict[int, list[Floats]] = {number: [] for number in numbers}
+    for place in places:
+        words[place.recording].append(place.spans)
+    blocks = [numbers[first : first + AT_ONCE] for first in range(0, len(numbers), AT_ONCE)]
+    tasks = [
+        _Search(folder, [keys[i] for i in own], [words[i] for i in own], units, centres)
+        for own in blocks
+    ]
+    found = dict(results(executor, _distances, tasks, len(numbers) // PER_WORKER))
+    distances = np.concatenate([found[task] for task in tasks])
+    return _taken(distances, np.array([place.seconds for place in places]))
+
+
+def _distances(task: _Search) -> Floats:
+    """How far the mean moment of each word is from each centre."""
+    return np.concatenate(
+        [_of_recording(task, *each) for each in zip(task.keys, task.words, strict=True)]
+    )
+
+
+def _of_recording(task: _Search, key: str, words: Sequence[Floats]) -> Floats:
+    moments = read_moments(task.folder, key)
+    features = task.units.features(*_parted(moments)).astype(np.float64)
+    means = np.array([features[_inside(moments[:, 0], spans)].mean(axis=0) for spans in words])
+    distances: Floats = np.sqrt(((means[:, None] - task.centres) ** 2).sum(axis=2))
+    return distances
+
+
+def _inside(seconds: Float32s, spans: Floats) -> NDArray[np.bool_]:
+    """The moments in spans; of a short one that before it."""
+    inside = np.zeros(len(seconds), np.bool_)
+    firsts = np.minimum(np.searchsorted(seconds, spans[:, 0]), len(seconds) - 1)
+    stops = np.maximum(np.searchsorted(seconds, spans[:, 1]), firsts + 1)
+    for first, stop in zip(firsts, stops, strict=True):
+        inside[first:stop] = True
+    return inside
+
+
+def _parted(moments: Float32s) -> tuple[Float32s, Float32s]:
+    """Means and deviations."""
+    n = moments.shape[1] // 2
+    return moments[:, 1 : 1 + n], moments[:, 1 + n :]
+
+
+def _taken(distances: Floats, seconds: Floats) -> Joined:
+    """The nearest cluster of each word, those of most seconds first; others there are not."""
+    taken = np.unique(distances.argmin(axis=1))
+    distances = distances[:, taken]
+    order = np.argsort(-np.bincount(distances.argmin(axis=1), seconds), kind="stable")
+    distances = distances[:, order]
+    labels, words = distances.argmin(axis=1), np.arange(len(distances))
+    spread = distances[words, labels]
+    if len(taken) == 1:
+        return Joined(labels, labels - 1, np.full(len(labels), np.nan), spread)
+    others = distances.copy()
+    others[words, labels] = np.inf
+    confidence = np.clip(1 - spread / np.maximum(others.min(axis=1), 1e-9), 0, 1)
+    return Joined(labels, others.argmin(axis=1), confidence, spread)

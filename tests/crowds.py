@@ -1,0 +1,64 @@
+"""Words of a vocabulary whose kinds are known, loaded here or in other processes."""
+
+from __future__ import annotations
+
+import os
+import signal
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kineme.library.constants import VOCABULARY
+from kineme.library.executors.here import Here
+from kineme.library.vocabulary.comparing import Crowd, Word
+from kineme.library.vocabulary.crowds import clusters_in
+from kineme.library.vocabulary.joining import Joined
+
+KINDS, RECORDINGS = 6, 30
+RARE = 3
+"""Recordings in which the last kind of movement is."""
+
+
+def crowd() -> tuple[Crowd, np.ndarray]:
+    """Words of some kinds of movement, one of each in a recording, and their kinds."""
+    rng = np.random.default_rng(0)
+    shapes = rng.normal(size=(KINDS, 24, 8))
+    kinds, words, recordings = [], [], []
+    for recording in range(RECORDINGS):
+        for kind in range(KINDS - (recording >= RARE)):
+            values = shapes[kind] + 0.2 * rng.normal(size=shapes[kind].shape)
+            values /= np.linalg.norm(values, axis=1, keepdims=True)
+            example = values.astype(np.float32)
+            words.append(Word(example[4:20], example))
+            kinds.append(kind)
+            recordings.append(recording)
+    embeddings = np.array([word.example.mean(axis=0) for word in words])
+    seconds, drawn = 1.0 + np.array(kinds), rng.permutation(len(words)).astype(np.uint64)
+    return Crowd(at_hand, words, np.array(recordings), seconds, embeddings, drawn), np.array(kinds)
+
+
+def at_hand(word: Word) -> Word:
+    """Loads a word that is its own place."""
+    return word
+
+
+def once_deadly(flag: Path, word: Word) -> Word:
+    """The same, and ends the process for the first that loads one."""
+    try:
+        flag.unlink()
+    except FileNotFoundError:
+        return word
+    os.kill(os.getpid(), signal.SIGKILL)
+    raise AssertionError
+
+
+def joined(words: Crowd, executor: Any = None, progress: Any = None, **constants: Any) -> Joined:
+    """The clusters of words, by other constants."""
+    told = progress or (lambda _: None)
+    return clusters_in(words, replace(VOCABULARY, **constants), executor or Here(), told)
+
+
+def bytes_of(found: Joined) -> tuple[bytes, ...]:
+    return tuple(column.tobytes() for column in vars(found).values())
