@@ -1,17 +1,21 @@
-"""How well the clusters of a library of signals agree with what people say, one mapping for all.
+"""How well the clusters of a library of signals, and searches in it, agree with what people say.
 
     python benchmarks/vocabulary_of_signals.py [SET ...] [--record]
 
-Every fourth recording of HuGaDB, the gait laboratory and UTKinect (joints as channels), each a
-library of its own, built as ``kineme library build`` does and not told how many classes there are.
-A cluster of the library stands for one class in all recordings. Beside it, the same segments with
-the clusters of `kineme.transfer.share_clusters`. docs/library.md quotes what ``--record`` keeps.
+Every fourth recording of HuGaDB, HAPT, the gait laboratory and UTKinect (joints as channels), each
+a library of its own, built as ``kineme library build`` does and not told how many classes there
+are. A cluster of the library stands for one class in all recordings. Beside it, the same segments with
+the clusters of `kineme.transfer.share_clusters`.
+
+Then stretches of up to 3 s, drawn from what people labelled, are searched for: of what is found in
+other recordings, how much has the same label; and how many of the recordings with that label are
+found. docs/library.md quotes what ``--record`` keeps.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -25,14 +29,15 @@ from kineme.evaluation.comparison import best_mapping, compare
 from kineme.evaluation.recordings import recordings_below
 from kineme.evaluation.score import over_all, scores
 from kineme.labels.collections import labels_of
-from kineme.library import Library, Settings, build
+from kineme.library import Hit, Library, Settings, build
 from kineme.transfer import share_clusters
 from sets import READING
 
-SETS = {"hugadb": 4, "ipolgait": 1, "utkinect": 1}
+SETS = {"hugadb": 4, "hapt": 1, "ipolgait": 1, "utkinect": 1}
 """Every so manieth recording is taken."""
 KEPT = ("level", "kind", "start_frame", "stop_frame")
 SHARES = ("mof", "edit", "f1@50")
+EXAMPLES, LONGEST = 40, 3.0
 
 
 def show(name: str, home: Path) -> None:
@@ -60,6 +65,38 @@ def show(name: str, home: Path) -> None:
     ways = {"library": together, "share_clusters": share_clusters(recordings, alone)}
     for way, segmentations in ways.items():
         score(f"{name}.{way}", truths, segmentations)
+    searched(
+        name, library, {names[str(path)]: one for path, one in zip(chosen, truths, strict=True)}
+    )
+
+
+def searched(name: str, library: Library, truths: Mapping[str, kineme.Segmentation]) -> None:
+    """What is found of labelled stretches in the recordings that they are not of."""
+    random = np.random.default_rng(0)
+    rows = [(key, row) for key, truth in truths.items() for row in truth.activities if row.label]
+    right = found = reached = there = 0
+    for number in random.choice(len(rows), EXAMPLES):
+        key, row = rows[number]
+        start = row.start_s + max(row.duration_s - LONGEST, 0) / 2
+        stop = min(start + LONGEST, row.stop_s)
+        hits = [hit for hit in library.search(key, start, stop, top=None) if hit.recording != key]
+        good = [hit for hit in hits if label_at(truths[hit.recording], hit) == row.label]
+        right, found = right + len(good), found + len(hits)
+        reached += len({hit.recording for hit in good})
+        there += len({other for other, one in rows if other != key and one.label == row.label})
+    precision, recall = right / max(found, 1), reached / max(there, 1)
+    print(f"{name}, searched: precision {precision:.2f}, recordings found {recall:.2f}", flush=True)
+    record(f"vocabulary_of_signals.{name}.search.precision", round(precision, 2))
+    record(f"vocabulary_of_signals.{name}.search.recordings", round(recall, 2))
+
+
+def label_at(truth: kineme.Segmentation, hit: Hit) -> str:
+    """What people say of the middle of a hit."""
+    middle = (hit.start_s + hit.stop_s) / 2
+    for row in truth.activities:
+        if row.start_s <= middle < row.stop_s:
+            return str(row.label)
+    return ""
 
 
 def score(

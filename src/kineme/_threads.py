@@ -9,21 +9,26 @@ from functools import cache
 from itertools import pairwise
 from typing import TypeVar
 
+SHORT = 50
+"""Rows that take no longer than to hand them to a thread."""
+
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
 def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
     """``[function(item) for item in items]`` over the available cores, in the same order."""
-    if n_threads() == 1:
+    items = list(items)
+    if n_threads() == 1 or len(items) == 1:
         return [function(item) for item in items]
     return list(_pool().map(function, items))
 
 
 def even_slices(n: int) -> list[slice]:
-    """``range(n)`` in slices of like size, a few for each core."""
-    edges = [n * part // (2 * n_threads()) for part in range(2 * n_threads() + 1)]
-    return [slice(a, b) for a, b in pairwise(edges) if a < b]
+    """``range(n)`` in slices of like size, a few for each core; fewer where these were short."""
+    parts = min(2 * n_threads(), -(-n // SHORT))
+    edges = [n * part // parts for part in range(parts + 1)] if parts else []
+    return [slice(a, b) for a, b in pairwise(edges)]
 
 
 @cache

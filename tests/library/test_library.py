@@ -10,6 +10,7 @@ import sys
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from matplotlib.image import imread
 from pyarrow import parquet
@@ -18,6 +19,7 @@ import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.constants import VOCABULARY
+from kineme.library.descriptions import describe
 from kineme.library.storage.layout import as_column
 from kineme.library.storage.tables import DESCRIBED
 from kineme.matching import THRESHOLD
@@ -90,6 +92,16 @@ def test_channels_are_searched_in_their_own_features(library: Library) -> None:
         library.search([Example("wrist.csv", 2.0, 6.0), Example("walk.bvh", 0.5, 1.6)])
     with pytest.raises(ParameterError, match="the library has"):
         library.search(kineme.Signals([[0.0, 1.0, 2.0]] * 300, 30.0))
+
+
+def test_how_far_channels_are_apart_does_not_depend_on_how_many_there_are() -> None:
+    random = np.random.default_rng(0)
+    values = np.cumsum(random.normal(size=(900, 2)), axis=0)
+    few, many = (
+        describe(kineme.Signals(np.tile(values, (1, copies)), 30.0)).features for copies in (1, 6)
+    )
+    apart = [np.linalg.norm(rows[1:] - rows[:-1], axis=1) for rows in (few, many)]
+    np.testing.assert_allclose(apart[0], apart[1], rtol=1e-4)
 
 
 def test_several_examples_find_what_each_finds(library: Library) -> None:

@@ -1,8 +1,9 @@
 """What a recording looks like to a search: matching features, and an embedding of each segment.
 
 Bodies are described by `kineme.features.canonical`, which do not know the person. Channels are
-described by their posture and energy (`kineme.methods.hierarchy.statistics`), each divided by its
-standard deviation in the recording; they compare with recordings of the same channels only.
+described by their posture and energy (`kineme.methods.hierarchy.statistics`), in half the standard
+deviation of each in the recording, so that one threshold serves both, whatever the number of
+channels; they compare with recordings of the same channels only.
 
 Everything of the library that knows what features are is here.
 """
@@ -29,6 +30,8 @@ from kineme.segmentation.channels import at_rate, standardized
 Float32s = NDArray[np.float32]
 Floats = NDArray[np.float64]
 
+UNIT = 0.5
+"""Of the root mean square over channels; a distance of 0.85 then is where right matches end."""
 NOWHERE = 100.0
 """In each feature of channels that were not recorded: farther from anything than a match can be."""
 
@@ -139,9 +142,11 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
         for a, b in spans
     ]
     scaled = standardized(np.concatenate(rows))
-    found = channel_statistics(
+    statistics = channel_statistics(
         scaled, preset.working_fps, rate=preset.rate, window=preset.averaging, bands=preset.bands
-    ).astype(np.float32)
+    )
+    unit = UNIT * np.sqrt(scaled.shape[1])
+    found: Float32s = (statistics / unit).astype(np.float32)
     if not signals.gaps:
         return found
     n = int((signals.n_frames - 1) / signals.fps * preset.rate + 1e-9) + 1
