@@ -4,8 +4,8 @@
 
 Every fourth recording of HuGaDB, HAPT, the gait laboratory and UTKinect (joints as channels), each
 a library of its own, built as ``kineme library build`` does and not told how many classes there
-are. A cluster of the library stands for one class in all recordings. Beside it, the same segments with
-the clusters of `kineme.transfer.share_clusters`.
+are. A cluster of the library stands for one class in all recordings. Beside it, the same segments
+with the clusters of `kineme.transfer.share_clusters`.
 
 Then stretches of up to 3 s, drawn from what people labelled, are searched for: of what is found in
 other recordings, how much has the same label; and how many of the recordings with that label are
