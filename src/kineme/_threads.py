@@ -7,19 +7,25 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from itertools import pairwise
+from threading import local
 from typing import TypeVar
 
 SHORT = 50
 """Rows that take no longer than to hand them to a thread."""
+
+_here = local()
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
 def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
-    """``[function(item) for item in items]`` over the available cores, in the same order."""
+    """``[function(item) for item in items]`` over the available cores, in the same order.
+
+    What a function maps in its turn, it does alone: all cores are at work.
+    """
     items = list(items)
-    if n_threads() == 1 or len(items) == 1:
+    if n_threads() == 1 or len(items) == 1 or getattr(_here, "of_pool", False):
         return [function(item) for item in items]
     return list(_pool().map(function, items))
 
@@ -43,7 +49,10 @@ def n_threads() -> int:
 
 @cache
 def _pool() -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(n_threads(), thread_name_prefix="kineme")
+    def begin() -> None:
+        _here.of_pool = True
+
+    return ThreadPoolExecutor(n_threads(), thread_name_prefix="kineme", initializer=begin)
 
 
 if hasattr(os, "register_at_fork"):

@@ -92,7 +92,8 @@ def _analyze(
 def _in_parts(view: NDArray[np.float32], preset: HierarchyConstants) -> list[Segments]:
     """The segments of each part of a recording."""
     ends = part_ends(len(view), max(1, round(preset.samples(preset.part))))
-    return [segments_of(view[start:stop], preset) for start, stop in pairwise(ends)]
+    spans = list(pairwise(ends))
+    return map_threads(lambda span: segments_of(view[slice(*span)], preset), spans)
 
 
 def _per_sample(parts: list[Segments]) -> list[Frames]:

@@ -1,0 +1,22 @@
+"""Work laid out over cores."""
+
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kineme._threads import even_slices, map_threads
+
+
+@given(st.integers(0, 5000))
+def test_slices_are_all_of_a_range_once(n: int) -> None:
+    parts = even_slices(n)
+    assert [i for part in parts for i in range(n)[part]] == list(range(n))
+    assert all(part.start < part.stop for part in parts)
+
+
+def test_work_that_maps_in_its_turn_ends() -> None:
+    def all_below(n: int) -> int:
+        return sum(map_threads(abs, range(n)))
+
+    assert map_threads(all_below, range(100)) == [n * (n - 1) // 2 for n in range(100)]
