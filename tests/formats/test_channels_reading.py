@@ -18,6 +18,7 @@ from scipy.io import savemat
 from kineme import Motion, Signals, bundled_recording, read, segment
 from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
 from kineme.formats.channels.sensors import hold_channels
+from kineme.formats.channels.writing import write_signals
 
 MOT = (
     "Coordinates\nversion=1\nnRows=3\nnColumns=3\ninDegrees=yes\n\nendheader\n"
@@ -40,6 +41,80 @@ def test_a_table_of_a_phone(tmp_path) -> None:
     assert signals.values[3].tolist() == [3.5, -3, 9.8]
     assert signals.provenance.notes == ("columns that are no channels: sample, activity",)
     assert signals.provenance.format == "table"
+
+
+SPREADSHEET = "time;acc_x;acc_y\n" + "".join(f"{i / 50:.2f};{i % 7}.5;-0.25\n" for i in range(9))
+COMMAS = SPREADSHEET.replace(".", ",")
+
+
+@pytest.mark.parametrize(
+    ("text", "encoding", "notes"),
+    [
+        (COMMAS, "utf-8", ["numbers have a decimal comma"]),
+        (COMMAS.replace(";", "\t"), "utf-16", ["numbers have a decimal comma"]),
+        (f"sep=;\r\n{COMMAS}", "utf-8-sig", ["numbers have a decimal comma"]),
+        (
+            "Device;X 5;\nRate;50;\n\n" + SPREADSHEET,
+            "utf-8",
+            ["2 lines above the names passed over"],
+        ),
+        (
+            SPREADSHEET.replace("\n", "\ns;m/s2;m/s2\n", 1),
+            "utf-8",
+            ["line 2 holds no numbers and is passed over: s;m/s2;m/s2"],
+        ),
+        (SPREADSHEET.replace("\n", "\n\n"), "utf-8", []),
+    ],
+    ids=["commas", "utf-16", "sep=", "preamble", "units", "blank lines"],
+)
+def test_tables_as_spreadsheets_and_loggers_write_them(tmp_path, text, encoding, notes) -> None:
+    path = tmp_path / "a.csv"
+    path.write_bytes(text.encode(encoding))
+    signals = read(path)
+    assert signals.names == ("acc_x", "acc_y")
+    assert signals.fps == pytest.approx(50)
+    assert signals.values.tolist() == [[i % 7 + 0.5, -0.25] for i in range(9)]
+    assert list(signals.provenance.notes) == notes
+    write_signals(signals[2:6], tmp_path / "clip.csv")
+    assert read(tmp_path / "clip.csv").values.tolist() == signals.values[2:6].tolist()
+    write_signals(signals, tmp_path / "all.tsv", columns=["acc_x"])
+    assert read(tmp_path / "all.tsv").values.tolist() == signals.values[:, :1].tolist()
+
+
+def test_joints_with_decimal_commas(tmp_path) -> None:
+    rows = "".join(f"{i / 50:.2f};{i},5;1,25;0,5\n".replace(".", ",") for i in range(9))
+    motion = read(write(tmp_path, "a.csv", "time;hip_x;hip_y;hip_z\n" + rows), unit="m", up="y")
+    assert motion.positions[:, 0].tolist() == [[i + 0.5, 1.25, 0.5] for i in range(9)]
+    assert "numbers have a decimal comma" in motion.provenance.notes
+
+
+def test_names_as_windows_writes_them(tmp_path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_bytes("time,Größe (m/s²)\n0,1\n0.1,2\n".encode("cp1252"))
+    assert read(path).names == ("Größe (m/s²)",)
+
+
+def test_a_first_row_with_holes_is_no_line_of_units(tmp_path) -> None:
+    text = "time,acc,said\n,nan,walk\n0.1,1,walk\n0.2,2,run\n"
+    assert read(write(tmp_path, "a.csv", text)).n_frames == 3
+
+
+def test_clocks_and_labels_under_other_names_are_no_channels(tmp_path) -> None:
+    rows = [f"{i / 50:.2f},{i // 60},{i % 7}\n" for i in range(240)]
+    path = write(tmp_path, "a.csv", "Zeit (s),label,acc\n" + "".join(rows))
+    with pytest.raises(ReadError, match=r"\(--fps\); 'Zeit \(s\)' rises by 0.02 a row"):
+        read(path)
+    signals = read(path, fps=50)
+    assert signals.names == ("acc",)
+    assert signals.provenance.notes == ("columns that are no channels: Zeit (s), label",)
+    assert read(path, fps=50, columns=["Zeit (s)"]).names == ("Zeit (s)",)
+
+
+def test_times_that_are_not_understood_are_named(tmp_path) -> None:
+    rows = [f"03/01/2026 10:00:{i:02d},{i % 7}\n" for i in range(9)]
+    path = write(tmp_path, "a.csv", "Timestamp,acc\n" + "".join(rows))
+    with pytest.raises(ReadError, match="'Timestamp' holds neither numbers nor ISO dates"):
+        read(path)
 
 
 @pytest.mark.parametrize(

@@ -315,3 +315,28 @@ def test_comments_are_a_column_that_is_read_again(tmp_path: Path, suffix: str) -
         path.write_text(text, encoding="utf-8")
         ((*_, now),) = editing.comments(read_segments(path))
         assert now == "=slips, twice\nand stands"
+
+
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_a_table_that_a_spreadsheet_saved_with_decimal_commas(
+    tmp_path: Path, small: Segmentation, separator: str
+) -> None:
+    path = tmp_path / "cuts.csv"
+    write_segments(small, path)
+    provenance_path(path).unlink()
+    frame = pd.read_csv(path)
+    frame.to_csv(path, sep=separator, decimal=",", index=False, encoding="utf-8-sig")
+    read = read_segments(path)
+    assert (read.n_frames, read.fps) == (120, 120.0)
+    assert read.table == small.table
+
+
+def test_labels_between_semicolons(tmp_path: Path) -> None:
+    path = tmp_path / "labels.csv"
+    path.write_text("start_s;stop_s;label\n0;1,5;walk; slowly\n1,5;3;run\n", encoding="utf-8")
+    found = read_segments(path, fps=10, n_frames=30)
+    assert found.activities.stop_frame.tolist() == [15, 30]
+    assert found.activities.label.tolist() == ["walk", "run"]
+    path.write_text('start_s,stop_s,label\n0,"1,5",walk\n', encoding="utf-8")
+    with pytest.raises(ReadError, match="stop_s must be a number, not '1,5'"):
+        read_segments(path, fps=10)

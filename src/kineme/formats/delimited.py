@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.timing import date_seconds
 
-EMPTY = frozenset({"", "nan", "na", "n/a", "null", "none", "-"})
-"""What stands in a cell without a number, in lower case."""
+EMPTY = frozenset(
+    {"", "nan", "na", "n/a", "null", "none", "-"} | {"#n/a", "#nv", "#div/0!", "#num!", "#value!"}
+)
+"""What stands in a cell without a number, in lower case; the last are those of spreadsheets."""
 
 
 def rows_of(
@@ -26,6 +28,7 @@ def rows_of(
     columns: Sequence[int] | None = None,
     *,
     dates: Sequence[int] = (),
+    comma: bool = False,
 ) -> NDArray[np.float64]:
     """(rows, columns): the lines' cells as numbers, NaN where empty.
 
@@ -43,6 +46,8 @@ def rows_of(
         Those wanted, all by default; the others may hold anything.
     dates : sequence of int, optional
         Columns that hold dates, given as seconds since 1970.
+    comma : bool
+        Whether numbers have a decimal comma.
 
     Raises
     ------
@@ -64,13 +69,15 @@ def rows_of(
                     raise content.error(reason, line)
                 content.warn(f"{reason}: the last row breaks off, left out", line)
                 break
+            if comma:
+                cells = [cell.replace(",", ".") for cell in cells]  # noqa: PLW2901
             for i in dated:
                 cells[i] = _seconds(content, cells[i].strip(), line)
             values.extend(_numbers(content, [cells[i] for i in wanted], line))
     except csv.Error as error:
         raise content.error(str(error), first + reader.line_num - 1) from None
     if not values:
-        raise content.error("no row of numbers found: there is no motion")
+        raise content.error("no row of numbers found")
     return np.array(values).reshape(-1, len(wanted))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -49,8 +50,21 @@ class FileContent:
 
     @property
     def text(self) -> str:
-        """The bytes as text; in files this old a stray byte is only ever in a comment or name."""
-        return self.data.decode("utf-8", errors="replace").removeprefix("\ufeff")
+        """The bytes as text: UTF-8 or UTF-16, else as Windows writes them in Western Europe.
+
+        Where it is none of these, stray bytes are only ever in comments and names.
+        """
+        if self.is_utf16:
+            return self.data.decode("utf-16", errors="replace")
+        try:
+            return self.data.decode("utf-8").removeprefix("\ufeff")
+        except UnicodeDecodeError:
+            return self.data.decode("cp1252", errors="replace")
+
+    @property
+    def is_utf16(self) -> bool:
+        """Whether it begins as text of two bytes a letter does."""
+        return self.data.startswith((BOM_UTF16_LE, BOM_UTF16_BE))
 
     def warn(self, reason: str, line: int | None = None) -> None:
         """Remark on what is unusual but was understood: a note of severity "warning"."""

@@ -74,7 +74,10 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
     steps = np.diff(times)
     if not (steps > 0).any():
         row = int(steps.argmin()) + 1
-        raise content.error(f"times do not increase: row {row + 1} has {times[row]:g} s")
+        raise content.error(
+            f"times do not increase: row {row + 1} has {times[row]:g} s; sort the rows, or give "
+            "fps= (--fps) if their order is right"
+        )
     if (steps < 0).mean() > _SHUFFLED:
         raise content.error(
             f"its rows are in no order of time, {(steps < 0).sum()} of {len(steps)} steps go "

@@ -27,6 +27,7 @@ from typing import Any, Literal
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError
+from kineme.formats.layout import dotted
 from kineme.labels import pairs
 from kineme.labels.delimited import as_text, from_text, number, read_rows, write_rows
 from kineme.labels.heads import columns as columns_of
@@ -67,7 +68,8 @@ def read(path: Path) -> Segmentation | Labels:
         if not {"level", "start_frame"} <= set(next(csv.reader([first], delimiter=comma), [])):
             return _intervals(path)
         file.seek(0)
-        columns = _columns(csv.DictReader(file, strict=True, delimiter=comma), path)
+        rows = csv.DictReader(file, strict=True, delimiter=comma)
+        columns = _columns(rows, path, commas=comma != ",")
     said = columns.pop(COMMENT, None)
     found = _with_the_rest(columns, path)
     return found if said is None else from_rows(found, said)
@@ -117,7 +119,8 @@ def intervals(path: Path) -> dict[str, Labels]:
         wanted = [(*names, "label") for names in SPANS.values()]
         for line, row in read_rows(file, path, wanted, delimiter=comma):
             unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
-            start, stop = (number(row[name], name, path, line) for name in SPANS[unit])
+            cells = {name: row[name] if comma == "," else dotted(row[name]) for name in SPANS[unit]}
+            start, stop = (number(cell, name, path, line) for name, cell in cells.items())
             span = Span(start, stop, _text(row), _level(row), repetitions=_count(row, path, line))
             spans.setdefault(row.get("recording", ""), []).append(span)
     return {recording: Labels(own, unit) for recording, own in spans.items()}
@@ -151,7 +154,9 @@ def _count(row: dict[str, str], path: Path, line: int) -> int | None:
     return int(text) if text else None
 
 
-def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
+def _columns(
+    rows: csv.DictReader[str], path: Path, *, commas: bool = False
+) -> dict[str, list[Any]]:
     there = rows.fieldnames or ()
     columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in there}
     try:
@@ -160,7 +165,7 @@ def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
             raise ReadError(path, f"is not a segment table: it has no column {missing[0]!r}")
         for row in rows:
             for name, column in columns.items():
-                column.append(_cell(row[name], name, path, rows.line_num))
+                column.append(_cell(row[name], name, path, rows.line_num, commas=commas))
     except csv.Error as error:
         raise ReadError(path, f"is not valid CSV: {error}", line=rows.line_num) from error
     if not columns["level"]:
@@ -168,7 +173,7 @@ def _columns(rows: csv.DictReader[str], path: Path) -> dict[str, list[Any]]:
     return columns
 
 
-def _cell(text: str | None, name: str, path: Path, line: int) -> str | float:
+def _cell(text: str | None, name: str, path: Path, line: int, *, commas: bool) -> str | float:
     if text is None:
         raise ReadError(path, f"the line ends before column {name!r}", line=line)
     kind = DESCRIBED[name].type if name in DESCRIBED else str
@@ -177,7 +182,7 @@ def _cell(text: str | None, name: str, path: Path, line: int) -> str | float:
     if kind is float and not text.strip():
         return math.nan
     try:
-        return kind(text)
+        return kind(dotted(text) if commas else text)
     except ValueError as error:
         wanted = "a whole number" if kind is int else "a number"
         raise ReadError(path, f"{name} must be {wanted}, not {text!r}", line=line) from error

@@ -36,5 +36,7 @@ def columns(path: Path) -> set[str]:
 
 
 def separator(first_line: str) -> str:
-    """What stands between the cells of a table: tabs if there are any, else commas."""
-    return "\t" if "\t" in first_line else ","
+    """What stands between the cells: tabs if there are any, semicolons if there are no commas."""
+    if "\t" in first_line:
+        return "\t"
+    return ";" if ";" in first_line and "," not in first_line else ","

@@ -20,8 +20,16 @@ COUNTERS = frozenset(
 )
 """Names of columns that count rows."""
 
+LABELS = frozenset(
+    {"label", "labels", "class", "annotation", "ground_truth"} | {"class_id", "label_id"}
+)
+"""Names of columns in which people say what is done."""
+
 NAMELESS = "(no name)"
 """What a column is called whose name is empty."""
+
+CLOCK_ROWS = 200
+"""Rows from which on a column that rises evenly is a clock or a count, and no channel."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +48,8 @@ class ChannelTable:
         The file's own.
     notes : tuple of str
         On what was left out.
+    hint : str
+        On what may tell the rate, where nothing does.
     """
 
     names: list[str]
@@ -47,13 +57,14 @@ class ChannelTable:
     timing: Mapping[str, ArrayLike]
     rate: float | None = None
     notes: tuple[str, ...] = ()
+    hint: str = ""
 
     def timed(self, content: FileContent, fps: float | None) -> Timing:
         """Frames per second, pauses, and what was seen of the times."""
         if fps or self.rate:
             return Timing(fps or self.rate or 0.0)
         if not self.timing:
-            raise content.error("nothing in it tells the frame rate: give fps (--fps)")
+            raise content.error(f"nothing in it tells the frame rate: give fps (--fps){self.hint}")
         return timed(content, self.timing, None)
 
 
@@ -79,22 +90,46 @@ def channel_table(
 ) -> ChannelTable:
     """The columns read, taken apart: channels, times, and a note of what is neither."""
     timing = {name: column for name, column in values.items() if is_timing(name)}
+    hints = [
+        f"; {name!r} holds neither numbers nor ISO dates such as 2026-01-31T09:30:00.25"
+        for name in names
+        if is_timing(name) and name not in timing
+    ]
     if columns is not None:
         chosen, notes = list(columns), []
     else:
-        chosen = [name for name in values if name not in timing and not _counts(name)]
+        chosen = [name for name in values if name not in timing and not _is_told(name)]
+        clocks = [name for name in chosen if _is_clock(values[name])]
+        if len(clocks) < len(chosen):
+            chosen = [name for name in chosen if name not in clocks]
+            hints += [f"; {name!r} rises by {_step(values[name]):g} a row" for name in clocks]
         left = [name for name in names if name not in chosen and name not in timing]
         notes = [f"columns that are no channels: {', '.join(left)}"] if left else []
     if not chosen:
         raise content.error(f"none of its columns is a channel ({', '.join(names)})")
-    return ChannelTable(
-        chosen, np.column_stack([values[name] for name in chosen]), timing, None, tuple(notes)
-    )
+    channels = np.column_stack([values[name] for name in chosen])
+    return ChannelTable(chosen, channels, timing, None, tuple(notes), "".join(hints[:1]))
 
 
-def _counts(name: str) -> bool:
-    """Whether a column of this name counts rows, as the one that pandas leaves nameless."""
-    return name.strip().lower() in COUNTERS or name.startswith(NAMELESS)
+def _is_told(name: str) -> bool:
+    """Whether a column of this name counts rows, is nameless, or says what is done."""
+    plain = name.strip().lower()
+    return plain in COUNTERS or plain in LABELS or name.startswith(NAMELESS)
+
+
+def _is_clock(values: Floats) -> bool:
+    """Whether a column rises all the time, by a step from a straight line at most.
+
+    So do times and counts under names that nobody knows, and no sensor.
+    """
+    if len(values) < CLOCK_ROWS or not (np.diff(values) > 0).all():
+        return False
+    line = values[0] + _step(values) * np.arange(len(values))
+    return bool(np.abs(values - line).max() <= _step(values))
+
+
+def _step(values: Floats) -> float:
+    return float((values[-1] - values[0]) / (len(values) - 1))
 
 
 def named(names: Iterable[str]) -> list[str]:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 from kineme.formats.channels.table import ChannelTable, channel_table, named, wanted_columns
 from kineme.formats.columns import dated, is_timing
-from kineme.formats.delimited import EMPTY, rows_of, separator_of
+from kineme.formats.delimited import EMPTY, rows_of
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut
+from kineme.formats.layout import COMMAS, dotted, first_full, has_commas, layout_of
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,8 @@ class TextTable:
         Between cells.
     head : list of str
         The cells of the first line, whatever they are.
+    notes : tuple of str
+        On lines that were passed over, and how numbers are written.
     """
 
     names: list[str]
@@ -35,6 +39,7 @@ class TextTable:
     first_row: int
     separator: str
     head: list[str]
+    notes: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, content: FileContent) -> TextTable:
@@ -42,25 +47,31 @@ class TextTable:
         lines = content.text.splitlines()
         ended = [i for i, line in enumerate(lines) if line.strip().lower() == "endheader"]
         start = ended[0] + 1 if ended else 0
-        starts = (i for i in range(start, len(lines)) if lines[i].strip() and lines[i][0] != "#")
-        first = next(starts, None)
-        if first is None:
+        layout = layout_of(lines, start)
+        if layout is None:
             raise content.error("has no lines of numbers")
+        first, below, separator = layout.names, layout.below, layout.separator
         if is_deeplabcut(lines[first]):
             raise content.error("is a DeepLabCut table of joints, which is a motion")
-        separator = separator_of(lines[first])
         if ended or separator not in lines[first]:
             lines[first:] = ["\t".join(line.split()) for line in lines[first:]]
             separator = "\t"
         cells = _cells(lines[first], separator)
         if any(map(_is_number, cells)) and not any(map(is_timing, cells)):
-            names = [str(i) for i in range(1, len(cells) + 1)]
-            return cls(names, lines[first:], first + 1, separator, cells)
-        return cls(named(cells), lines[first + 1 :], first + 2, separator, cells)
+            names, below = [str(i) for i in range(1, len(cells) + 1)], first
+        else:
+            names = named(cells)
+        return cls(names, lines[below:], below + 1, separator, cells, layout.notes)
+
+    @cached_property
+    def comma(self) -> bool:
+        """Whether its numbers have a decimal comma."""
+        return has_commas(self.rows, self.separator)
 
     def numeric(self) -> list[str]:
         """The columns whose first cell is a number or empty, and those of dates."""
-        cells = list(zip(self.names, self.first_cells(), strict=False))
+        given = map(dotted, self.first_cells()) if self.comma else self.first_cells()
+        cells = list(zip(self.names, given, strict=False))
         dates = {self.names[i] for i in dated(self.names, self.first_cells())}
         return [
             name
@@ -69,8 +80,9 @@ class TextTable:
         ]
 
     def first_cells(self) -> list[str]:
-        """The cells of the first row."""
-        return _cells(self.rows[0], self.separator) if self.rows else []
+        """The cells of the first row that is not blank."""
+        row = first_full(self.rows)
+        return _cells(row, self.separator) if row else []
 
 
 def text_channels(
@@ -105,8 +117,11 @@ def text_channels(
         len(text.names),
         at,
         dates=dated(text.names, text.first_cells()),
+        comma=text.comma,
     )
-    return channel_table(content, text.names, dict(zip(wanted, values.T, strict=True)), columns)
+    table = channel_table(content, text.names, dict(zip(wanted, values.T, strict=True)), columns)
+    commas = (COMMAS,) if text.comma else ()
+    return replace(table, notes=(*text.notes, *commas, *table.notes))
 
 
 def _cells(line: str, separator: str) -> list[str]:

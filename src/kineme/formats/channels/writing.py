@@ -28,6 +28,7 @@ from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.columns import is_timing
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import covered
+from kineme.formats.layout import dotted
 from kineme.recordings import Signals
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
@@ -105,12 +106,17 @@ class _TextRows:
     lines: Sequence[str]
     records: Sequence[str]
     separator: str
+    comma: bool = False
 
     @classmethod
     def of(cls, content: FileContent, n_rows: int) -> _TextRows:
         """The first rows of a file, blank lines left out."""
         table = TextTable.of(content)
-        text = content.data.decode("utf-8", errors="surrogateescape")
+        text = (
+            content.text
+            if content.is_utf16
+            else content.data.decode("utf-8", errors="surrogateescape")
+        )
         lines = text.splitlines(keepends=True)
         head, below = lines[: table.first_row - 1], lines[table.first_row - 1 :]
         reader = csv.reader(table.rows, delimiter=table.separator)
@@ -123,7 +129,9 @@ class _TextRows:
         numbered = [str(i) for i in range(1, len(table.names) + 1)]
         names = None if table.names == numbered else table.names
         suffix = content.path.suffix.lower()
-        return cls(suffix, names, "".join(head), kept[:n_rows], table.rows, table.separator)
+        return cls(
+            suffix, names, "".join(head), kept[:n_rows], table.rows, table.separator, table.comma
+        )
 
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
         lines = self.lines[start:stop]
@@ -134,7 +142,9 @@ class _TextRows:
 
     def cells(self) -> Iterator[Sequence[str]]:
         reader = csv.reader(self.records, delimiter=self.separator)
-        return islice((cells for cells in reader if any(map(str.strip, cells))), len(self.lines))
+        full = (cells for cells in reader if any(map(str.strip, cells)))
+        as_read = ([*map(dotted, cells)] if self.comma else cells for cells in full)
+        return islice(as_read, len(self.lines))
 
 
 @dataclass(frozen=True)

@@ -17,10 +17,11 @@ from kineme.formats.channels.sensors import hold_channels
 from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.columns import columns_to_motion, dated, is_used
-from kineme.formats.delimited import rows_of, separator_of
+from kineme.formats.delimited import rows_of
 from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
 from kineme.formats.gaps import unseen
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut, read_deeplabcut
+from kineme.formats.layout import COMMAS, first_full, has_commas, layout_of
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.tables.pose_tables import POSE_TABLES, PoseTable
@@ -63,21 +64,25 @@ def _channels(content: FileContent, *, asked: bool) -> TextTable | None:
 
 def _read_motion(content: FileContent, options: ReadOptions) -> Motion:
     lines = content.text.splitlines()
-    first = next((i for i, line in enumerate(lines) if line.strip() and line[0] != "#"), 0)
+    layout = layout_of(lines)
+    if layout is None:
+        raise content.error("has no lines of numbers")
+    first, separator = layout.names, layout.separator
     if is_deeplabcut(lines[first]):
         return read_deeplabcut(content, lines[first:], first + 1, options)
-    separator = separator_of(lines[first])
     names = unique(_cells(lines[first], separator, content))
     table = PoseTable(content, names, lines[first + 1 :], first + 2, separator)
     for recognises, reader in POSE_TABLES:
         if recognises(names):
             return reader(table, options)
     used = [i for i, name in enumerate(names) if is_used(name)]
-    below = lines[first + 1 :]
-    dates = dated(names, _cells(below[0], separator, content) if below else [])
-    values = rows_of(content, below, first + 2, separator, len(names), used, dates=dates)
+    below, line = lines[layout.below :], layout.below + 1
+    dates = dated(names, _cells(first_full(below), separator, content))
+    comma = has_commas(below, separator)
+    values = rows_of(content, below, line, separator, len(names), used, dates=dates, comma=comma)
     columns = {names[i]: column for i, column in zip(used, values.T, strict=True)}
-    return columns_to_motion(content, NAME, columns, options)
+    motion = columns_to_motion(content, NAME, columns, options)
+    return motion.noted(*layout.notes, *((COMMAS,) if comma else ()))
 
 
 def _cells(line: str, separator: str, content: FileContent) -> list[str]:
