@@ -1,0 +1,46 @@
+"""Where compiled functions are kept if numba finds no place for them."""
+
+from __future__ import annotations
+
+import os
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from kineme import _cache
+
+NOBODY_WRITES = "import os; os.access = lambda *_, **__: False\n"
+NO_HOME = {"HOME": os.devnull, "XDG_CACHE_HOME": os.devnull}
+
+
+def run(code: str, tmp_path: Path, **environment: str) -> str:
+    kept = {name: value for name, value in os.environ.items() if name != _cache.VARIABLE}
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**kept, **NO_HOME, "TMPDIR": str(tmp_path), **environment},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return done.stdout.strip()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="temporary folders are named otherwise")
+def test_without_a_home_compiled_functions_are_kept_among_temporary_files(tmp_path: Path) -> None:
+    shown = "import kineme, numba; print(numba.config.CACHE_DIR)"
+    folder = Path(run(NOBODY_WRITES + shown, tmp_path))
+    assert folder.parent == tmp_path
+    assert stat.S_IMODE(folder.stat().st_mode) == 0o700
+    assert Path(run(NOBODY_WRITES + "import numba\n" + shown, tmp_path)) == folder
+    folder.chmod(0o777)  # somebody else could leave something there
+    assert Path(run(NOBODY_WRITES + shown, tmp_path)) != folder
+
+
+def test_a_place_that_is_there_or_named_is_left_as_it_is(tmp_path: Path) -> None:
+    shown = "import os, kineme; print(os.environ.get('NUMBA_CACHE_DIR'))"
+    assert run(shown, tmp_path) == "None"
+    named = str(tmp_path / "own")
+    assert run(NOBODY_WRITES + shown, tmp_path, NUMBA_CACHE_DIR=named) == named
