@@ -163,6 +163,16 @@ def test_steps_are_counted() -> None:
     assert abs(len(found.primitives) - 20) <= 1
 
 
+def test_up_and_down_are_one_repetition_though_the_sensor_shakes_alike() -> None:
+    """It is held otherwise on the way up and on the way down."""
+    for times in range(4, 9):
+        phase = 2 * np.pi * np.arange(int(times * 3 * FPS)) / (3 * FPS)
+        shaken = np.column_stack([np.sin(2 * phase), np.cos(2 * phase), np.sin(4 * phase + 1)])
+        held = 0.8 * np.tanh(3 * np.sin(phase))
+        found = kineme.segment(kineme.Signals(np.column_stack([shaken, held]), FPS))
+        assert len(found.primitives) == times
+
+
 def test_long_recordings_are_cut_as_finely_as_their_parts_and_known_again() -> None:
     rows, borders = worn()
     one, ends = len(rows), [*borders, len(rows)]

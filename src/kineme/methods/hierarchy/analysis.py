@@ -17,6 +17,7 @@ from kineme._checks import as_features
 from kineme._threads import map_threads
 from kineme.methods.evidence import Evidence
 from kineme.methods.hierarchy.agreement import most_agreed
+from kineme.methods.hierarchy.borders import carried_over, to_the_frame
 from kineme.methods.hierarchy.constants import HierarchyConstants
 from kineme.methods.hierarchy.evidence import evidence
 from kineme.methods.hierarchy.found import HierarchyFound
@@ -33,7 +34,11 @@ Frames = NDArray[np.int64]
 
 
 def analyze_channels(
-    channels: ArrayLike, preset: HierarchyConstants, *, progress: Progress | None = None
+    channels: ArrayLike,
+    preset: HierarchyConstants,
+    *,
+    carried: ArrayLike | None = None,
+    progress: Progress | None = None,
 ) -> HierarchyFound:
     """Segments, clusters and repetitions of channels.
 
@@ -42,6 +47,8 @@ def analyze_channels(
     channels : (frames, channels * offsets) array
         At the working rate, stacked at the offsets of the preset.
     preset : HierarchyConstants
+    carried : (frames,) array, optional
+        1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere.
     progress : callable, optional
         Called with the name of each stage before it runs.
 
@@ -55,37 +62,46 @@ def analyze_channels(
         Channels of another shape, empty, or not finite.
     """
     with threadpool_limits(1):  # segments run side by side; sums do not hang on threads
-        return _analyze(as_features(channels), preset, progress)
+        rows = as_features(channels)
+        ridden = np.zeros(len(rows)) if carried is None else np.asarray(carried, np.float64)
+        return _analyze(rows, ridden, preset, progress)
 
 
 def _analyze(
-    rows: NDArray[np.float64], preset: HierarchyConstants, progress: Progress | None
+    rows: NDArray[np.float64],
+    carried: NDArray[np.float64],
+    preset: HierarchyConstants,
+    progress: Progress | None,
 ) -> HierarchyFound:
     bare = unstacked(rows, preset.offsets)
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
     with stage("statistics"):
-        channels = seen(rows if bare is None else bare, preset)
+        channels = rows if bare is None else bare
+        statistics = seen(channels, preset, carried)
     with stage("tree"):
-        answers = [_in_parts(view, preset) for view in channels.views]
-        others = [_in_parts(view, preset) for view in channels.halves]
+        answers = [_in_parts(view, preset) for view in statistics.views]
+        others = [_in_parts(view, preset) for view in statistics.halves]
     with stage("level"):
         best = most_agreed(*([_per_sample(each) for each in found] for found in (answers, others)))
-        features = channels.views[best]
+        features = statistics.views[best]
         unit = median_distance(features)
         level = linked(features, answers[best])
+    with stage("borders"):
+        frames = to_the_frame(channels, _in_frames(level.borders, preset, len(rows)), preset)
+        borders = _in_samples(frames, preset, len(features))
+        fine = carried_over(level.fine, level.borders, borders)
     with stage("repetitions"):
-        frames = _in_frames(level.borders, preset, len(rows))
         repeated = _count(rows, frames, preset)
     primitives = np.unique(np.concatenate([frames, *(each.cuts for each in repeated)]))
     parents = np.searchsorted(frames, primitives[:-1], side="right") - 1
     with stage("confidence"):
         own = level.preference
-        links, starts = evidence(features, unit, level.borders, level.labels, own, preset)
+        links, starts = evidence(features, unit, borders, level.labels, own, preset)
         counts, cuts = _counted(rows, primitives, parents, own, preset)
         shown = Evidence(links, starts, counts, cuts, parents)
     return HierarchyFound(
-        features, preset, unit, frames, level.labels, primitives, shown, level.fine, timings
+        features, preset, unit, frames, level.labels, primitives, shown, fine, timings
     )
 
 
@@ -105,6 +121,13 @@ def _in_frames(borders: Frames, preset: HierarchyConstants, n: int) -> Frames:
     frames: Frames = np.rint(borders * (preset.working_fps / preset.rate)).astype(np.int64)
     frames[-1] = n
     return frames
+
+
+def _in_samples(frames: Frames, preset: HierarchyConstants, n: int) -> Frames:
+    """The nearest samples to borders in frames."""
+    borders: Frames = np.rint(frames / (preset.working_fps / preset.rate)).astype(np.int64)
+    borders[-1] = n
+    return borders
 
 
 def _count(

@@ -11,6 +11,7 @@ from typing import ClassVar, Self
 from kineme.errors import ParameterError
 from kineme.methods.base import RATE, Unit
 from kineme.methods.constants import (
+    FACTOR,
     SHARE,
     SOME,
     SOME_LENGTH,
@@ -28,6 +29,7 @@ class HierarchyConstants(CountingPreset):
 
     method: ClassVar[str] = "hierarchy"
     units: ClassVar[tuple[Unit, ...]] = ("any",)
+    told_rides: ClassVar[bool] = True
 
     unit: Unit = "any"
     working_fps: float = constant(
@@ -55,6 +57,10 @@ class HierarchyConstants(CountingPreset):
     restless_over: tuple[float, ...] = constant(
         "per view: a statistic varies as much as it changes over this; 0: as its band does",
         unit="s", limits=TIME, fine=True,
+    )  # fmt: skip
+    ride_weight: float = constant(
+        "how far riding, as in a lift, is from standing, where all else deviates by 1",
+        limits=FACTOR, fine=True,
     )  # fmt: skip
     part: float = constant(
         "a longer recording is segmented in parts of this at most", unit="s", limits=SOME_TIME,

@@ -26,11 +26,12 @@ class HierarchyPreset(HierarchyConstants):
         *,
         mirror: Mirror | None = None,  # noqa: ARG002 (left and right are told apart)
         progress: Progress | None = None,
+        carried: ArrayLike | None = None,
     ) -> HierarchyFound:
         """Segments, clusters and repetitions; see :mod:`kineme.methods.hierarchy.analysis`."""
         from kineme.methods.hierarchy.analysis import analyze_channels  # compiled code
 
-        return analyze_channels(features, self, progress=progress)
+        return analyze_channels(features, self, carried=carried, progress=progress)
 
 
 SENSORS = HierarchyPreset(
@@ -43,6 +44,7 @@ SENSORS = HierarchyPreset(
     shared=(1e4, 1e4, 1e4, 1.0, 1.0, 1.0, 0.3, 0.3, 0.3),
     weights=(0.5, 1.0, 1.0) * 3,
     restless_over=(0.0, 0.0, 1.0) * 3,
+    ride_weight=5.0,
     part=600.0,
     fine_cost=0.4,
     max_fine=80.0,
@@ -53,6 +55,8 @@ SENSORS = HierarchyPreset(
     spread_share=0.5,
     max_clusters=16,
     counting_fps=25.0,
+    centering=0.4,
+    end_distance=0.65,
     link_weights=weights.SENSOR_LINK,
     border_weights=weights.SENSOR_BORDER,
 )

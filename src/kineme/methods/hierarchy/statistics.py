@@ -66,14 +66,20 @@ def means_and_energies(
 ) -> Floats:
     """The statistics of what `in_bands` gives, or of its mixtures, `rate` times a second."""
     frames = len(parts[0])
-    n = int((frames - 1) / fps * rate + 1e-9) + 1
-    at = np.minimum(np.rint(np.arange(n) * fps / rate).astype(np.int64), frames - 1)
+    at = sampled_at(frames, fps, rate)
     width = max(1, round(window * fps))
     first = np.clip(at - width // 2, 0, frames)
     last = np.clip(at - width // 2 + width, 0, frames)
     groups = [_means(parts[0], first, last)]
     groups += [np.sqrt(np.maximum(_means(band**2, first, last), 0.0)) for band in parts[1:]]
     return np.hstack(groups)
+
+
+def sampled_at(frames: int, fps: float, rate: float) -> Ints:
+    """The frames that are looked at, `rate` times a second."""
+    n = int((frames - 1) / fps * rate + 1e-9) + 1
+    at: Ints = np.minimum(np.rint(np.arange(n) * fps / rate).astype(np.int64), frames - 1)
+    return at
 
 
 def _means(values: Floats, first: Ints, last: Ints) -> Floats:

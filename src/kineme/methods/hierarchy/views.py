@@ -7,6 +7,9 @@ changes seldom for others. The first and the last view answer both in opposite
 ways, and those between them are the other answers; that of the two is taken
 which all agree with more (`kineme.methods.hierarchy.agreement`), among them the
 two as half of the channels give them: what hangs on few channels is doubtful.
+
+Rides (`kineme.features.rides`) are one more number of all views: whoever rides does
+something else than who stands, however little of it channels show.
 """
 
 from __future__ import annotations
@@ -18,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.hierarchy.constants import HierarchyConstants
-from kineme.methods.hierarchy.statistics import in_bands, means_and_energies
+from kineme.methods.hierarchy.statistics import in_bands, means_and_energies, sampled_at
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -45,7 +48,7 @@ class Seen:
     halves: list[NDArray[np.float32]]
 
 
-def seen(channels: Floats, preset: HierarchyConstants) -> Seen:
+def seen(channels: Floats, preset: HierarchyConstants, carried: Floats | None = None) -> Seen:
     """The statistics of the channels in each of the scales that the preset names.
 
     Parameters
@@ -53,6 +56,8 @@ def seen(channels: Floats, preset: HierarchyConstants) -> Seen:
     channels : (frames, channels) array
         At the working rate of the preset.
     preset : HierarchyConstants
+    carried : (frames,) array, optional
+        1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere.
 
     Returns
     -------
@@ -63,14 +68,31 @@ def seen(channels: Floats, preset: HierarchyConstants) -> Seen:
     bands = in_bands(scaled, preset.working_fps, preset.bands)
     every = range(len(preset.shared))
     ends = (every[0], every[-1]) if len(every) > 1 else ()
-    return Seen(
-        _in_scales(bands, every, preset),
-        [
-            view
-            for half in slow_and_fast(scaled)
-            for view in _in_scales([band[:, half] for band in bands], ends, preset)
-        ],
-    )
+    views = _in_scales(bands, every, preset)
+    halves = [
+        view
+        for half in slow_and_fast(scaled)
+        for view in _in_scales([band[:, half] for band in bands], ends, preset)
+    ]
+    if carried is not None and carried.any():
+        riding = carried[sampled_at(len(carried), preset.working_fps, preset.rate)]
+        views, halves = (
+            [with_rides(view, riding, preset.ride_weight) for view in each]
+            for each in (views, halves)
+        )
+    return Seen(views, halves)
+
+
+def with_rides(view: NDArray[np.float32], riding: Floats, weight: float) -> NDArray[np.float32]:
+    """The view with a number more, `weight` times as far apart as all others deviate.
+
+    Examples
+    --------
+    >>> with_rides(np.float32([[0], [2]]), np.array([0.0, 1.0]), 5.0).tolist()
+    [[0.0, 0.0], [2.0, 5.0]]
+    """
+    deviation = float(np.sqrt(view.var(axis=0, dtype=np.float64).sum()))
+    return np.ascontiguousarray(np.column_stack([view, weight * deviation * riding]), np.float32)
 
 
 def slow_and_fast(scaled: Floats) -> list[Ints]:
