@@ -5,8 +5,9 @@ All are `Case`s: a motion, and what people or the maker say of it.
 
 from __future__ import annotations
 
+import csv
 import os
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache
@@ -115,3 +116,13 @@ def annotation(truth: Segmentation) -> Annotation:
     marks = Annotation.from_labelling(labelling_of(rows, fps=truth.fps))
     counts = [units[row.activity] for row in rows if row.kind == "activity"]
     return replace(marks, counts=tuple(counts))
+
+
+def by_recording(path: Path) -> dict[str, list[dict[str, str]]]:
+    """Rows of a table by recording; none where there is no such table."""
+    rows: dict[str, list[dict[str, str]]] = defaultdict(list)
+    if path.exists():
+        with path.open(encoding="utf-8", newline="") as file:
+            for row in csv.DictReader(file):
+                rows[row["recording"]].append(row)
+    return rows

@@ -19,7 +19,6 @@ written into ``kineme/methods/weights.py``.
 from __future__ import annotations
 
 import argparse
-import csv
 import warnings
 from collections import defaultdict
 from collections.abc import Iterator
@@ -33,7 +32,17 @@ from numpy.typing import NDArray
 
 import kineme
 from _figures import add_option, record
-from _recordings import ACTORS, CONDITIONS, DATA, Case, exercises, hdm05, subject_86, synthetic
+from _recordings import (
+    ACTORS,
+    CONDITIONS,
+    DATA,
+    Case,
+    by_recording,
+    exercises,
+    hdm05,
+    subject_86,
+    synthetic,
+)
 from kineme.methods.base import Columns
 from kineme.methods.confidence import log_odds, probability, with_borders
 from kineme.recordings import Motion, Signals
@@ -51,6 +60,7 @@ TOLERANCE, SENSOR_TOLERANCE = 0.25, 0.5  # of borders, s
 CUT_TOLERANCE = 0.25  # of the longer repetition next to it
 STILL = ("standing", "sitting", "laying")  # where there is nothing to count
 RIDGE = 20.0
+UNTOLD = ("sensor_border",)  # of which statistics tell less than nothing where a set is left out
 KNOWN = {"cut": 4}  # statistics that must be known, two of others; borders may have no other side
 
 SETS = {"barbell": 41, "ipolgait": 30, "utkinect": 20, "hugadb": 40, "hapt": 12}
@@ -185,16 +195,6 @@ def truth_of_labels(labels: list[Any], events: list[Any], times: Floats) -> Trut
         feet[row["foot"]].append((float(row["swing_start_s"]) + float(row["swing_stop_s"])) / 2)
     strides = (np.array(feet["left"]), np.array(feet["right"])) if events else None
     return Truth(actions, counts, borders, strides=strides)
-
-
-def by_recording(path: Path) -> dict[str, list[dict[str, str]]]:
-    """Rows of a table by recording; none where there is no such table."""
-    rows: dict[str, list[dict[str, str]]] = defaultdict(list)
-    if path.exists():
-        with path.open(encoding="utf-8", newline="") as file:
-            for row in csv.DictReader(file):
-                rows[row["recording"]].append(row)
-    return rows
 
 
 def channels(path: Path) -> tuple[Signals, Floats]:
@@ -341,13 +341,16 @@ def seen(table: Table, kind: str, statistics: Floats, kept: Any) -> Floats:
     if kind == "cut":
         counts = seen(table, "count", statistics[:, 2:], kept)
         return np.column_stack([statistics[:, :2], log_odds(counts, fitted(table, "count", kept))])
+    if kind in UNTOLD:
+        return np.zeros_like(statistics)
     if kind != "count":
         return statistics
     sensors = statistics[:, 6] > 0
     odds = np.empty((2, len(statistics)))
     for rows, border in ((sensors, "sensor_border"), (~sensors, "border")):
         for side, columns in zip(odds, (slice(2, 4), slice(4, 6)), strict=True):
-            side[rows] = log_odds(statistics[rows, columns], fitted(table, border, kept))
+            told = seen(table, border, statistics[rows, columns], kept)
+            side[rows] = log_odds(told, fitted(table, border, kept))
     return with_borders(statistics[:, :2], *odds)
 
 

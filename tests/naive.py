@@ -849,9 +849,9 @@ def poses_at(poses, path, lengths):
     return np.array([poses[f] for f in last])
 
 
-def unexplained(parts):
+def unexplained(parts, centering):
     """One minus the squared correlation, if positive, of each part with the mean of all others."""
-    rows = [(part - part.mean(axis=0)).ravel() for part in parts]
+    rows = [(part - centering * part.mean(axis=0)).ravel() for part in parts]
     found = []
     for k, row in enumerate(rows):
         others = np.mean(rows[:k] + rows[k + 1 :], axis=0)
@@ -896,7 +896,7 @@ def smoothed(rows, smoothing):
     return poses, [np.linalg.norm(poses[b] - poses[a]) / max(b - a, 1) for a, b in around]
 
 
-def judged(poses, path, visits, places, near, followed_for):
+def judged(poses, path, visits, places, near, followed_for, centering):
     """Ends before the first visit and after the last, and what is unexplained of an activity."""
     whole, at = path[-1], np.array([path[visit] for visit in visits])
     lengths = np.diff(at)
@@ -917,7 +917,7 @@ def judged(poses, path, visits, places, near, followed_for):
     if len(inner) == 1:
         ahead = at[-1] + (whole - length) * steps[:places]
         inner.append(poses_at(poses, path, [a if a < whole else a - whole for a in ahead]))
-    shares = np.array(unexplained(inner)[: len(lengths)])
+    shares = np.array(unexplained(inner, centering)[: len(lengths)])
     known = max(whole - outside - lengths.sum(), 0)
     weights = np.maximum(lengths / whole, 1 / (len(lengths) + before + after))
     return before, after, weights @ shares + (shares.mean() * known + outside) / whole

@@ -13,6 +13,7 @@ import naive
 from kineme.methods.recurrence.analysis import analyze_actions
 from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.recurrence.repeating import _occurrence_kernels as kernels
+from kineme.methods.recurrence.repeating import _set_kernels as set_kernels
 from kineme.methods.recurrence.repeating.occurrences import Occurrences, occurrences
 
 seconds = settings(max_examples=40)
@@ -87,7 +88,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     totals: dict[tuple[int, int], float] = {}
     for start in range(n):
         for stop in start + lengths[start + lengths <= n]:
-            total, count = kernels.recurrences(
+            total, count = set_kernels.recurrences(
                 start, stop, starts, ptr, *flat, row_ptr, row_paths, room, cover, spans, gains
             )
             expected = naive.recurrences_of(start, stop, paths, free, cover)
@@ -97,7 +98,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
             if expected and free[start:stop].all():
                 covered = min(low for *_, low, _ in of), max(high for *_, high in of)
                 totals[covered] = max(total, totals.get(covered, 0))
-    places, _, ranks = kernels.best_sets(
+    places, _, ranks = set_kernels.best_sets(
         lengths, starts, ptr, *flat, row_ptr, row_paths, free, cover
     )
     if len(places):

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from kineme.methods.recurrence.repeating.occurrences import Occurrences
-from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed
+from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed, without_lone
 
 BORDERS = np.array([0, 100, 130, 300, 400])
 LABELS = np.array([0, -1, 1, 0])
@@ -68,6 +68,14 @@ def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
     assert found.borders.tolist() == [0, 100, 300, 400]
     assert found.labels.tolist() == [0, 1, 0]
     assert found.clusters.tolist() == [0, 0, 2, -1, 2, 0]
+
+
+def test_what_recurs_nowhere_is_no_primitive_beside_what_does() -> None:
+    lone = replace(segments(), labels=np.array([0, -1, 1, 2]), clusters=np.array([0, 0, -1, 1, 2]))
+    found = without_lone(placed(lone, occurring((140, 180), (220, 260)), FREE))
+    assert found.clusters.tolist() == [0, 0, -1, -1, 3, -1, 3, -1, -1]
+    assert found.not_periodic.tolist() == [1, 2]
+    assert without_lone(lone).clusters.tolist() == lone.clusters.tolist()
 
 
 def test_shares_are_those_of_actions() -> None:

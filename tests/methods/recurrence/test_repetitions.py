@@ -14,7 +14,11 @@ from bands import points
 from kineme.methods.recurrence import _distance_kernels as kernels
 from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.recurrence.repeating import _candidate_kernels as candidate_kernels
-from kineme.methods.recurrence.repeating.repetitions import Repetitions, repetitions
+from kineme.methods.recurrence.repeating.repetitions import (
+    Candidate,
+    Repetitions,
+    repetitions,
+)
 from loops import nod, swing
 
 seconds = settings(max_examples=60)
@@ -144,6 +148,17 @@ def test_what_merely_shakes_is_not_repeated(frames: int, seed: int) -> None:
     assert len(count(rows).cuts) == 0
 
 
+@pytest.mark.parametrize("times", [2, 3, 5, 10, 40])
+def test_chance_is_told_from_any_number_of_repetitions(times: int) -> None:
+    """Any two of a movement have 0.5 in common, any two of chance 0.3."""
+    rng = np.random.default_rng(times)
+    for common, is_chance in ((0.5, False), (0.3, True)):
+        shared = np.sqrt(common) * rng.normal(0, 1, (1000, 15))
+        parts = shared + np.sqrt(1 - common) * rng.normal(0, 1, (times, 1000, 15))
+        left = float(candidate_kernels.unexplained(parts, 1.0).mean())
+        assert Candidate(np.arange(times + 1), 0, 0, left, 1.5).is_chance(0.6) == is_chance
+
+
 @st.composite
 def gains(draw: st.DrawFn) -> np.ndarray:
     shape = draw(st.integers(1, 9)), draw(st.integers(1, 9))
@@ -169,9 +184,9 @@ def test_ways_are_judged_as_by_the_naive_versions(seed: int) -> None:
     expected = naive.poses_at(poses, path, lengths)
     np.testing.assert_array_equal(candidate_kernels.poses_at(poses, path, lengths), expected)
     parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
-    np.testing.assert_allclose(
-        candidate_kernels.unexplained(parts), naive.unexplained(parts), atol=1e-12
-    )
+    for centering in (0.0, 0.4, 1.0):
+        found = candidate_kernels.unexplained(parts, centering)
+        np.testing.assert_allclose(found, naive.unexplained(parts, centering), atol=1e-12)
     best, ends = naive.followed(poses, path, lengths, parts[0], 4.0)
     length = candidate_kernels.followed(poses, path, lengths, parts[0], 4.0)
     assert length in ends if best > 0 else length == 0
@@ -195,5 +210,6 @@ def test_divisions_are_judged_as_by_the_naive_version(seed: int, count: int, smo
         np.testing.assert_allclose(found, expected, atol=1e-5)
     path = np.append(0, np.cumsum(speeds))
     visits = np.sort(rng.choice(np.arange(2, 39, 6), count, replace=False))
-    found = candidate_kernels.judged(poses, path, visits, 6, 1.0, 1.5)
-    np.testing.assert_allclose(found, naive.judged(poses, path, visits, 6, 1.0, 1.5), atol=1e-9)
+    options = 6, 1.0, 1.5, 0.4
+    found = candidate_kernels.judged(poses, path, visits, *options)
+    np.testing.assert_allclose(found, naive.judged(poses, path, visits, *options), atol=1e-9)

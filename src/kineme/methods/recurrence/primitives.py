@@ -18,7 +18,13 @@ from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.repeating.ends import fitted_ends
 from kineme.methods.recurrence.repeating.occurrences import moved, occurrences
 from kineme.methods.recurrence.repeating.parts import clusters_of_repetitions
-from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed, without_still
+from kineme.methods.recurrence.repeating.placing import (
+    Segments,
+    of_actions,
+    placed,
+    without_lone,
+    without_still,
+)
 from kineme.methods.recurrence.repeating.repetitions import Repetitions, repetitions
 from kineme.methods.samples import single_poses
 
@@ -99,7 +105,8 @@ def with_occurrences(
     An activity with a single repetition has no count that could be. An action gives its
     repetitions up where occurrences explain more of it than these are probable. Transitions
     that are no more than the ends of two activities are left alone. An action of single
-    repetitions in which hardly anything moves has no primitives.
+    repetitions in which hardly anything moves has no primitives, nor has, where an action was
+    given up, one of a single repetition in all.
 
     Parameters
     ----------
@@ -111,7 +118,7 @@ def with_occurrences(
     preset : RecurrenceConstants
     """
     poses = single_poses(recurring.features, preset.offsets)
-    segments = _occurring(poses, segments, counts, preset)
+    segments = without_lone(_occurring(poses, segments, counts, preset))
     return without_still(segments, moved(poses, preset), preset.min_event)
 
 

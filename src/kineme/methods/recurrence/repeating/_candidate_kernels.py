@@ -94,11 +94,12 @@ def followed(poses, path, lengths, mean, near):
     return matched_length(gains)
 
 
-@njit("float64[::1](float64[:, :, ::1])", **SUMS)
-def unexplained(repetitions):
+@njit("float64[::1](float64[:, :, ::1], float64)", **SUMS)
+def unexplained(repetitions, centering):
     """What the mean of all others does not explain of each repetition, 0 to 1, size apart.
 
-    Repetitions are (places, dims) each; 1 minus the square of a positive correlation.
+    Repetitions are (places, dims) each, less so large a share of their mean; 1 minus the square
+    of a positive correlation.
     """
     count, places, dims = repetitions.shape
     rows = np.empty((count, places, dims))
@@ -108,7 +109,7 @@ def unexplained(repetitions):
             mean = 0.0
             for p in range(places):
                 mean += repetitions[k, p, d]
-            mean /= places
+            mean *= centering / places
             for p in range(places):
                 rows[k, p, d] = repetitions[k, p, d] - mean
                 total[p, d] += rows[k, p, d]
@@ -184,10 +185,10 @@ def steps_inside(begin, step, places, number, whole):
 
 @njit(
     "Tuple((float64, float64, float64))(float64[:, ::1], float64[::1], int64[::1], int64, float64,"
-    " float64)",
+    " float64, float64)",
     **OPTIONS,
 )
-def judged(poses, path, visits, places, near, followed_for):
+def judged(poses, path, visits, places, near, followed_for, centering):
     """Shares of a repetition before the first visit and after the last, and what is unexplained.
 
     Ends are followed for so many repetitions, by poses nearer than ``near``, a squared
@@ -221,7 +222,7 @@ def judged(poses, path, visits, places, near, followed_for):
             for d in range(poses.shape[1]):
                 both[0, p, d], both[1, p, d] = inner[0, p, d], there[p, d]
         inner = both
-    shares = unexplained(inner)[:count]
+    shares = unexplained(inner, centering)[:count]
     known = max(whole - outside - lengths.sum(), 0.0)
     total = (shares.sum() / count * known + outside) / whole
     for k in range(count):  # what lies between two visits counts as a repetition, however short

@@ -46,13 +46,18 @@ class CountingPreset(ConfidencePreset):
         "an end belongs to a repetition as long as it is nearer than this share of the variance",
         limits=SHARE, fine=True, default=0.5,
     )  # fmt: skip
+    centering: float = constant(
+        "share of its mean pose taken off each repetition before it is compared with others: of 1, "
+        "only how it moves counts, of 0, where it is counts as much",
+        limits=SHARE, fine=True, default=1.0,
+    )  # fmt: skip
     length_cost: float = constant(
         "cost of the repetition that the others are compared with, per share of the activity",
         limits=FACTOR, fine=True, default=1.5,
     )  # fmt: skip
     max_unexplained: float = constant(
-        "where more than this share stays unexplained, similarity is chance", limits=SHARE,
-        fine=True, default=0.7,
+        "where the mean of any number of repetitions would leave more than this share unexplained, "
+        "similarity is chance", limits=SHARE, fine=True, default=0.7,
     )  # fmt: skip
     same_cost: float = constant(
         "divisions that cost no more than this above the best say with it how long the ends are",

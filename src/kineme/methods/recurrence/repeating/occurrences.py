@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.recurrence.repeating import _occurrence_kernels as kernels
+from kineme.methods.recurrence.repeating import _set_kernels as set_kernels
 from kineme.methods.segments import by_first_appearance
 
 if TYPE_CHECKING:
@@ -134,7 +135,7 @@ def occurrences(
     )
     longest = max(shortest, preset.samples(preset.max_event))
     lengths = np.unique(np.geomspace(shortest, longest, LENGTHS).round().astype(np.int64))
-    spans, scores, ranks = kernels.best_sets(
+    spans, scores, ranks = set_kernels.best_sets(
         lengths,
         *_flat_paths(samples, costs, ends, preset.event_scale),
         np.ones(len(samples.rows), np.bool_),

@@ -129,11 +129,27 @@ def without_still(segments: Segments, time: NDArray[np.float64], least: float) -
     lasting = np.diff(time[segments.primitives]) >= least
     several = segments.counts[segments.parents] > 1
     still = np.setdiff1d(actions[own], actions[own & (lasting | several)])
-    if not len(still):
+    return _given_up(segments, still)
+
+
+def without_lone(segments: Segments) -> Segments:
+    """The segments without repetitions that no other is like, where primitives are what recurs."""
+    if not len(segments.not_periodic):
         return segments
-    clusters = np.where(own & np.isin(actions, still), -1, segments.clusters)
-    not_periodic = np.union1d(segments.not_periodic, still)
-    return replace(segments, clusters=clusters, not_periodic=not_periodic)
+    numbers = np.bincount(segments.labels[segments.parents][segments.repeats])
+    return _given_up(segments, np.flatnonzero(numbers == 1))
+
+
+def _given_up(segments: Segments, actions: Frames) -> Segments:
+    """The segments without the repetitions of some actions."""
+    if not len(actions):
+        return segments
+    own = segments.repeats & np.isin(segments.labels[segments.parents], actions)
+    return replace(
+        segments,
+        clusters=np.where(own, -1, segments.clusters),
+        not_periodic=np.union1d(segments.not_periodic, actions),
+    )
 
 
 def _place(borders: Frames, frames: Frames) -> Frames:

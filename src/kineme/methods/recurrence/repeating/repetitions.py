@@ -10,7 +10,8 @@ before the first visit and after the last counts by how far it follows the mean.
 Repetitions are compared along their path, not in time, so that pace does not
 matter and a rest has no length; and apart from their size, so that a deep bend
 and a shallow one are two bends, where a step with the left foot and one with
-the right are halves of one repetition.
+the right are halves of one repetition. Where they are, such as how a sensor is
+held, is left out of it as far as the preset says (`centering`).
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ class Movement:
 
 
 @dataclass(frozen=True, eq=False)
-class _Candidate:
+class Candidate:
     """One division of an activity.
 
     Attributes
@@ -99,6 +100,16 @@ class _Candidate:
     @property
     def whole(self) -> int:
         return int(self.number + 0.5)
+
+    def is_chance(self, most: float) -> bool:
+        """Whether the mean of however many repetitions would leave more than ``most`` unexplained.
+
+        The mean of few others has noise of its own, and explains less: so much, where any two
+        correlate by ``common``.
+        """
+        common, others = 1 - most, max(self.number - 1, 1)
+        explained = common**2 * others / (1 + (others - 1) * common)
+        return self.unexplained >= 1 - explained
 
     def cuts(self, count: int) -> Frames | None:
         """The visits at which one of so many repetitions ends and the next begins."""
@@ -160,7 +171,7 @@ def movement(rows: NDArray[np.float32], smoothing: int) -> Movement:
 
 def _candidates(
     rows: NDArray[np.float32], movement: Movement, preset: CountingPreset
-) -> list[_Candidate]:
+) -> list[Candidate]:
     """Divisions of an activity into more than one repetition."""
     voters = min(preset.voters, len(rows))
     references = np.unique(np.linspace(0, len(rows) - 1, voters).astype(np.int64))
@@ -168,13 +179,26 @@ def _candidates(
     falls = depths - np.pad(depths[:, 1:], ((0, 0), (0, 1)))
     votes = np.diff(movement.path)[references] @ falls
     votes[0] = 0  # every pose visits itself
-    found: list[_Candidate] = []
+    found: list[Candidate] = []
     for column in np.argsort(-votes, kind="stable")[: preset.counts_tried]:
         clear = np.argsort(-falls[:, column], kind="stable")[: preset.poses_tried]
         visits = centers[clear[falls[clear, column] > 0], : column + 1]
         if votes[column] > 0:
-            found += [_candidate(movement, row, preset) for row in np.sort(visits, axis=1)]
-    return [each for each in found if each.whole > 1 and each.unexplained < preset.max_unexplained]
+            found += [
+                _candidate(movement, row, preset, preset.centering)
+                for row in np.sort(visits, axis=1)
+            ]
+    return [each for each in found if each.whole > 1 and not _is_chance(each, movement, preset)]
+
+
+def _is_chance(candidate: Candidate, movement: Movement, preset: CountingPreset) -> bool:
+    """Whether its repetitions are alike by chance in how they move, wherever they are.
+
+    Who stands, and leans now to one side, now to the other, repeats nothing.
+    """
+    if preset.centering < 1:
+        candidate = _candidate(movement, candidate.visits, preset, centering=1.0)
+    return candidate.is_chance(preset.max_unexplained)
 
 
 def _dips(
@@ -190,9 +214,11 @@ def _dips(
     return np.maximum(shares - noise, 0), centers
 
 
-def _candidate(movement: Movement, visits: Frames, preset: CountingPreset) -> _Candidate:
+def _candidate(
+    movement: Movement, visits: Frames, preset: CountingPreset, centering: float
+) -> Candidate:
     before, after, unexplained = candidate_kernels.judged(
         movement.poses, movement.path, visits, preset.path_points,
-        preset.end_distance * movement.variance, FOLLOWED,
+        preset.end_distance * movement.variance, FOLLOWED, centering,
     )  # fmt: skip
-    return _Candidate(visits, before, after, unexplained, preset.length_cost)
+    return Candidate(visits, before, after, unexplained, preset.length_cost)
