@@ -109,6 +109,7 @@ ROOMS = {
 }
 # Helpers beside the rooms: what each may import; any room may import them.
 HELPERS = {
+    "_cache": set(),
     "_checks": {"errors"},
     "_colors": set(),
     "_compiled": set(),

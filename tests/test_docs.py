@@ -106,8 +106,8 @@ def test_tables_of_constants_are_those_of_the_presets() -> None:
 
 
 def test_every_constant_of_the_published_methods_has_its_source() -> None:
-    method = (ROOT / "docs" / "method.md").read_text(encoding="utf-8")
-    chapter = method.partition("### Constants\n")[2].partition("\n## ")[0]
+    method = (ROOT / "docs" / "published.md").read_text(encoding="utf-8")
+    chapter = method.partition("## Constants\n")[2].partition("\n## ")[0]
     for name in ("voegele2014", "krueger2017"):
         told = {known.name for known in kineme.PRESETS[name].constants()}
         assert set(re.findall(r"^\| `(\w+)` \|", chapter, flags=re.MULTILINE)) == told

@@ -106,10 +106,15 @@ def as_floats(
 ) -> NDArray[np.float64]:
     """The values as a float64 array, of any shape; ``error`` where they are not numbers."""
     try:
-        return np.asarray(values, np.float64)
+        given = np.asarray(values)
+        if given.dtype.kind != "c":  # numpy would drop the imaginary parts
+            return np.asarray(given, np.float64)
     except (TypeError, ValueError, OverflowError):
-        shown = repr(values) if isinstance(values, str) else type(values).__name__
-        raise error(f"{name} must be an array of numbers, not {shown:.60}") from None
+        pass
+    shown = repr(values) if isinstance(values, str) else type(values).__name__
+    if isinstance(values, np.ndarray):
+        shown = f"{values.dtype} values"
+    raise error(f"{name} must be an array of numbers, not {shown:.60}") from None
 
 
 def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64]:

@@ -151,3 +151,19 @@ def test_control_c_ends_quietly_with_130(tmp_path: Path) -> None:
         out, err = process.communicate(timeout=30)
     assert (process.returncode, out, err) == (130, "", "")
     assert [path.name for path in tmp_path.iterdir()] == ["slow.bvh"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+@pytest.mark.parametrize("arguments", [["info"], ["segment", "--json"]])
+def test_what_is_printed_to_a_full_disk_is_one_sentence(tmp_path: Path, arguments) -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "kineme", *arguments, bundled_recording()],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=tmp_path,
+            check=False,
+        )
+    assert done.returncode == 1
+    assert done.stderr == "error: what is printed cannot be written: No space left on device\n"

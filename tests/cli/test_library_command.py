@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import shutil
+import signal
+import subprocess
+import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -95,3 +100,30 @@ def test_what_makes_no_sense_is_one_sentence(
     assert done.returncode == code, done.stdout + done.stderr
     assert said in " ".join(done.stderr.replace("│", " ").split())
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs signals to groups of processes")
+def test_control_c_ends_a_build_quietly(tmp_path: Path) -> None:
+    for name in ("a.bvh", "b.bvh"):
+        shutil.copy(bundled_recording(), tmp_path / name)
+    with subprocess.Popen(
+        [sys.executable, "-m", "kineme", "library", "build", tmp_path, "--into", tmp_path / "lib"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    ) as process:
+        while not (tmp_path / "lib" / ".lock").exists():
+            time.sleep(0.01)
+        time.sleep(0.2)  # its processes are being started
+        os.killpg(process.pid, signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (130, "", "")
+
+
+def test_a_build_from_nothing_leaves_nothing(tmp_path: Path, kineme) -> None:
+    built = kineme("library", "build", "--into", "lib")
+    assert built.returncode == 1
+    assert built.stderr == "error: lib: nothing to build from: name recordings or folders\n"
+    assert not (tmp_path / "lib").exists()

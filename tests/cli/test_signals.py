@@ -89,3 +89,23 @@ def test_force_plates_are_no_muscles(kineme, data_dir) -> None:
     done = kineme("segment", data_dir / "formats" / "Eb015pr.c3d", "--emg")
     assert done.returncode == 1
     assert "which of its analog channels are muscles" in " ".join(done.stderr.split())
+
+
+def test_a_result_of_signals_is_scored_against_labels(kineme, tmp_path, phone) -> None:
+    (tmp_path / "truth.csv").write_text("start_s,stop_s,label\n0,10,slow\n10,20,fast\n")
+    assert kineme("segment", phone, "-q", "-o", "cuts.csv").returncode == 0
+    done = kineme("evaluate", "cuts.csv", "--against", "truth.csv", "-o", "scores.json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "no distances within clusters: the recording has no joints" in done.stdout
+    (scores,) = json.loads((tmp_path / "scores.json").read_text())["scores"]
+    assert scores["border_f1"] == 1
+
+
+def test_a_result_is_scored_though_its_recording_was_read_otherwise(kineme, tmp_path, phone):
+    table = phone.read_text().splitlines()
+    (tmp_path / "bare.csv").write_text("\n".join(line.split(",", 1)[1] for line in table))
+    (tmp_path / "truth.csv").write_text("start_s,stop_s,label\n0,20,slow\n20,40,fast\n")
+    assert kineme("segment", "bare.csv", "--fps", 50, "-q", "-o", "cuts.csv").returncode == 0
+    done = kineme("evaluate", "cuts.csv", "--against", "truth.csv")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "border F1" in done.stdout

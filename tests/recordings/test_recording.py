@@ -8,6 +8,7 @@ import pickle
 import xml.etree.ElementTree as ET
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -33,7 +34,7 @@ def signals(n: int = 100, fps: float = 20.0, gaps: tuple = ()) -> Signals:
 
 
 def numbers(recording: Motion | Signals) -> np.ndarray:
-    return recording.positions if isinstance(recording, Motion) else recording.values
+    return recording.positions if isinstance(recording, Motion) else recording.values  # noqa: PD011
 
 
 both = pytest.mark.parametrize("make", [motion, signals])
@@ -154,3 +155,15 @@ def test_both_are_recordings() -> None:
     assert repr(motion()) == (
         "<Motion of 100 frames (5.0 s) at 20 Hz: 3 joints, 1 of them end sites>"
     )
+
+
+def test_channels_of_a_data_frame_keep_their_names() -> None:
+    frame = pd.DataFrame({"acc": [0.0, 1.0], "gyro": [2.0, 3.0]})
+    assert Signals(frame, 50).names == ("acc", "gyro")
+    assert Signals(frame, 50, ["a", "b"]).names == ("a", "b")
+    assert Signals(frame["acc"], 50).names == ("1",)
+
+
+def test_complex_numbers_are_refused_and_not_halved() -> None:
+    with pytest.raises(ParameterError, match="array of numbers, not complex128 values"):
+        Signals(np.ones((5, 2)) * 1j, 50)

@@ -102,3 +102,14 @@ def test_a_rate_that_was_not_given_is_said() -> None:
 def test_a_rate_of_nothing_is_refused() -> None:
     with pytest.raises(ParameterError, match="frame rate is 0"):
         Segmenter(fps=0).fit(np.zeros((10, 1)))
+
+
+@pytest.mark.parametrize("zone", [None, "Europe/Berlin"])
+def test_a_data_frame_that_knows_its_times_tells_the_rate(zone: str | None) -> None:
+    times = pd.date_range("2026-03-01", periods=1200, freq="20ms", tz=zone)
+    frame = pd.DataFrame(two_movements(), index=times, columns=["x", "y", "z"])
+    told, given = Segmenter().fit(frame).segmentation_, Segmenter(fps=50).fit(frame).segmentation_
+    assert told.table == given.table
+    assert "frame rate 50 Hz, as the times in the index" in told.provenance["notes"][0]
+    counted = Segmenter().fit(frame.reset_index(drop=True)).segmentation_
+    assert counted.fps == 30

@@ -192,3 +192,12 @@ def test_a_forked_process_segments_as_well() -> None:
     expected = found_in(0, "krueger2017").primitives.start_frame.tolist()
     with multiprocessing.get_context("fork").Pool(1) as pool:
         assert pool.apply_async(_segment_in_child, (0,)).get(timeout=20) == expected
+
+
+def test_a_recording_gives_equal_results_each_time() -> None:
+    assert segment(recording(0)) == segment(recording(0))
+
+
+def test_detail_is_asked_of_the_result() -> None:
+    with pytest.raises(ParameterError, match=r"segment\(\.\.\.\)\.level\(0\.5\)"):
+        segment(recording(0), detail=0.5)

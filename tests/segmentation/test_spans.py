@@ -107,3 +107,31 @@ def test_a_gap_in_a_real_recording(data_dir: Path, tmp_path: Path) -> None:
     before, after = (broken.per_frame("cluster", level="activity")[f] for f in (1499, 1900))
     assert before == after >= 0
     kineme.plot_segmentation(broken, analysis.graph, tmp_path / "a.png")
+
+
+@given(recordings(), st.integers(1, 4))
+def test_no_segment_begins_shortly_after_a_gap(recording: tuple, near: int) -> None:
+    parts, columns, n_frames, ratio = recording
+    placed = in_frames(columns, parts, n_frames, ratio, near=near)
+    table = kineme.Segmentation.from_columns(placed, n_frames=n_frames, fps=30)  # it tiles
+    for level in ("activity", "primitive"):
+        cuts = table.cuts(level)
+        for part in parts[1:]:
+            soon = min(part.start + near * ratio, part.stop)
+            assert not ((cuts > part.start) & (cuts < soon)).any()
+    found, plain = table.per_frame("cluster"), in_frames(columns, parts, n_frames, ratio)
+    before = kineme.Segmentation.from_columns(plain, n_frames=n_frames, fps=30)
+    away = np.zeros(n_frames, np.bool_)
+    for part in parts:
+        away[part.start + near * ratio : max(0, part.stop - near * ratio)] = True
+    assert np.array_equal(found[away], before.per_frame("cluster")[away])
+
+
+def test_a_clock_that_is_set_leaves_no_crumbs_beside_the_jump() -> None:
+    t = np.arange(2000) / 50
+    rng = np.random.default_rng(0)
+    one = np.column_stack([np.sin(6 * t), np.cos(6 * t)])
+    two = np.column_stack([np.sin(11 * t) ** 3, np.cos(11 * t)])
+    values = np.where((t < 20)[:, None], one, two) + 0.05 * rng.standard_normal((2000, 2))
+    segments = kineme.segment(kineme.Signals(values, 50, gaps=[(999, 1000)]))
+    assert segments.cuts().tolist() == [999, 1000]

@@ -40,12 +40,13 @@ def studio(
     with failures.caught("studio"):
         root, recordings = _opened(files or [Path()])
         from kineme.formats import ReadOptions
+        from kineme.library.storage.layout import HEAD
         from kineme.studio.reading import ReadingOptions
         from kineme.studio.server import serve
 
         options = ReadingOptions(ReadOptions(**(reading or {})), effector_names(effectors))
         library = None
-        if recordings is None and (root / "library.json").is_file():
+        if recordings is None and (root / HEAD).is_file():
             if reading or effectors:
                 raise ParameterError(f"{root} is a library, read as it was built: no such options")
             from kineme.studio.library.shown import ShownLibrary

@@ -142,10 +142,11 @@ def build(
     check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
     check_type(settings, (Settings, type(None)), "build", "kineme.library.Settings() makes one")
     with processes(int(jobs)) if client is None else connected(client) as executor:
-        folder = opened(into)
+        named, gone = as_paths(sources), as_paths(remove)
+        folder = opened(into, [*named, *gone])
         with held(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
-            plan = plan_of(folder, head, as_paths(sources), as_paths(remove), recursive, settings)
+            plan = plan_of(folder, head, named, gone, recursive, settings)
             return _built(plan, head, executor, progress or (lambda _: None))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -17,6 +17,9 @@ from kineme.library.storage.places import is_remote, place
 AnyPath = str | PathLike[str]
 Entry = tuple[str, Path, str]
 """A recording: its name, where it was read from, and its piece."""
+
+NOTHING = "{}: nothing to build from: name recordings or folders"
+"""The error where no recording is named, and none is known."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,7 @@ def plan_of(
     """
     known = known_sources(folder, sources, remove)
     if not known and not head:
-        raise ParameterError(f"{folder}: nothing to build from: name recordings or folders")
+        raise ParameterError(NOTHING.format(folder))
     before = head.get("sources", ())
     missing = [each for each in known if not each.exists() and str(each) not in before]
     return Plan(
@@ -92,8 +95,8 @@ def known_sources(
     return [path for path in dict.fromkeys(sources) if path not in removed]
 
 
-def opened(into: AnyPath) -> Path:
-    """The folder of a library, made where there is none."""
+def opened(into: AnyPath, told: Sequence[Path]) -> Path:
+    """The folder of a library, made where there is none, unless nothing is told."""
     folder = place(into, "build")
     if (folder / HEAD).is_file():
         read_head(folder)
@@ -102,6 +105,8 @@ def opened(into: AnyPath) -> Path:
     try:
         if folder.exists() and not begun and (not folder.is_dir() or any(folder.iterdir())):
             raise WriteError(into, "is there already and is no library: name a new folder")
+        if not told and not begun:
+            raise ParameterError(NOTHING.format(folder))
         (folder / PIECES).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise WriteError(into, f"cannot be made: {error.strerror or error}") from error

@@ -28,11 +28,11 @@ class Signals(Recording):
     Parameters
     ----------
     values : array_like, shape (frames, channels)
-        Finite, in any units; one channel may come as a vector.
+        Finite, in any units; one channel may come as a vector. A data frame names its columns.
     fps : float
         Frames per second.
     names : sequence of str, optional
-        One per channel, unique; numbers from 1 by default.
+        One per channel, unique; by default those of a data frame's columns, else numbers from 1.
     gaps : sequence of (int, int)
         Frames [start, stop) in which nothing was recorded, whatever the values there.
     provenance : Provenance
@@ -65,12 +65,11 @@ class Signals(Recording):
             values = values[:, None]
         if values.ndim != 2 or 0 in values.shape:
             raise ParameterError(f"signals are frames x channels, not of shape {values.shape}")
+        columns = getattr(self.values, "columns", range(1, values.shape[1] + 1))
         assign(self, values=frozen(values, "signals"), fps=as_rate(self.fps))
         if (largest := float(np.abs(values).max())) > LARGEST:
             raise ParameterError(f"signals reach {largest:.3g}, which no sensor tells")
-        names = as_texts(self.names, "names of channels") or tuple(
-            str(i) for i in range(1, values.shape[1] + 1)
-        )
+        names = as_texts(self.names, "names of channels") or tuple(map(str, columns))
         if len(names) != values.shape[1] or len(set(names)) < len(names):
             raise ParameterError(
                 f"{values.shape[1]} channels need as many different names, not {', '.join(names)}"

@@ -30,7 +30,8 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
     preset : str or Preset
         ``kineme``, or another of `kineme.PRESETS`.
     fps : float, optional
-        Rows per second; 30 by default, or the working rate of the preset if that is lower.
+        Rows per second; by default what the index of a data frame says if it holds times, else
+        30, or the working rate of the preset if that is lower.
     standardize : bool
         Divide each column by its standard deviation; not for an embedding.
     unit : float, optional
@@ -89,11 +90,14 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         values = validate_data(self, X, dtype=np.float64)
         preset = resolve_preset(self.preset, signals=True, **self._constants)
         names = getattr(self, "feature_names_in_", ())
-        fps = min(preset.working_fps, ASSUMED_FPS) if self.fps is None else self.fps
-        signals = Signals(values, fps, tuple(map(str, names)))
-        if self.fps is None:
+        fps, note = self.fps, ""
+        if fps is None and (fps := _rate_of(X)):
+            note = f"frame rate {fps:g} Hz, as the times in the index of the data frame say"
+        elif fps is None:
+            fps = min(preset.working_fps, ASSUMED_FPS)
             note = f"frame rate {fps:g} Hz assumed: no fps was given"
-            signals = signals.noted(note)
+        signals = Signals(values, fps, tuple(map(str, names)))
+        signals = signals.noted(note) if note else signals
         result = segment(
             signals, preset=preset, emg=self.emg, standardize=self.standardize, unit=self.unit
         )
@@ -112,3 +116,14 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         self._constants = {**self._constants, **constants}
         super().set_params(**{name: value for name, value in params.items() if name in own})
         return self
+
+
+def _rate_of(rows: Any) -> float | None:
+    """Rows per second of a data frame whose index holds times; None where nothing tells it."""
+    index = getattr(rows, "index", None)
+    kind = getattr(getattr(index, "dtype", None), "kind", None)
+    if index is None or kind not in ("m", "M") or len(index) < 2:
+        return None
+    times = np.asarray(index, f"{kind}8[ns]")
+    step = float(np.median(np.diff(times) / np.timedelta64(1, "s")))
+    return 1 / step if step > 0 else None

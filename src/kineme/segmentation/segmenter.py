@@ -23,7 +23,7 @@ from kineme.recordings import Motion, Signals
 from kineme.segmentation.bodies import view_of_motion
 from kineme.segmentation.channels import view_of_signals
 from kineme.segmentation.outside import as_channels, on_recording
-from kineme.segmentation.spans import gaps_between, in_frames
+from kineme.segmentation.spans import AT_GAP, gaps_between, in_frames
 from kineme.segmentation.views import View
 from kineme.segments.columns import segment_table
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy
@@ -138,6 +138,8 @@ def segment_and_found(
             f"segment takes a Motion or Signals, not {type(recording).__name__}: "
             f"kineme.read(path) gives one; arrays go to Segmenter"
         )
+    if "detail" in constants:
+        raise ParameterError("detail is asked of what comes out: segment(...).level(0.5)")
     for name, value in (("unit", unit), ("feature_fps", feature_fps)):
         if value is not None and not (is_number(value) and value > 0):
             raise ParameterError(f"{name} must be a number above 0, not {value!r:.60}")
@@ -161,7 +163,10 @@ def segment_and_found(
     if features is not None:
         view = on_recording(view, recording, seen.fps)
     timings = {"features": time.perf_counter() - start}
-    found = chosen.analyze(np.concatenate(view.features), mirror=view.mirror, progress=progress)
+    told: dict[str, Any] = {} if view.carried is None else {"carried": view.carried}
+    found = chosen.analyze(
+        np.concatenate(view.features), mirror=view.mirror, progress=progress, **told
+    )
     return _result(recording, chosen, view, found, timings), found
 
 
@@ -218,7 +223,8 @@ def _result(
     n_frames, fps = recording.n_frames, recording.fps
 
     def placed(columns: Columns) -> Columns:
-        return in_frames(columns, view.seen, n_frames, fps / preset.working_fps)
+        near = AT_GAP * preset.working_fps
+        return in_frames(columns, view.seen, n_frames, fps / preset.working_fps, near=near)
 
     samples = found.columns()
     columns = placed(samples)

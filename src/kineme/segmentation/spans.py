@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 Spans = Sequence[tuple[int, int]]
 
+AT_GAP = 0.2
+"""Seconds from a gap within which a border is at the gap: as much as is no gap yet."""
+
 
 @dataclass(frozen=True)
 class SeenSpan:
@@ -41,7 +44,9 @@ class SeenSpan:
     n_samples: int
 
 
-def in_frames(columns: Columns, seen: Sequence[SeenSpan], n_frames: int, ratio: float) -> Columns:
+def in_frames(
+    columns: Columns, seen: Sequence[SeenSpan], n_frames: int, ratio: float, *, near: float = 0.0
+) -> Columns:
     """The columns in frames, cut at the ends of what was seen, gaps filled with transitions.
 
     Rows that vanish at the rate of the recording are left out.
@@ -56,15 +61,24 @@ def in_frames(columns: Columns, seen: Sequence[SeenSpan], n_frames: int, ratio: 
         Of the recording.
     ratio : float
         Frames in one sample.
+    near : float
+        Borders so many samples from a gap at most are at the gap: who goes on there does so
+        after it, and what is left of the segment before it is less than can be told.
     """
     rows: list[NDArray[np.intp]] = []
     starts: list[NDArray[np.int64]] = []
     stops: list[NDArray[np.int64]] = []
     first = 0
-    for span in seen:
+    for k, span in enumerate(seen):
         last = first + span.n_samples
         begin = np.maximum(columns["start_frame"], first)
         end = np.minimum(columns["stop_frame"], last)
+        for borders in (begin, end):
+            inner = (first < borders) & (borders < last)
+            if k + 1 < len(seen):
+                borders[inner & (borders >= last - near)] = last
+            if k > 0:
+                borders[inner & (borders <= first + near)] = first
         inside = np.flatnonzero(begin < end)
         begin, end = begin[inside], end[inside]
         at = span.start + np.rint((begin - first) * ratio).astype(np.int64)

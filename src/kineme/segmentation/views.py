@@ -27,9 +27,13 @@ class View:
         What is to be known of them.
     mirror : callable, optional
         Exchanges left and right in the features, where they have these.
+    carried : (samples,) array, optional
+        1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere, in all spans; None
+        where there are no rides, or the preset does not ask for them.
     """
 
     features: Sequence[Floats]
     seen: Sequence[SeenSpan]
     notes: Sequence[str]
     mirror: Mirror | None = None
+    carried: Floats | None = None

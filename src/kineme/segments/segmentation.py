@@ -38,7 +38,7 @@ class Segmentation(Levels):
         ``input`` (``path``, ``format``, ``sha256``), ``notes`` (sentences on what was
         inferred). A producer may add more.
     timings : mapping of str to float
-        Seconds spent per stage.
+        Seconds spent per stage; two results that differ in these alone are equal.
     hierarchy : Hierarchy, optional
         The tables at other details, and this one among them; what `level` gives by number.
         None where there is one detail, and where the table is not one of them (any more).
@@ -61,7 +61,7 @@ class Segmentation(Levels):
     """
 
     provenance: Mapping[str, Any] = field(default_factory=dict)
-    timings: Mapping[str, float] = field(default_factory=dict)
+    timings: Mapping[str, float] = field(default_factory=dict, compare=False)
     hierarchy: Hierarchy | None = None
 
     def __post_init__(self) -> None:

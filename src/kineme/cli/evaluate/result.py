@@ -8,10 +8,12 @@ from typing import Any
 import typer
 
 from kineme.cli.evaluate.tables import show_one
-from kineme.errors import ReadError
+from kineme.errors import KinemeError, ReadError
 from kineme.evaluation.inputs import comparison, read_result, read_truth, recording_of, score
-from kineme.formats import read_motion
+from kineme.formats import read, read_motion
+from kineme.recordings import Motion
 from kineme.reproduction.annotations import is_annotations, read_trial
+from kineme.segments.segmentation import Segmentation
 
 
 def score_file(
@@ -34,10 +36,26 @@ def score_file(
             raise ReadError(labels, f"speaks of {said:.2f} s, the result of {lasts:.2f} s")
     else:
         truth = read_truth(labels, found, fps=fps)
-    source = recording or recording_of(found)
-    scores = score(truth, found, read_motion(source) if source else None)
+    motion, why = (read_motion(recording), "") if recording else _motion_of(found)
+    scores = score(truth, found, motion)
     if not quiet:
         show_one(path.name, scores)
-        if source is None:
-            typer.echo("The recording is not at hand, so there are no distances: --recording FILE")
+        if why:
+            typer.echo(f"There are no distances within clusters: {why}")
     return [{"result": path.name, "truth": labels.name, **scores}]
+
+
+def _motion_of(found: Segmentation) -> tuple[Motion | None, str]:
+    """The motion that a result names, or why there is none that its scores could use."""
+    source = recording_of(found)
+    if source is None:
+        return None, "the recording is not at hand (--recording FILE)"
+    try:
+        motion = read(source, fps=found.fps)
+    except KinemeError as error:
+        return None, str(error)
+    if not isinstance(motion, Motion):
+        return None, "the recording has no joints"
+    if motion.n_frames != found.n_frames:
+        return None, f"the result has {found.n_frames} frames, {source.name} {motion.n_frames}"
+    return motion, ""

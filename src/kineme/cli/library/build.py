@@ -118,7 +118,9 @@ def build(
 
 def _is_much(files: Sequence[Path], into: Path) -> bool:
     """Whether there is work for several processes, as far as a glance tells."""
-    fresh = not (into / "library.json").exists()
+    from kineme.library.storage.layout import HEAD
+
+    fresh = not (into / HEAD).exists()
     return fresh and (len(files) > 1 or any(file.is_dir() for file in files))
 
 

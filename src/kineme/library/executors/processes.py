@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import threading
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import forkserver, get_context, parent_process
+from multiprocessing import forkserver, get_context, parent_process, resource_tracker
 from multiprocessing.connection import wait as wait_for
 from multiprocessing.context import BaseContext
 
@@ -87,7 +88,8 @@ class Processes:
         try:
             while waiting or running:
                 while waiting and len(running) < most:
-                    running[self._pool.submit(work, waiting[-1])] = waiting[-1]
+                    with _interrupted_later():  # a process half started would say so
+                        running[self._pool.submit(work, waiting[-1])] = waiting[-1]
                     waiting.pop()
                 for future in wait(running, return_when=FIRST_COMPLETED).done:
                     outcome = future.result()
@@ -120,7 +122,6 @@ def start_soon() -> None:
     """Start what processes are copies of: that takes a second, in which this one can go on."""
     if sys.platform == "linux":
         _context()
-        forkserver.ensure_running()
         _SOON.set()
 
 
@@ -128,13 +129,36 @@ def _context() -> BaseContext:
     """How processes are started.
 
     A copy of this one could wait forever for threads that it lacks. Where that can be, they are
-    copies of one that has none, and has imported what all need.
+    copies of one that has none, and has imported what all need. Ctrl+C is left to this one, which
+    ends the others: they would each say where they were.
     """
     if sys.platform != "linux":
         return get_context("spawn")
     context = get_context("forkserver")
     context.set_forkserver_preload([*SHARED])
+    resource_tracker.ensure_running()  # lets signals through again, so it comes first
+    let_through = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        forkserver.ensure_running()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, let_through)
     return context
+
+
+@contextmanager
+def _interrupted_later() -> Iterator[None]:
+    """Leave Ctrl+C until after the block."""
+    if threading.current_thread() is not threading.main_thread():  # it is not told of any
+        yield
+        return
+    came: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: came.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if came:
+        signal.raise_signal(signal.SIGINT)
 
 
 def _prepare(threads: int) -> None:

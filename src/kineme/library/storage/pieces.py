@@ -140,9 +140,8 @@ def read_parts(
     ReadError
         They are gone or damaged.
     """
-    path = folder / f"{key}{FEATURES}"
-    with _opening(path), near(path).open("rb", buffering=0) as file:
-        _fill(file, _laid(file)[0], starts, into)
+    with _features(folder, key) as (file, start, _):
+        _fill(file, start, starts, into)
 
 
 def read_spans(
@@ -155,9 +154,7 @@ def read_spans(
     ReadError
         They are gone or damaged.
     """
-    path = folder / f"{key}{FEATURES}"
-    with _opening(path), near(path).open("rb", buffering=0) as file:
-        start, dims = _laid(file)
+    with _features(folder, key) as (file, start, dims):
         parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
         _fill(file, start, [first for first, _ in spans], parts)
     return parts
@@ -221,6 +218,14 @@ def _check_sound(features: NDArray[np.float32]) -> None:
     squares = float(np.vdot(features, features))  # one pass, not finite if any of them is not
     if not squares < LARGEST:
         raise ValueError("features that no recording has")
+
+
+@contextmanager
+def _features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
+    """A block that reads features of a piece: their file, where they begin in it, and dims."""
+    path = folder / f"{key}{FEATURES}"
+    with _opening(path), near(path).open("rb", buffering=0) as file:
+        yield file, *_laid(file)
 
 
 @contextmanager
