@@ -7,7 +7,7 @@ from typing import Any
 
 GUTTER, RULER, GAP = 78, 22, 4  # pixels of the timeline, as in its lanes.ts
 SHARES = {"activity": 1.0, "primitive": 1.2, "label": 0.7}
-PATIENCE = 30.0  # seconds
+PATIENCE = 90.0  # seconds: on a slow machine compiling takes half of them
 PLACES = {"figure": ".place-viewer", "lanes": ".place-timeline", "matrix": ".place-matrix"}
 
 
@@ -33,8 +33,8 @@ class Screen:
             self.page.wait_for_timeout(20)
 
     def opened(self) -> Screen:
-        """The same, once a recording is there and drawn."""
-        self.wait("k?.hasMotion")
+        """The same, once a recording is there, segmented and drawn."""
+        self.wait("k?.hasMotion && !k.finding")
         for _ in range(2):  # lanes and figure are drawn in one picture, measured in the next
             self.page.evaluate("new Promise((done) => requestAnimationFrame(done))")
         return self

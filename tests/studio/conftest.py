@@ -84,3 +84,9 @@ def start(folder: Path) -> Iterator[Callable[..., Process]]:
             studio.process.kill()
             studio.process.communicate()
         studio.client.close()
+
+
+@pytest.fixture(autouse=True)
+def _segments_are_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Answers come with segments, though the first ones take longer while code is compiled."""
+    monkeypatch.setattr("kineme.studio.first_segments.SOON", 300.0)

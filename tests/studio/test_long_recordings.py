@@ -14,6 +14,7 @@ import pytest
 import kineme
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions, sketch
+from kineme.studio.downloads import exported
 from kineme.studio.folder import Folder
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
@@ -45,6 +46,42 @@ def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatc
     assert not then.finding
     assert len(then.segmentation.segments) > 10
     assert not (tmp_path / "take.segments.json").exists()
+
+
+def test_segments_that_take_long_are_waited_for_by_files_and_not_by_pages(tmp_path, monkeypatch):
+    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
+    wanted, first_table = threading.Event(), LoadedRecording.first_table
+    monkeypatch.setattr("kineme.studio.first_segments.SOON", 0.1)
+    monkeypatch.setattr(
+        LoadedRecording, "first_table", lambda loaded: wanted.wait(60) and first_table(loaded)
+    )
+    recordings = OpenRecordings(Folder(tmp_path), lambda *_: None)
+    (name,) = recordings.folder.recordings()
+    assert recordings.message(name).finding
+    threading.Timer(0.2, wanted.set).start()
+    _, content = exported(recordings.get(name), "csv", None)
+    assert len(content.splitlines()) > 10
+    assert not recordings.message(name).finding
+
+
+def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypatch):
+    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
+
+    wanted = threading.Event()
+
+    def fail(_: LoadedRecording) -> None:
+        wanted.wait(60)
+        raise ParameterError("no such constant")
+
+    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
+    monkeypatch.setattr(LoadedRecording, "first_table", fail)
+    told: queue.Queue[tuple[str, int]] = queue.Queue()
+    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
+    (name,) = recordings.folder.recordings()
+    assert recordings.message(name).finding
+    wanted.set()
+    assert told.get(timeout=60)[0] == name
+    assert "not segmented: no such constant" in recordings.message(name).warnings
 
 
 def test_a_large_file_shows_some_of_its_poses_while_it_is_read(tmp_path, monkeypatch):

@@ -6,6 +6,7 @@
         open_recordings   by id; open_recording: table, revision, undo, saving of each
           sketches          what a large file shows of itself while it is read
           loading           the recording itself and all that is computed from it; reading
+          first_segments    found in a thread; a page is shown without if that takes long
           edits             what each edit does to a table
           kept.storage      the table beside the recording, and whether someone else changed it
           kept.journal      undo, redo, and the tables that were replaced, on the disk

@@ -193,11 +193,11 @@ class LoadedRecording:
         """Whether a table is of this recording: as long, and made from it if it says from what."""
         if segmentation.n_frames != self.n_frames:
             return False
-        said = segmentation.provenance.get("input")
-        if not isinstance(said, dict) or not said.get("sha256"):
+        digest = digest_in(segmentation)
+        if not digest:
             return True
-        name = Path(str(said.get("path") or "")).name
-        return said["sha256"] == self.provenance.sha256 or name == self.path.name
+        name = Path(str(segmentation.provenance["input"].get("path") or "")).name
+        return digest == self.provenance.sha256 or name == self.path.name
 
     def _one_segment(self, kind: Kind) -> Segmentation:
         read = self.provenance
@@ -206,6 +206,12 @@ class LoadedRecording:
             "notes": [*read.notes],
         }
         return one_segment(kind, self.n_frames, self.fps, provenance)
+
+
+def digest_in(segmentation: Segmentation) -> str:
+    """The digest of the recording that a table was made from, empty if it does not say."""
+    read: Any = segmentation.provenance.get("input")
+    return str(read.get("sha256") or "") if isinstance(read, dict) else ""
 
 
 def one_segment(

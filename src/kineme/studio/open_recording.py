@@ -12,18 +12,18 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
-from typing import Any
 
 from msgspec import structs
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
+from kineme.studio.first_segments import FirstSegments
 from kineme.studio.kept.journal import Change, Journal
 from kineme.studio.kept.reading_of_one import said_of
 from kineme.studio.kept.storage import ChangedOnDiskError, saved_table
 from kineme.studio.kept.videos import video_message
-from kineme.studio.loading import LoadedRecording
+from kineme.studio.loading import LoadedRecording, digest_in
 from kineme.studio.looks import preview_of, versions_of
 from kineme.studio.reading import RecordingCache
 from kineme.web.edits import Edit, Redo, Undo
@@ -71,13 +71,15 @@ class OpenRecording:
         self._others = others
         self._lock = threading.RLock()
         self._file, table, self._notes = saved_table(path, self.loaded.fits, others)
-        self._finding = table is None and self.loaded.is_long
-        if self._finding:
-            table = self.loaded.not_segmented()
-        elif table is None:
-            table, notes = self.loaded.first_table()
-            self._notes = [*self._notes, *notes]
-        elif _digest(table) not in ("", self.loaded.provenance.sha256):
+        self._first: FirstSegments | None = None  # while they are being found
+        if table is None:
+            first = FirstSegments(self.loaded.first_table)
+            if self.loaded.is_long or not first.are_soon():
+                self._first, table = first, self.loaded.not_segmented()
+            else:
+                table, notes = first.result()
+                self._notes = [*self._notes, *notes]
+        elif digest_in(table) not in ("", self.loaded.provenance.sha256):
             self._notes = [*self._notes, f"{path.name} has changed since its table was made"]
         self._table, self._journal = table, Journal(self._file.path, table)
         self.revision = max(revision, self._journal.revision)
@@ -85,16 +87,20 @@ class OpenRecording:
     @property
     def finding(self) -> bool:
         """Whether its segments are still to be found; until then nothing can be edited."""
-        return self._finding
+        return self._first is not None
 
     def find(self) -> None:
-        """Segment a long recording, which is shown and played meanwhile."""
+        """Wait for the segments of a recording that is shown and played meanwhile."""
+        if (first := self._first) is None:
+            return
         try:
-            table, notes = self.loaded.first_table()
+            table, notes = first.result()
         except KinemeError as error:
             table, notes = self._table, [f"not segmented: {error}"]
         with self._lock:
-            self._finding = False
+            if self._first is None:  # another thread has waited, too
+                return
+            self._first = None
             self._notes = [*self._notes, *notes]
             self.revision = max(self.revision, self._journal.revision) + 1
             if not self._file.changed():  # else another program has left a table
@@ -107,7 +113,8 @@ class OpenRecording:
 
     @property
     def table(self) -> Segmentation:
-        """The table as it is."""
+        """The table as it is, once its segments are found."""
+        self.find()
         with self._lock:
             return self._table
 
@@ -134,7 +141,7 @@ class OpenRecording:
                 saved=self._saved,
                 video=video_message(self.path),
                 reading=said_of(self.path),
-                finding=self._finding,
+                finding=self.finding,
                 warnings=[*shown.warnings, *self._notes],
             )
             return message, anew
@@ -165,7 +172,7 @@ class OpenRecording:
             The edit cannot be made, or its result cannot be saved.
         """
         with self._lock:
-            if self._finding:
+            if self.finding:
                 raise ParameterError(STILL_FINDING)
             if self._journal.knows(name):
                 return self._edited([])
@@ -241,9 +248,3 @@ class OpenRecording:
     def _saved(self) -> str:
         """The name of the table's file, empty as long as there is none."""
         return self._file.path.name if self._file.exists else ""
-
-
-def _digest(table: Segmentation) -> str:
-    """The digest of the recording that a table was made from, empty if it does not say."""
-    read: Any = table.provenance.get("input")
-    return str(read.get("sha256") or "") if isinstance(read, dict) else ""

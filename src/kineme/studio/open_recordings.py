@@ -119,7 +119,7 @@ class OpenRecordings:
         threading.Thread(target=run, daemon=True).start()
 
     def _find(self, opened: OpenRecording) -> None:
-        """Segment a long recording, and say when its table is there."""
+        """Say when the segments of a recording are there that is shown without."""
         opened.find()
         self._changed(opened.id, opened.revision)
 

@@ -19,6 +19,7 @@ export interface Snapshot {
   readonly revision: number;
   readonly saved: string;
   readonly n_segments: number;
+  readonly finding: boolean;
   readonly hasMotion: boolean;
   readonly other: string | null;
   /** Pictures drawn within the last second, and in all. */
@@ -54,6 +55,7 @@ export function snapshotOf(store: Store): Snapshot {
     revision: recording?.revision ?? 0,
     saved: recording?.saved ?? "",
     n_segments: recording?.segmentation.segments.length ?? 0,
+    finding: recording?.finding ?? false,
     hasMotion: Boolean(store.active.value?.motion.value),
     other: store.other.value?.name ?? null,
     rate: ticker.rate(),
