@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kineme.methods.hierarchy.borders import TOWARDS, to_the_frame
+from kineme.methods.hierarchy.borders import to_the_frame
 from kineme.methods.hierarchy.preset import SENSORS
 
 FPS = round(SENSORS.working_fps)
@@ -27,7 +27,7 @@ def test_a_border_moves_towards_where_quiet_ends(seed, late) -> None:
     true = 6 * FPS
     channels = quiet_and_loud(seed, [true, 12 * FPS])
     moved = to_the_frame(channels, np.array([0, true + late, 12 * FPS]), SENSORS)
-    assert abs(moved[1] - (true + (1 - TOWARDS) * late)) <= 2
+    assert abs(moved[1] - (true + (1 - SENSORS.border_shift) * late)) <= 2
 
 
 @given(seed=st.integers(0, 99), lengths=st.lists(st.integers(1, 200), min_size=1, max_size=8))

@@ -22,8 +22,6 @@ Frames = NDArray[np.int64]
 
 LEARNT = 4.0
 """Seconds of a side at most that tell how it moves."""
-TOWARDS = 0.4
-"""How far a border is moved there."""
 QUIETEST = 0.05
 """Least deviation of a channel, as a share of that in the whole recording."""
 SHARE = 3
@@ -59,7 +57,7 @@ def to_the_frame(channels: Floats, borders: Frames, preset: HierarchyConstants) 
         near = scaled[first : at + min(averaged, (stop - at) // SHARE)]
         gains = _likelihoods(near, scaled[own]) - _likelihoods(near, scaled[after])
         likeliest = first + int(np.argmax(np.concatenate([[0.0], np.cumsum(gains)])))
-        moved[i] = at + round(TOWARDS * (likeliest - int(at)))
+        moved[i] = at + round(preset.border_shift * (likeliest - int(at)))
     return moved
 
 

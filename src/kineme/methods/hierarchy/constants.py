@@ -89,6 +89,10 @@ class HierarchyConstants(CountingPreset):
         "clusters are nearer than their samples by this share of the distances within them",
         limits=SHARE, fine=True,
     )  # fmt: skip
+    border_shift: float = constant(
+        "how far a border is moved from where means over `averaging` put it to where frames do",
+        limits=SHARE, fine=True,
+    )  # fmt: skip
     counting_fps: float = constant(
         "frames per second at which repetitions are counted, at most", unit="Hz", limits=RATE,
         fine=True,

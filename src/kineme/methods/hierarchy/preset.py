@@ -53,6 +53,7 @@ SENSORS = HierarchyPreset(
     cluster_cost=0.66,
     cluster_growth=0.2,
     spread_share=0.5,
+    border_shift=0.4,
     max_clusters=16,
     counting_fps=25.0,
     centering=0.4,
