@@ -805,6 +805,11 @@ def mean_similarity(poses, frames, others, reaches, scales, other_scales, softne
     return sum(values) / len(values) if values else 0.0
 
 
+def mean_recurrence(poses, frames, scales, start, stop, softness):
+    nearest = [min(np.linalg.norm(poses[start:stop] - poses[i], axis=1)) for i in frames]
+    return np.mean(np.exp(-((np.array(nearest) / (softness * scales)) ** 2)))
+
+
 def dips(row, least):
     """(depth, column) of each dip of a row without equal values, deepest first.
 

@@ -1,4 +1,4 @@
-"""Borders and actions against their naive twins, and on recordings of known blocks."""
+"""Borders and labels against their naive twins, and on recordings of known blocks."""
 
 from __future__ import annotations
 
@@ -10,17 +10,10 @@ from hypothesis import strategies as st
 import naive
 from bands import one_sided
 from kineme.methods.recurrence import _action_kernels as kernels
-from kineme.methods.recurrence.change_points import (
-    change_points,
-    divided,
-    link,
-    merge_neighbors,
-    repeating,
-)
-from kineme.methods.recurrence.preset import KINEME
-from kineme.methods.recurrence.recurrence import Recurrence, narrower, phase_windows, recurrence
+from kineme.methods.recurrence.change_points import change_points, divided, merge_neighbors
+from kineme.methods.recurrence.recurrence import narrower
 from kineme.methods.segments import by_first_appearance
-from loops import swing
+from loops import measured, swing
 
 seconds = settings(max_examples=60)
 
@@ -89,18 +82,6 @@ def test_labels_are_counted_by_first_appearance(labels) -> None:
     assert found == [known.index(label) if label >= 0 else -1 for label in labels]
 
 
-def measured(*parts: np.ndarray) -> Recurrence:
-    options = {
-        "step": 3,
-        "width": 600,
-        "phases": phase_windows(12, KINEME.phase_shares),
-        "rank": 30,
-        "low": 0.08,
-        "high": 0.16,
-    }
-    return recurrence(np.concatenate(parts), **options, softness=1.6)
-
-
 def test_borders_are_where_the_movement_changes() -> None:
     found = measured(swing(8, period=1), swing(10, period=1.2, axis=2), swing(9, period=0.8))
     borders = change_points(found, penalty=17.5, min_length=6)
@@ -136,26 +117,3 @@ def test_phases_of_slow_repetitions_are_not_divided() -> None:
     narrow = narrower(wide, phases=(7,), rank=16, low=0.08, high=0.16)
     finer = np.arange(0, 181, 15)
     assert divided(np.array([0, 180]), finer, narrow, **SHORT).tolist() == [0, 180]
-
-
-def test_an_action_is_known_again() -> None:
-    walk, turn = swing(8, period=1), swing(10, period=1.2, axis=2)
-    found = measured(walk, turn, walk, turn, turn)
-    borders = np.array([0, 80, 200, 280, 400, 520])
-    options = {"similarity": 0.6, "softness": 1.3, "samples": 20, "least": 0.05}
-    options |= {"narrow": 7, "gap_share": 0.25}
-    linked = link(borders, found, found.features, **options, max_lag=None)
-    assert linked.tolist() == [0, 1, 0, 1, 1]
-    # 12 s away is too far to be compared, 0 s is not.
-    near_by = link(borders, found, found.features, **options, max_lag=60)
-    assert near_by.tolist() == [0, 1, 2, 3, 3]
-
-
-def test_what_recurs_nowhere_does_not_repeat() -> None:
-    away = np.linspace(0, 5, 180)[:, None] * [0, 0, 0, 0, 1, 0]
-    found = measured(swing(8, period=1), away, swing(8, period=1, axis=2))
-    borders, labels = np.array([0, 80, 140, 220]), np.array([0, 1, 2])
-    options = {"softness": 2.0, "least": 0.5}
-    assert repeating(borders, labels, found, **options).tolist() == [True, False, True]
-    shared = np.array([0, 1, 1])  # the same action elsewhere is repetition enough
-    assert repeating(borders, shared, found, **options).all()

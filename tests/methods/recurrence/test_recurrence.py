@@ -111,6 +111,11 @@ def test_stretches_are_as_alike_as_in_the_naive_version(poses, reaches, gap, dat
     assert found == pytest.approx(
         naive.mean_similarity(poses, frames, others, *given_to_both), abs=1e-5
     )
+    span = part(data, len(poses))
+    among = frames, scales[frames], span.start, span.stop, 1.5
+    assert distant.mean_recurrence(poses, *among) == pytest.approx(
+        naive.mean_recurrence(poses, *among), abs=1e-5
+    )
 
 
 @given(points(), WIDTHS, GAPS, st.data())

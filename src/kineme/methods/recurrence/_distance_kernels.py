@@ -66,6 +66,23 @@ def mean_similarity(poses, frames, others, reaches, scales, other_scales, softne
     return total / count if count else 0.0
 
 
+@njit("float64(float32[:, ::1], int64[::1], float32[::1], int64, int64, float64)", **SUMS)
+def mean_recurrence(poses, frames, scales, start, stop, softness):
+    """Mean similarity of the frames to the nearest one of ``[start, stop)``, at any distance."""
+    stop = min(stop, len(poses))
+    total = 0.0
+    for r in range(len(frames)):
+        nearest = FAR
+        for f in range(start, stop):
+            square = np.float32(0)
+            for d in range(poses.shape[1]):
+                difference = poses[frames[r], d] - poses[f, d]
+                square += difference * difference
+            nearest = min(nearest, square)
+        total += np.exp(-nearest / (softness * scales[r]) ** 2)
+    return total / len(frames)
+
+
 @njit("float32[:, ::1](float32[:, ::1], int64[::1], int64, int64)", **SUMS)
 def distances_to(features, references, start, stop):
     """Distance of each reference frame to each frame of ``[start, stop)``."""

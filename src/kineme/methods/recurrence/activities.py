@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from kineme.methods.recurrence import change_points
 from kineme.methods.recurrence.actions import Actions, refine
+from kineme.methods.recurrence.linking import link, repeating
 from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.transitions import activity_ends
 from kineme.methods.samples import single_poses
@@ -41,7 +42,7 @@ def find_actions(wide: Recurrence, narrow: Recurrence, preset: RecurrenceConstan
         elsewhere=preset.distinct_share,
         min_length=max(1, preset.samples(preset.min_segment)),
     )
-    labels = change_points.link(
+    labels = link(
         borders,
         wide,
         single_poses(wide.features, preset.offsets) if preset.any_pace else wide.features,
@@ -49,13 +50,12 @@ def find_actions(wide: Recurrence, narrow: Recurrence, preset: RecurrenceConstan
         gap_share=preset.link_gap,
         similarity=preset.link_similarity,
         softness=preset.link_softness,
+        common=preset.link_common,
         samples=preset.link_samples,
         least=preset.least_self_similarity,
         max_lag=None if preset.max_lag is None else preset.samples(preset.max_lag),
     )
-    repeats = change_points.repeating(
-        borders, labels, wide, softness=preset.merge_softness, least=preset.min_repetition
-    )
+    repeats = repeating(borders, labels, wide, preset)
     return refine(
         borders,
         np.where(repeats, labels, -1),

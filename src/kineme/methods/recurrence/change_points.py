@@ -7,7 +7,6 @@
 3. A segment is divided where a part of it, between change points at a narrower
    phase window, repeats itself and recurs nowhere else in it (short exercises,
    one after the other).
-4. Segments whose samples are similar belong to one action, wherever they are.
 
 Sources: kernel change-point detection after Arlot, Celisse and Harchaoui 2019;
 the rest is ours. See ``docs/method.md`` for what each step contributes.
@@ -20,12 +19,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._threads import map_threads
-from kineme.methods.recurrence import _action_kernels, _distance_kernels
+from kineme.methods.recurrence import _action_kernels
 from kineme.methods.recurrence import _recurrence_kernels as kernels
 from kineme.methods.recurrence.recurrence import Recurrence
-from kineme.methods.samples import spread
-from kineme.methods.segments import by_first_appearance
 
 Samples = NDArray[np.int64]
 
@@ -146,101 +142,3 @@ def divided(
             if within >= least and beside <= elsewhere * within:
                 found.update(part)
     return np.array(sorted(found), np.int64)
-
-
-def link(
-    borders: Samples,
-    recurrence: Recurrence,
-    poses: NDArray[np.float32],
-    *,
-    narrow: int,
-    gap_share: float,
-    similarity: float,
-    softness: float,
-    samples: int,
-    least: float,
-    max_lag: int | None,
-) -> Samples:
-    """One label per segment: equal where the samples of two segments are similar.
-
-    Average linkage on the mean similarity of two segments, relative to that
-    within each.
-
-    Parameters
-    ----------
-    borders : array of int
-        Samples, ends included.
-    recurrence : Recurrence
-    poses : (frames, dims) array
-        By which segments are compared, in the unit of the scales.
-    narrow : int
-        Samples; pairs no farther apart never count. Of long segments those within the widest
-        phase window do not, either.
-    gap_share : float
-        Nor do, of shorter ones, those within this share of the shorter segment.
-    similarity : float
-        Relative similarity from which segments are one action, 0 to 1.
-    softness : float
-        Scales at which similarity has fallen to 1/e.
-    samples : int
-        Segments are compared by so many of their samples at most.
-    least : float
-        A segment is taken to be at least so similar within.
-    max_lag : int, optional
-        Samples; segments farther apart are not compared, and differ.
-    """
-    from scipy.cluster.hierarchy import fcluster, linkage
-    from scipy.spatial.distance import squareform
-
-    k = len(borders) - 1
-    if k == 1:
-        return np.zeros(1, np.int64)
-    reach = borders[-1] if max_lag is None else max_lag
-    within_reach = np.searchsorted(borders[:-1], borders[1:] + reach, side="right")
-    step = recurrence.step
-    reaches = step * np.array(recurrence.phases)
-    chosen = [spread(start, stop, samples) for start, stop in pairwise(borders.tolist())]
-    scales = [recurrence.scales[each] for each in chosen]
-    frames = [step * each for each in chosen]
-    gaps = (gap_share * np.diff(borders)).astype(np.int64)
-    gaps = np.maximum(np.minimum(gaps, recurrence.phase), narrow) * step
-    mean = np.zeros((k, k))
-
-    def compare(g: int) -> None:
-        for h in range(g, within_reach[g]):
-            mean[g, h] = mean[h, g] = _distance_kernels.mean_similarity(
-                poses, frames[g], frames[h], reaches, scales[g], scales[h],
-                softness, min(gaps[g], gaps[h]),
-            )  # fmt: skip
-
-    map_threads(compare, range(k))
-    within = np.sqrt(np.maximum(mean.diagonal(), least))
-    distance = 1 - np.clip(mean / np.outer(within, within), 0, 1)
-    np.fill_diagonal(distance, 0)
-    tree = linkage(squareform(distance, checks=False), "average")
-    return by_first_appearance(fcluster(tree, 1 - similarity, "distance"))
-
-
-def repeating(
-    borders: Samples, labels: Samples, recurrence: Recurrence, *, softness: float, least: float
-) -> NDArray[np.bool_]:
-    """Which segments repeat: within themselves, or in another segment of their action.
-
-    Parameters
-    ----------
-    borders, labels : array of int
-        Segments and their actions.
-    recurrence : Recurrence
-    softness : float
-        Scales at which recurrence has fallen to 1/e.
-    least : float
-        Share of a segment that must recur within it.
-    """
-    shared = np.bincount(labels)[labels] > 1
-    within = [
-        kernels.coverage(
-            recurrence.near, recurrence.scales, start, stop, start, stop, recurrence.phase, softness
-        )
-        for start, stop in pairwise(borders.tolist())
-    ]
-    return shared | (np.array(within) >= least)

@@ -65,9 +65,7 @@ class RecurrenceConstants(CountingPreset):
         "similarity that a border between activities must gain", unit="s", limits=TIME,
         slider=(0.25, 6.0, 0.25),
     )  # fmt: skip
-    min_segment: float = constant(
-        "shortest segment between two such borders", unit="s", limits=TIME
-    )
+    min_segment: float = constant("shortest segment between two borders", unit="s", limits=TIME)
     merge_gap: float = constant(
         "what is no farther away does not count as recurrence in a neighbour", unit="s", limits=TIME
     )
@@ -97,6 +95,10 @@ class RecurrenceConstants(CountingPreset):
     link_softness: float = constant(
         "scales at which that similarity has fallen to 1/e", limits=SOME_FACTOR
     )
+    link_common: float = constant(
+        "it counts in full where this share of the poses of each segment is in the other, and "
+        "less where less is", limits=SOME_SHARE, fine=True,
+    )  # fmt: skip
     link_gap: float = constant(
         "samples of a short segment that are nearer than this share of it are not compared",
         limits=FACTOR, fine=True,

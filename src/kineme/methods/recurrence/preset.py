@@ -65,6 +65,7 @@ KINEME = RecurrencePreset(
     sure_pace=0.9,
     link_similarity=0.6,
     link_softness=1.3,
+    link_common=0.35,
     link_gap=0.25,
     link_samples=20,
     any_pace=True,
