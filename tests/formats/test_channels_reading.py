@@ -446,3 +446,16 @@ def test_walking_jogging_and_running(data_dir, name) -> None:
     for change in (3800, 6800):
         near = np.abs(found.cuts() - change).min() <= 300
         assert near or kinds[change] == "transition"
+
+
+def test_columns_are_chosen_by_wildcards(tmp_path) -> None:
+    text = "time,acc_x,label,ACC_y,gyr_x,a*\n" + "".join(
+        f"{i / 10},{i % 3},walk,{i % 5},{i % 7},1\n" for i in range(30)
+    )
+    path = write(tmp_path, "a.csv", text)
+    assert read(path, columns=["acc_*"]).names == ("acc_x", "ACC_y")
+    assert read(path, columns=["gyr_x", "*_?"]).names == ("gyr_x", "acc_x", "ACC_y")
+    assert read(path, columns=["*"]).names == ("acc_x", "ACC_y", "gyr_x", "a*")
+    assert read(path, columns=["a*"]).names == ("a*",)  # a column of that very name
+    with pytest.raises(ReadError, match=r"no column 'emg\*'; there are time, acc_x"):
+        read(path, columns=["emg*"])

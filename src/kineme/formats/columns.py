@@ -28,6 +28,7 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import UNITS_OF_TIME, Timing, is_date, seconds, timing_of
 from kineme.recordings import Motion
+from kineme.recordings.coordinates import COORDINATE, axes_by_point
 
 Floats = NDArray[np.float64]
 
@@ -36,7 +37,6 @@ SURE = 0.5
 
 _SLOWEST = 1.0  # frames per second: at or below, a column of times is hardly in seconds
 
-_COORDINATE = re.compile(r"(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ])")
 _CONFIDENCE = re.compile(
     r"(.*[^\s_.:/-])[\s_.:/-]+(confidence|likelihood|score|visibility|presence|c)", re.IGNORECASE
 )
@@ -76,7 +76,7 @@ def columns_to_motion(
     names, positions, sure = _joints(content, columns)
     limit = limit if options.confidence is None else options.confidence
     positions[sure < limit] = np.nan
-    flat = all(len(axes) == 2 for axes in _axes(columns).values())
+    flat = all(len(axes) == 2 for axes in axes_by_point(columns).values())
     timing = timed(content, columns, options.fps)
     notes = list(timing.notes)
     if (sure < limit).any():
@@ -91,13 +91,13 @@ def columns_to_motion(
 
 def is_used(column: str) -> bool:
     """Whether a column of this name tells a position, a time, a rate or a confidence."""
-    patterns = (_COORDINATE, _CONFIDENCE, _TIME, _RATE)
+    patterns = (COORDINATE, _CONFIDENCE, _TIME, _RATE)
     return any(pattern.fullmatch(column.strip()) for pattern in patterns)
 
 
 def joint_names(columns: Iterable[str]) -> list[str]:
     """The joints that columns of these names are the coordinates of, in order."""
-    return list(_axes(columns))
+    return list(axes_by_point(columns))
 
 
 def is_timing(column: str) -> bool:
@@ -140,22 +140,11 @@ def timed(content: FileContent, columns: Mapping[str, ArrayLike], fps: float | N
     raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
 
 
-def _axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
-    """For each joint the columns of its axes."""
-    found: dict[str, dict[str, str]] = {}
-    for column in columns:
-        match = _COORDINATE.fullmatch(column.strip())
-        if match:
-            joint, axis = (match[1], match[2]) if match[1] else (match[3], match[4])
-            found.setdefault(joint, {})[axis.lower()] = column
-    return {joint: axes for joint, axes in found.items() if {"x", "y"} <= axes.keys()}
-
-
 def _joints(
     content: FileContent, columns: Mapping[str, ArrayLike]
 ) -> tuple[list[str], Floats, Floats]:
     """Names, positions (rows, joints, 3) and confidences (rows, joints)."""
-    joints = _axes(columns)
+    joints = axes_by_point(columns)
     if not joints:
         shown = ", ".join(list(columns)[:8])
         raise content.error(

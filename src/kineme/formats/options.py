@@ -32,7 +32,8 @@ class ReadOptions:
     confidence : float, optional
         From which a keypoint counts as seen.
     columns : sequence of str, optional
-        Take these columns or analog channels as signals, in this order; all if it is empty.
+        Take these columns or analog channels as signals, by name or pattern (``acc_*``), in this
+        order; all if it is empty.
     emg : bool
         Take channels as signals; of the analog channels of a C3D those of muscles.
 

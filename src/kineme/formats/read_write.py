@@ -42,8 +42,8 @@ def read(
     path : str or PathLike
         The recording; a folder where it is a file per frame, as OpenPose's.
     columns : sequence of str, optional
-        Take these columns or analog channels as signals, by name and in this order; all of
-        them if it is empty.
+        Take these columns or analog channels as signals, by name or pattern (``acc_*``) and in
+        this order; all of them if it is empty.
     emg : bool
         Take channels as signals; of the analog channels of a C3D those of muscles, where
         ``columns`` names none. Their envelopes are the part of `kineme.segment`.

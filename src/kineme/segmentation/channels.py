@@ -23,6 +23,7 @@ from kineme.features.emg import emg_envelope
 from kineme.features.rides import rides
 from kineme.methods.base import Preset
 from kineme.recordings import Signals
+from kineme.segmentation.joints import by_distances, joints_among
 from kineme.segmentation.spans import SeenSpan
 from kineme.segmentation.views import View
 
@@ -63,8 +64,12 @@ def view_of_signals(
         )
         rows.append(row)
         seen.append(SeenSpan(start, stop, len(row)))
-    features = _stacked(rows, preset, standardize=standardize)
     notes = _notes(signals, values, emg=emg, standardize=standardize)
+    told = standardize and not emg  # what channels are may be told by their names and values
+    if preset.told_bodies and told and (points := joints_among(signals)) is not None:
+        rows = by_distances(rows, points, preset.working_fps)
+        notes.append(f"{len(points)} points with bones: seen by how far they are from each other")
+    features = _stacked(rows, preset, standardize=standardize)
     if unit is None:
         unit = preset.signal_unit(features)
     named = "standard deviations" if standardize else "units of the channels"
@@ -74,7 +79,7 @@ def view_of_signals(
     elif preset.unit != "any":
         notes.append(f"lengths are in {named}")
     carried = None
-    if preset.told_rides and standardize and not emg:
+    if preset.told_rides and told:
         carried = _carried(signals, seen, preset.working_fps)
     if carried is not None:
         seconds = np.count_nonzero(carried) / preset.working_fps
@@ -172,11 +177,3 @@ def _notes(signals: Signals, values: Floats, *, emg: bool, standardize: bool) ->
     if emg:
         notes.append("muscle signals: rectified and low-passed")
     return notes
-
-
-def _at(sums: Floats, at: Floats) -> Floats:
-    """Running sums at fractional frames."""
-    before = np.minimum(at.astype(np.intp), len(sums) - 2)
-    share = (at - before)[:, None]
-    between: Floats = (1 - share) * sums[before] + share * sums[before + 1]
-    return between

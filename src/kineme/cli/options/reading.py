@@ -62,7 +62,8 @@ Columns = Annotated[
     str | None,
     typer.Option(
         metavar="NAME,NAME,…",
-        help="Take these columns or analog channels as signals, in place of joints.",
+        help="Take these columns or analog channels as signals, in place of joints; * and ? are "
+        "wildcards.",
         rich_help_panel=CHANNELS,
     ),
 ]

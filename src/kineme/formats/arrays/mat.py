@@ -21,13 +21,14 @@ from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
 from kineme.formats.arrays.mat_file import parse_mat
 from kineme.formats.arrays.named_arrays import Array, Arrays, arrays_to_motion
 from kineme.formats.channels.reading import to_signals
-from kineme.formats.channels.sensors import hold_channels, is_body
-from kineme.formats.channels.table import ChannelTable, channel_table, wanted_columns
+from kineme.formats.channels.sensors import hold_channels
+from kineme.formats.channels.table import ChannelTable, asked_for, channel_table, wanted_columns
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
 from kineme.recordings import Motion, Signals
+from kineme.recordings.coordinates import is_body
 
 _RATES = (
     "fps",
@@ -115,10 +116,11 @@ def channels_of(
             channels |= {f"{name}_{i}": track for i, track in enumerate(tracks, 1)}
     lengths = Counter(map(len, channels.values()))
     length = max(lengths, key=lambda n: (lengths[n], n), default=0)
-    if columns and columns[0] in channels:
+    columns = asked_for(content, list(channels), columns, list(channels))
+    if columns:
         length = len(channels[columns[0]])
     as_long = [name for name, channel in channels.items() if len(channel) == length]
-    wanted = wanted_columns(content, list(channels), columns, as_long)
+    wanted = wanted_columns(columns, as_long)
     for name in wanted:
         if name not in as_long:
             raise content.error(f"column {name!r} is not as long as {wanted[0]!r}: choose one rate")

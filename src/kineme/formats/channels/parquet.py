@@ -9,7 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import MissingDependencyError, ReadError
-from kineme.formats.channels.table import ChannelTable, channel_table, named, wanted_columns
+from kineme.formats.channels.table import (
+    ChannelTable,
+    asked_for,
+    channel_table,
+    named,
+    wanted_columns,
+)
 from kineme.formats.columns import is_timing
 from kineme.formats.files import FileContent
 
@@ -99,7 +105,7 @@ def parquet_channels(
     file : pyarrow.parquet.ParquetFile
         In it.
     columns : sequence of str or None
-        By name and in this order.
+        By name or pattern, in this order.
 
     Returns
     -------
@@ -121,7 +127,8 @@ def parquet_channels(
         if any(kind(types[name]) for kind in kinds)
         or (is_timing(name) and _tells_dates(types[name]))
     ]
-    wanted = wanted_columns(content, names, columns, numeric)
+    columns = asked_for(content, names, columns, numeric)
+    wanted = wanted_columns(columns, numeric)
     try:
         stored = [file.schema_arrow.names[names.index(name)] for name in wanted]
         table = parquet_columns(content, file, stored)

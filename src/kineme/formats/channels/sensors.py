@@ -6,17 +6,11 @@ coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from kineme.formats.columns import joint_names
 from kineme.formats.tables.pose_tables import is_pose_table
-
-_SENSOR = re.compile(
-    r"acc(el\w*)?|gyr(o\w*)?|mag(net\w*)?|imu|emg|grf|forces?|moments?|torques?|cop|gravity|"
-    r"angular|rotation|attitude|velocity|vel|quat(ernion)?|orient(ation)?|[agwm]",
-    re.IGNORECASE,
-)
+from kineme.recordings.coordinates import is_body
 
 
 def hold_channels(columns: Sequence[str]) -> bool:
@@ -37,9 +31,3 @@ def hold_channels(columns: Sequence[str]) -> bool:
     (True, False)
     """
     return not (is_pose_table(columns) or any(map(is_body, joint_names(columns))))
-
-
-def is_body(name: str) -> bool:
-    """Whether a name with coordinates is that of a joint, and not of a sensor."""
-    words = re.findall(r"[A-Z]?[a-z]+\d*|[A-Z]+\d*(?![a-z])|\d+", name)
-    return not any(_SENSOR.fullmatch(word) for word in words)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,6 +25,8 @@ LABELS = frozenset(
     {"label", "labels", "class", "annotation", "ground_truth"} | {"class_id", "label_id"}
 )
 """Names of columns in which people say what is done."""
+WILD = frozenset("*?[")
+"""Characters by which a pattern is told from a name."""
 
 NAMELESS = "(no name)"
 """What a column is called whose name is empty."""
@@ -68,17 +71,39 @@ class ChannelTable:
         return timed(content, self.timing, None)
 
 
-def wanted_columns(
-    content: FileContent, names: list[str], columns: Sequence[str] | None, numeric: Iterable[str]
-) -> list[str]:
-    """The columns to read: those asked for, or all that hold numbers, and those of times."""
-    for name in columns or ():
-        if name not in names:
-            raise content.error(f"no column {name!r}; there are {', '.join(names)}")
-    if columns is not None and len(set(columns)) < len(columns):
+def asked_for(
+    content: FileContent,
+    names: Sequence[str],
+    columns: Sequence[str] | None,
+    numeric: Sequence[str],
+) -> list[str] | None:
+    """The columns that are asked for, in this order; None for all.
+
+    A name is that column. ``acc_*`` and ``gyr_?`` are all columns of numbers that they fit, in
+    the order of the file, but for times; capitals and small letters are the same.
+    """
+    if columns is None:
+        return None
+    plain = [name for name in columns if name in names]
+    if len(set(plain)) < len(plain):
         raise content.error("a column is asked for twice")
+    found: dict[str, None] = {}
+    for pattern in columns:
+        fitting = [
+            name
+            for name in numeric
+            if fnmatchcase(name.lower(), pattern.lower()) and not is_timing(name)
+        ]
+        if pattern not in names and not (fitting and WILD & set(pattern)):
+            raise content.error(f"no column {pattern!r}; there are {', '.join(names)}")
+        found |= dict.fromkeys([pattern] if pattern in names else fitting)
+    return list(found)
+
+
+def wanted_columns(names: Sequence[str] | None, numeric: Iterable[str]) -> list[str]:
+    """The columns to read: those asked for, or all that hold numbers, and those of times."""
     timing = [name for name in numeric if is_timing(name)]
-    chosen = list(numeric) if columns is None else list(columns)
+    chosen = list(numeric) if names is None else list(names)
     return [*chosen, *(name for name in timing if name not in chosen)]
 
 

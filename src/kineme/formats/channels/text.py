@@ -6,7 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from kineme.formats.channels.table import ChannelTable, channel_table, named, wanted_columns
+from kineme.formats.channels.table import (
+    ChannelTable,
+    asked_for,
+    channel_table,
+    named,
+    wanted_columns,
+)
 from kineme.formats.columns import dated, is_timing
 from kineme.formats.delimited import EMPTY, rows_of
 from kineme.formats.files import FileContent, numbers
@@ -96,7 +102,7 @@ def text_channels(
     text : TextTable
         In it.
     columns : sequence of str or None
-        By name and in this order.
+        By name or pattern, in this order.
 
     Returns
     -------
@@ -107,7 +113,8 @@ def text_channels(
     ReadError
         There is no such column, a cell is no number, or nothing is a channel.
     """
-    wanted = wanted_columns(content, text.names, columns, text.numeric())
+    columns = asked_for(content, text.names, columns, text.numeric())
+    wanted = wanted_columns(columns, text.numeric())
     at = [text.names.index(name) for name in wanted]
     values = rows_of(
         content,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kineme.formats.channels.reading import to_signals
-from kineme.formats.channels.table import ChannelTable, wanted_columns
+from kineme.formats.channels.table import ChannelTable, asked_for, wanted_columns
 from kineme.formats.files import FileContent, unique
 from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.formats.markers.muscles import muscles_of
@@ -36,7 +36,7 @@ def read_analog(content: FileContent, options: ReadOptions) -> Signals:
     if not file.analog.size:
         raise content.error("holds no analog channels")
     names = unique(file.analog_labels)
-    wanted = wanted_columns(content, names, columns, names)
+    wanted = wanted_columns(asked_for(content, names, columns, names), names)
     values = file.analog[:, [names.index(name) for name in wanted]]
     table = ChannelTable(wanted, values, {}, file.analog_rate or None, tuple(notes))
     return to_signals(content, "C3D", table, options.fps)

@@ -29,6 +29,7 @@ class HierarchyConstants(CountingPreset):
 
     method: ClassVar[str] = "hierarchy"
     units: ClassVar[tuple[Unit, ...]] = ("any",)
+    told_bodies: ClassVar[bool] = True
     told_rides: ClassVar[bool] = True
 
     unit: Unit = "any"

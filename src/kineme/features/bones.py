@@ -1,0 +1,62 @@
+"""Whether points are those of a body, told by its bones: of channels nobody said what they are.
+
+However a body moves, each of its points keeps its distance from some other
+one, as a wrist from its elbow, while both go elsewhere; and others come nearer
+and part, which those of a box do not. What sensors measure does neither.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+POINTS = 5
+"""A body has as many at least: head, hands and feet."""
+TIED = 0.15
+"""Points are joined whose distance deviates by less than this share of how both move."""
+BENT = 0.2
+"""Some distance deviates by more than this share of itself, or nothing bends."""
+_FRAMES = 2000  # enough to tell how distances vary
+
+
+def have_bones(positions: ArrayLike) -> bool:
+    """Whether each point is joined to another one, and not all to all.
+
+    Parameters
+    ----------
+    positions : array_like of shape (frames, points, 3)
+        In any unit.
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> turns = np.linspace(0, 20, 400)
+    >>> walk = np.column_stack([turns, 0 * turns, 0 * turns])
+    >>> swing = 0.4 * np.column_stack([np.sin(turns), np.cos(turns), 0 * turns])
+    >>> points = [walk, walk + [0, 1, 0], walk + [0, 1.5, 0], walk + swing, walk - swing]
+    >>> have_bones(np.stack(points, axis=1))
+    True
+    >>> have_bones(np.random.default_rng(0).standard_normal((400, 5, 3)))
+    False
+    """
+    held = np.asarray(positions, np.float64)
+    held = held[:: max(1, len(held) // _FRAMES)]
+    if held.shape[1] < POINTS:
+        return False
+    moved = held.var(axis=0).sum(axis=1)
+    bent = False
+    for point in range(held.shape[1]):
+        distances = np.linalg.norm(held - held[:, point, None], axis=2)
+        deviation = distances.std(axis=0)
+        both = np.sqrt(moved + moved[point])
+        tied = deviation < TIED * both
+        tied[point] = False
+        if not tied.any():
+            return False
+        bent = bent or bool((deviation > BENT * distances.mean(axis=0)).any())
+    return bent

@@ -1,0 +1,46 @@
+"""Coordinates of points by the names of their columns: ``hip_x hip_y hip_z``.
+
+Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+COORDINATE = re.compile(r"(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ])")
+
+_SENSOR = re.compile(
+    r"acc(el\w*)?|gyr(o\w*)?|mag(net\w*)?|imu|emg|grf|forces?|moments?|torques?|cop|gravity|"
+    r"angular|rotation|attitude|velocity|vel|quat(ernion)?|orient(ation)?|[agwm]",
+    re.IGNORECASE,
+)
+
+
+def axes_by_point(columns: Iterable[str]) -> dict[str, dict[str, str]]:
+    """For each point, of a joint or a sensor, the columns of its axes: x and y at least.
+
+    Examples
+    --------
+    >>> axes_by_point(["time", "hip_x", "hip_y", "knee_x"])
+    {'hip': {'x': 'hip_x', 'y': 'hip_y'}}
+    """
+    found: dict[str, dict[str, str]] = {}
+    for column in columns:
+        match = COORDINATE.fullmatch(column.strip())
+        if match:
+            point, axis = (match[1], match[2]) if match[1] else (match[3], match[4])
+            found.setdefault(point, {})[axis.lower()] = column
+    return {point: axes for point, axes in found.items() if {"x", "y"} <= axes.keys()}
+
+
+def is_body(name: str) -> bool:
+    """Whether a name with coordinates is that of a joint, and not of a sensor.
+
+    Examples
+    --------
+    >>> is_body("hip"), is_body("hip_acc")
+    (True, False)
+    """
+    words = re.findall(r"[A-Z]?[a-z]+\d*|[A-Z]+\d*(?![a-z])|\d+", name)
+    return not any(_SENSOR.fullmatch(word) for word in words)
