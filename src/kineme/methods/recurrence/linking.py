@@ -120,7 +120,8 @@ def repeating(
 ) -> NDArray[np.bool_]:
     """Which segments repeat: within themselves, or in another segment of their action.
 
-    What repeats within the phase window, where nothing counts as recurrence, is counted.
+    What repeats within the phase window, where nothing counts as recurrence, is counted, where
+    there is something else beside it that it can be told from.
 
     Parameters
     ----------
@@ -138,8 +139,9 @@ def repeating(
             recurrence.near, recurrence.scales, *span, *span, recurrence.phase,
             preset.merge_softness,
         )  # fmt: skip
-        if shared[g] or within >= preset.min_repetition:
-            return True
+        recurs = bool(shared[g]) or within >= preset.min_repetition
+        if recurs or len(labels) == 1:
+            return recurs
         found = repetitions(recurrence.features, int(frames[g]), int(frames[g + 1]), preset)
         return len(found.cuts) > 0
 
