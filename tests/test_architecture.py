@@ -117,6 +117,7 @@ HELPERS = {
     "_files": {"errors"},
     "_interpolation": set(),
     "_plugins": {"errors"},
+    "_processes": {"_threads"},
     "_rank_kernels": {"_compiled"},
     "_rotations": set(),
     "_threads": set(),

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 import csv
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -63,3 +68,26 @@ def test_a_call_that_cannot_work_is_one_sentence(kineme, corpus, arguments, mess
     assert ran.returncode != 0
     assert message in " ".join(ran.stderr.split())
     assert "Traceback" not in ran.stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for processes where Linux lists them")
+def test_control_c_ends_it_quietly(corpus) -> None:
+    with subprocess.Popen(
+        [
+            *(sys.executable, "-m", "kineme", "evaluate", corpus, "-q"),
+            *("--labels", corpus / "labels.csv", "--methods", "kineme,ppca,gmm"),
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "KINEME_THREADS": "2"},
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    ) as process:
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        while not children.read_text():
+            time.sleep(0.01)
+        time.sleep(0.3)  # its processes are being started
+        os.killpg(process.pid, signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (130, "", "")

@@ -5,11 +5,11 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import Future, as_completed
 from dataclasses import dataclass, field, replace
-from multiprocessing import get_context
 from pathlib import Path
 
+from kineme._processes import interrupted_later, pool_of
 from kineme.errors import KinemeError, KinemeWarning
 from kineme.evaluation.comparison import Comparison, compare
 from kineme.evaluation.methods import segment_by
@@ -77,12 +77,15 @@ def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answe
         for job in jobs:
             yield job, _answer(job)
         return
-    # Started anew, for a copy of this process could wait forever for threads that it lacks.
-    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-        waiting: dict[Future[Answer], Job] = {pool.submit(_answer, job): job for job in jobs}
+    pool = pool_of(processes)
+    try:
+        with interrupted_later():
+            waiting: dict[Future[Answer], Job] = {pool.submit(_answer, job): job for job in jobs}
         for future in as_completed(waiting):
             failure = future.exception()
             yield waiting[future], future.result() if failure is None else _failed(failure)
+    finally:
+        pool.shutdown(cancel_futures=True)  # none is left, or nobody asks any more
 
 
 def _answer(job: Job) -> Answer:

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import sys
 import threading
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import forkserver, get_context, parent_process, resource_tracker
-from multiprocessing.connection import wait as wait_for
-from multiprocessing.context import BaseContext
 
-from kineme._threads import n_threads
+from kineme._processes import context, interrupted_later, pool_of
 from kineme.library.executors import Executor, Outcome, Task
 from kineme.library.executors.here import Here
 
@@ -80,15 +75,12 @@ class Processes:
     ) -> Generator[tuple[Task, Outcome], None, list[Task]]:
         """Work on tasks from the end of the list; those in work when one died are returned."""
         if self._pool is None:
-            share = max(1, n_threads() // self._jobs)
-            self._pool = ProcessPoolExecutor(
-                self._jobs, mp_context=_context(), initializer=_prepare, initargs=(share,)
-            )
+            self._pool = pool_of(self._jobs, SHARED)
         running: dict[Future[Outcome], Task] = {}
         try:
             while waiting or running:
                 while waiting and len(running) < most:
-                    with _interrupted_later():  # a process half started would say so
+                    with interrupted_later():
                         running[self._pool.submit(work, waiting[-1])] = waiting[-1]
                     waiting.pop()
                 for future in wait(running, return_when=FIRST_COMPLETED).done:
@@ -121,55 +113,5 @@ def processes(jobs: int) -> Iterator[Executor]:
 def start_soon() -> None:
     """Start what processes are copies of: that takes a second, in which this one can go on."""
     if sys.platform == "linux":
-        _context()
+        context(SHARED)
         _SOON.set()
-
-
-def _context() -> BaseContext:
-    """How processes are started.
-
-    A copy of this one could wait forever for threads that it lacks. Where that can be, they are
-    copies of one that has none, and has imported what all need. Ctrl+C is left to this one, which
-    ends the others: they would each say where they were.
-    """
-    if sys.platform != "linux":
-        return get_context("spawn")
-    context = get_context("forkserver")
-    context.set_forkserver_preload([*SHARED])
-    resource_tracker.ensure_running()  # lets signals through again, so it comes first
-    let_through = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        forkserver.ensure_running()
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, let_through)
-    return context
-
-
-@contextmanager
-def _interrupted_later() -> Iterator[None]:
-    """Leave Ctrl+C until after the block."""
-    if threading.current_thread() is not threading.main_thread():  # it is not told of any
-        yield
-        return
-    came: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _: came.append(number))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-    if came:
-        signal.raise_signal(signal.SIGINT)
-
-
-def _prepare(threads: int) -> None:
-    """Make a worker one of several, which ends when the process that started it is gone."""
-    os.environ["KINEME_THREADS"] = str(threads)
-    parent = parent_process()
-    if parent is not None:
-        sentinel = parent.sentinel
-
-        def watch() -> None:
-            wait_for([sentinel])
-            os._exit(1)
-
-        threading.Thread(target=watch, daemon=True).start()
