@@ -143,6 +143,20 @@ def test_a_gesture_made_now_and_then_is_one_cluster() -> None:
     assert (found.similarity > 0.3).all()
 
 
+@pytest.mark.parametrize(("places", "sure"), [([100, 310], 2), ([100, 310, 555], 1)])
+def test_two_must_be_more_alike_than_three(places: list[int], sure: float) -> None:
+    rows = with_gestures(1, places)
+    everywhere = np.ones(len(rows), np.bool_)
+
+    def found(min_recurrence: float) -> int:
+        preset = KINEME.replace(min_recurrence=min_recurrence, pair_factor=2.0)
+        return len(occurrences(rows, everywhere, preset))
+
+    strongest = 1.7  # path here, seconds
+    assert found(0.9 * strongest / sure) == len(places)
+    assert found(1.1 * strongest / sure) == 0
+
+
 def test_what_is_not_free_is_not_looked_at() -> None:
     rows = with_gestures(2, [100, 310, 555])
     free = np.ones(len(rows), np.bool_)

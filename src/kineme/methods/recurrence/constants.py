@@ -1,8 +1,7 @@
 """The constants of the ``kineme`` method: what each does, its unit and its limits.
 
-Lengths are shares of the body's size (see ``kineme.features.body_size``) or of
-what stands for it in signals, times seconds. ``docs/method.md`` says what each
-does and what other values measure.
+Lengths are shares of the body's size (see ``kineme.features.body_size``) or of what stands
+for it in signals, times seconds. ``docs/method.md`` says what other values measure.
 """
 
 from __future__ import annotations
@@ -197,6 +196,7 @@ class RecurrenceConstants(CountingPreset):
         "share of that from which an occurrence joins a set in which another reaches it",
         limits=SOME_SHARE, fine=True,
     )  # fmt: skip
+    pair_factor: float = constant("sets of two need min_recurrence times this", limits=SOME_FACTOR)
     # Signals, which have no size of their own.
     recurs_at: float = constant(
         "distance at which the median sample of signals recurs: their unit of length", fine=True,

@@ -95,6 +95,7 @@ KINEME = RecurrencePreset(
     max_event=6.0,
     min_recurrence=0.6,
     event_link=0.6,
+    pair_factor=2.0,
     link_weights=weights.LINK,
     border_weights=weights.BORDER,
     recurs_at=0.2,

@@ -143,7 +143,8 @@ def occurrences(
     )
     strongest = np.zeros(len(ranks))
     np.maximum.at(strongest, ranks, scores)
-    sure = strongest[ranks] >= preset.min_recurrence * per_second
+    factors = np.where(np.bincount(ranks)[ranks] == 2, preset.pair_factor, 1.0)
+    sure = strongest[ranks] >= factors * preset.min_recurrence * per_second
     order = np.flatnonzero(sure)[np.argsort(spans[sure, 0])]
     spans, ranks = spans[order], ranks[order]
     similarity = np.clip(scores[order] / np.maximum(np.diff(spans)[:, 0], 1), 0, 1)
