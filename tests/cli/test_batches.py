@@ -84,7 +84,7 @@ def test_a_numbered_json_makes_no_video_of_a_folder(kineme, tmp_path, takes) -> 
     (takes / "a" / "video_1_keypoints.json").write_text(json.dumps(frame))
     done = kineme("info", "takes/a", *UNIT, "--json")
     assert (done.returncode, json.loads(done.stdout)["frames"]) == (0, 40)
-    assert "1 frames of OpenPose beside other recordings" in done.stderr
+    assert "1 frame of OpenPose beside other recordings" in done.stderr
 
 
 def test_every_command_takes_folders(kineme, tmp_path: Path) -> None:

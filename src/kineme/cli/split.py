@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.preset_options import PresetName, with_preset_options
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
@@ -70,5 +71,5 @@ def split(
                 make_folder_of(folder)
             clips = write_clips(recording, cuts, folder, level=level, cluster=cluster, loops=loop)
             if not quiet:
-                typer.echo(f"{len(clips)} clips in {folder}")
+                typer.echo(f"{counted(len(clips), 'clip')} in {folder}")
     batch.exit()
