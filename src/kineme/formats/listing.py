@@ -134,7 +134,9 @@ def _judged(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
         if name.startswith("."):
             continue
         try:
-            if path.is_file() and _is_recording(path):
+            if path.is_symlink() and not path.exists():
+                found.passed_over.append((path, "is a link to a file that is not there"))
+            elif path.is_file() and _is_recording(path):
                 yield path
         except Exception as error:  # noqa: BLE001 (one file never ends a listing)
             found.passed_over.append((path, _reason(error)))
