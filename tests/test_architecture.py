@@ -112,6 +112,7 @@ HELPERS = {
     "_cache": set(),
     "_checks": {"errors"},
     "_colors": set(),
+    "_counts": set(),
     "_compiled": set(),
     "_doors": {"errors"},
     "_files": {"errors"},

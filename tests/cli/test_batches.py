@@ -47,6 +47,18 @@ def test_one_name_in_two_folders_is_told_apart(kineme, tmp_path, takes) -> None:
     assert (done.returncode, len(files_under(tmp_path / "pages", "*.html"))) == (0, 3)
 
 
+def test_links_to_nothing_are_said_and_standard_input_is_refused(kineme, tmp_path, takes) -> None:
+    (tmp_path / "linked").mkdir()
+    (tmp_path / "linked" / "good.bvh").symlink_to(takes / "a" / "take.bvh")
+    (tmp_path / "linked" / "gone.bvh").symlink_to(tmp_path / "nowhere.bvh")
+    done = kineme("info", "linked", *UNIT, "--json")
+    assert (done.returncode, len(done.stdout.splitlines())) == (0, 1)
+    assert done.stderr == "skipped: linked/gone.bvh: is a link to a file that is not there\n"
+    done = kineme("segment", "-")
+    assert done.returncode == 2
+    assert "not read from standard input" in done.stderr
+
+
 def test_folders_deeper_down_and_their_like_are_told_apart_too() -> None:
     inputs = [Path("/y/a/take.bvh"), Path("/y/a/take.trc"), Path("/y/b.trc")]
     named = [path.name for path in files_for("-o", Path("{name}.csv"), inputs)]
@@ -84,7 +96,7 @@ def test_a_numbered_json_makes_no_video_of_a_folder(kineme, tmp_path, takes) -> 
     (takes / "a" / "video_1_keypoints.json").write_text(json.dumps(frame))
     done = kineme("info", "takes/a", *UNIT, "--json")
     assert (done.returncode, json.loads(done.stdout)["frames"]) == (0, 40)
-    assert "1 frames of OpenPose beside other recordings" in done.stderr
+    assert "1 frame of OpenPose beside other recordings" in done.stderr
 
 
 def test_every_command_takes_folders(kineme, tmp_path: Path) -> None:

@@ -30,7 +30,7 @@ def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> No
     assert ran.returncode == 0, ran.stderr
     assert "without labels, left out: unlabelled.csv" in ran.stderr
     assert "broken.csv, kineme: " in ran.stderr
-    assert "b.csv: 1 labels overlap others" in ran.stderr
+    assert "b.csv: overlapping others: 1 label" in ran.stderr
     for text in ("MoF", "Edit", "F1@50", "ARI", "NMI", "recordings scored", "2 of 3"):
         assert text in ran.stdout
     rows = list(csv.DictReader((tmp_path / "scores.csv").read_text().splitlines()))

@@ -35,6 +35,15 @@ def test_split_takes_the_segments_it_would_find(kineme, tmp_path: Path) -> None:
     assert {"turn_deg", "x_m", "z_m"} <= set(manifest.columns)
 
 
+def test_split_takes_coarser_segments(kineme, tmp_path: Path) -> None:
+    done = kineme("split", bundled_recording(), "--detail", 0.25, "-o", "clips", "-q")
+    assert (done.returncode, done.stderr) == (0, "")
+    found = package.segment(package.read(bundled_recording()))
+    manifest = pd.read_csv(tmp_path / "clips" / "manifest.csv")
+    assert manifest.start_frame.tolist() == found.level(0.25).activities.start_frame.tolist()
+    assert len(manifest) < len(found.activities)
+
+
 def test_split_by_labels_that_a_person_corrected(kineme, tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("1.0\t2.0\twalk\n2.0\t5.5\tÄpfel pflücken\n")
     done = kineme("split", bundled_recording(), "--segments", "mine.txt", "-o", "clips", "-q")
@@ -54,6 +63,7 @@ def test_split_by_labels_that_a_person_corrected(kineme, tmp_path: Path) -> None
     [
         (("--cluster", 99), "no activity is in cluster 99"),
         (("--segments", "none.csv"), "none.csv: cannot be read: No such file"),
+        (("--segments", "none"), "none: there is no such file or folder"),
         (("--segments", "short.txt"), "short.txt: has labels up to frame 6000"),
     ],
 )

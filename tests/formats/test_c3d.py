@@ -146,7 +146,7 @@ def test_gaps(tmp_path: Path) -> None:
     filled = read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
     wanted = walking()[:, c7]
     assert np.abs(filled.positions[:, filled.joint("C7")] - wanted).max() < 1e-4
-    assert any("1 points, 20 positions in all" in note for note in filled.provenance.notes)
+    assert any("1 point, 20 positions in all" in note for note in filled.provenance.notes)
     points[10:31, t10] = np.nan  # longer: left out
     with pytest.warns(KinemeWarning, match=r"T10 \(frames 10 to 30\)"):
         assert "T10" not in read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT)).skeleton.names

@@ -314,8 +314,8 @@ def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
     assert signals.values[10].tolist() == [10, 10]
     assert signals.gaps == ((40, 60),)
     assert signals.provenance.notes == (
-        "1 missing values filled in a straight line",
-        "1 gaps of more than 0.2 s, 20 frames",
+        "1 missing value filled in a straight line",
+        "1 gap of more than 0.2 s, 20 frames",
     )
     with pytest.raises(ReadError, match="column 'b' holds no number"):
         read(write(tmp_path, "b.csv", "a,b\n1,\n2,\n"), fps=50)

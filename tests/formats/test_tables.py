@@ -118,7 +118,7 @@ def test_keypoints_that_are_not_sure_count_as_gaps(tmp_path: Path) -> None:
     points[7, 0] = 99.0
     motion = read(tmp_path, "a.csv", table(points, time=TIMES, pelvis_visibility=sure))
     assert np.allclose(motion.positions[:, 0], body()[:, 0])
-    assert any("1 positions less sure than 0.5" in note for note in motion.provenance.notes)
+    assert any("1 position less sure than 0.5" in note for note in motion.provenance.notes)
 
 
 def test_deeplabcut(tmp_path: Path) -> None:

@@ -356,7 +356,7 @@ def babel(*labels: tuple[str, float, float], dur: float = 4.0) -> str:
 def test_overlapping_babel_labels_become_segments_of_both(tmp_path) -> None:
     path = tmp_path / "train.json"
     path.write_text(babel(("walk", 0, 3), ("wave", 1, 2), ("turn", 3, 3.5)))
-    with pytest.warns(KinemeWarning, match="1 segments carry the texts of several"):
+    with pytest.warns(KinemeWarning, match="with the texts of several: 1 segment"):
         back = read_segments(path, format="babel", fps=10)
     assert back.activities.label.tolist() == ["walk", "walk + wave", "walk", "turn", ""]
     assert back.activities.stop_frame.tolist() == [10, 20, 30, 35, 40]
@@ -418,7 +418,7 @@ def test_points_are_left_out_and_the_end_is_said_to_be_guessed(tmp_path) -> None
     (tmp_path / "l.txt").write_text(
         "0\t1\twalk\n0.5\t0.5\tclap\n\\\t100\t200\n1.0\t2.0\trun\tfast\n"
     )
-    with pytest.warns(KinemeWarning, match="1 labels shorter than a frame are left out"):
+    with pytest.warns(KinemeWarning, match="shorter than a frame, left out: 1 label"):
         back = read_segments(tmp_path / "l.txt", fps=10)
     assert back.activities.label.tolist() == ["walk", "run fast"]
     assert "taken from the end of the last label" in back.provenance["notes"][0]

@@ -16,7 +16,7 @@ from matplotlib.image import imread
 from pyarrow import parquet
 
 import kineme
-from kineme.errors import ParameterError, ReadError, WriteError
+from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.constants import VOCABULARY
 from kineme.library.descriptions import describe
@@ -299,3 +299,9 @@ def test_columns_hold_any_text_and_number_or_none() -> None:
     for values, kind in ((["", "Zürich", "歩く\n"], str), ([3, -1], int), ([0.5], float)):
         assert as_column(values, kind).to_pylist() == values
         assert as_column([], kind).to_pylist() == []
+
+
+def test_an_example_that_stops_beyond_its_end_is_said_to_be_cut(library: Library) -> None:
+    with pytest.warns(KinemeWarning, match=r"stops at 900 s, its recording lasts .* to its end"):
+        beyond = library.search("walk.bvh", 0.5, 900.0)
+    assert beyond == library.search("walk.bvh", 0.5)

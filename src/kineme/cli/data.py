@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.messages import Failures
 from kineme.cli.options.reading import Quiet
 
@@ -131,7 +132,7 @@ def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], Non
 def _line(file: Fetched) -> str:
     from rich.filesize import decimal
 
-    length = "" if file.frames is None else f"{file.frames} frames, "
+    length = "" if file.frames is None else f"{counted(file.frames, 'frame')}, "
     how = "fetched" if file.new else "there already"
     return f"{file.path.name}: {length}{decimal(file.size)}, {how}"
 
@@ -142,5 +143,6 @@ def _summary(files: list[Fetched], seconds: float) -> str:
     new = [file for file in files if file.new]
     size = decimal(sum(file.size for file in new))
     return (
-        f"{len(files)} files in {files[0].path.parent}: {len(new)} fetched, {size}, {seconds:.1f} s"
+        f"{counted(len(files), 'file')} in {files[0].path.parent}: {len(new)} fetched, "
+        f"{size}, {seconds:.1f} s"
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Quiet, with_body_options
@@ -93,6 +94,9 @@ def _show(made: MotionGraph) -> None:
 
     for name, count in made.names.items():
         onward = ", ".join(following(made, name)) or "nothing"
-        typer.echo(f"{name}: {count} primitive{'s' * (count != 1)}, then {onward}")
+        typer.echo(f"{name}: {counted(count, 'primitive')}, then {onward}")
     jumps = sum(edge.jump for edge in made.edges)
-    typer.echo(f"{len(made.nodes)} nodes, {len(made.edges)} edges, {jumps} of them jumps.")
+    typer.echo(
+        f"{counted(len(made.nodes), 'node')}, {counted(len(made.edges), 'edge')}, "
+        f"{counted(jumps, 'jump')} among them."
+    )

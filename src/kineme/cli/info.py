@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Effectors, Json, with_reading_options
 from kineme.cli.options.request import Request
@@ -88,14 +89,14 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
     from kineme.cli.tables import show_facts
     from kineme.recordings import Motion
 
-    length = f"{facts['frames']} frames at {facts['fps']:g} Hz, {facts['seconds']:.2f} s"
+    length = f"{counted(facts['frames'], 'frame')} at {facts['fps']:g} Hz, {facts['seconds']:.2f} s"
     if isinstance(recording, Motion):
         named = (facts["end_effectors"] or {}).items()
         effectors = ", ".join(f"{part.replace('_', ' ')} {name}" for part, name in named)
         lines = {
             "format": facts["format"],
             "length": length,
-            "joints": f"{len(facts['joints'])}, and {len(facts['end_sites'])} end sites",
+            "joints": f"{len(facts['joints'])}, and {counted(len(facts['end_sites']), 'end site')}",
             "end effectors": effectors or "not found",
         }
         tree = _tree(recording) if joints else None

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Effectors, Quiet, with_body_options
@@ -80,4 +81,4 @@ def _show(knowledge: Path, added: dict[Path, KnowledgeBase], total: int) -> None
     """One line per recording: what it added."""
     for path, base in added.items():
         what = ", ".join(f"{name} {count}" for name, count in base.counts().items())
-        typer.echo(f"{knowledge}: {what} from {path.name}; {total} primitives in all")
+        typer.echo(f"{knowledge}: {what} from {path.name}; {counted(total, 'primitive')} in all")

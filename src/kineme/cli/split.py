@@ -7,8 +7,9 @@ from typing import Annotated, Any
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.preset_options import PresetName, with_preset_options
+from kineme.cli.options.preset_options import Detail, PresetName, with_preset_options
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.options.request import Request
 from kineme.cli.options.targets import make_folder_of
@@ -43,6 +44,7 @@ def split(
             "or a name with {name} in it."
         ),
     ] = None,
+    detail: Detail = 1.0,
     preset: PresetName = DEFAULT,
     recursive: Recursive = False,
     quiet: Quiet = False,
@@ -54,7 +56,7 @@ def split(
 
     BVH, or CSV of joint positions where there are no rotations. Of signals, rows of their file.
     """
-    request = Request.of(preset, constants, reading, effectors)
+    request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
     tables = batch.tables("--segments", segments)
@@ -70,5 +72,5 @@ def split(
                 make_folder_of(folder)
             clips = write_clips(recording, cuts, folder, level=level, cluster=cluster, loops=loop)
             if not quiet:
-                typer.echo(f"{len(clips)} clips in {folder}")
+                typer.echo(f"{counted(len(clips), 'clip')} in {folder}")
     batch.exit()

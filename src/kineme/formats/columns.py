@@ -22,6 +22,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._counts import counted
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
 from kineme.formats.options import ReadOptions
@@ -80,7 +81,9 @@ def columns_to_motion(
     timing = timed(content, columns, options.fps)
     notes = list(timing.notes)
     if (sure < limit).any():
-        notes.append(f"{int((sure < limit).sum())} positions less sure than {limit:g} not used")
+        notes.append(
+            f"{counted(int((sure < limit).sum()), 'position')} less sure than {limit:g} not used"
+        )
     unit, up = options.unit, options.up
     if flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
+from kineme._counts import counted
 from kineme.formats.delimited import EMPTY, separator_of
 from kineme.formats.timing import is_date
 
@@ -73,7 +74,7 @@ def layout_of(lines: Sequence[str], start: int = 0) -> Layout | None:
     names = full[first]
     separator = separator or separator_of(lines[names])
     below = names + 1
-    notes = [f"{first} line{'s' * (first > 1)} above the names passed over"] if first else []
+    notes = [f"{counted(first, 'line')} above the names passed over"] if first else []
     if len(full) > first + 1 and _is_units(lines, full[first:], separator):
         below = full[first + 1] + 1
         notes.append(f"line {below} holds no numbers and is passed over: {lines[below - 1]:.60}")

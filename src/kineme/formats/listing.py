@@ -22,6 +22,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from kineme._counts import counted
 from kineme._files import head_of, tail_of
 from kineme.formats.columns import is_timing, joint_names
 from kineme.formats.keypoints.openpose import frame_files
@@ -91,8 +92,8 @@ def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
             frames = []
         if frames and recordings:
             reason = (
-                f"{len(frames)} frames of OpenPose beside other recordings: give them a folder "
-                "of their own"
+                f"{counted(len(frames), 'frame')} of OpenPose beside other recordings: give "
+                "them a folder of their own"
             )
             found.passed_over.append((frames[0][1], reason))
         found.recordings.extend(recordings or ([here] if frames else []))
@@ -133,7 +134,9 @@ def _judged(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
         if name.startswith("."):
             continue
         try:
-            if path.is_file() and _is_recording(path):
+            if path.is_symlink() and not path.exists():
+                found.passed_over.append((path, "is a link to a file that is not there"))
+            elif path.is_file() and _is_recording(path):
                 yield path
         except Exception as error:  # noqa: BLE001 (one file never ends a listing)
             found.passed_over.append((path, _reason(error)))

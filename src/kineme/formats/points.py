@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._counts import counted
 from kineme.errors import ReadError
 from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
@@ -167,9 +168,9 @@ def _said_of_gaps(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) 
     if gaps.filled:
         most = max(gaps.filled, key=lambda point: gaps.filled[point])
         notes.append(
-            f"gaps up to {LONGEST_S} s filled in {len(gaps.filled)} points, "
-            f"{sum(gaps.filled.values())} positions in all, most in {names[most]} "
-            f"({gaps.filled[most]} of {n_frames} frames)"
+            f"gaps up to {LONGEST_S} s filled in {counted(len(gaps.filled), 'point')}, "
+            f"{counted(sum(gaps.filled.values()), 'position')} in all, most in {names[most]} "
+            f"({gaps.filled[most]} of {counted(n_frames, 'frame')})"
         )
     never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
     if never:

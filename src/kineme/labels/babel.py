@@ -21,6 +21,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from kineme._counts import counted
 from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.labels.heads import head
@@ -91,7 +92,7 @@ def labels_of(recording: Mapping[str, Any], path: Path) -> Labels:
         for label in labels
     ]
     apart, shared = _apart(spans, path)
-    note = f"labels overlap; {shared} segments carry the texts of several"
+    note = f"labels overlap; with the texts of several: {counted(shared, 'segment')}"
     return Labels(apart, "seconds", None, length, (note,) if shared else ())
 
 

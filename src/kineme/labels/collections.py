@@ -18,6 +18,7 @@ from math import ceil
 from os import PathLike
 from pathlib import Path
 
+from kineme._counts import counted
 from kineme.errors import ReadError
 from kineme.labels import csv_table
 from kineme.labels.files import read_content
@@ -136,7 +137,7 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     >>> [span[:3] for span in found.spans]
     [(0, 40, 'walk'), (60, 90, 'walk'), (40, 60, 'wave')]
     >>> found.notes
-    ('1 labels overlap others',)
+    ('overlapping others: 1 label',)
     """
     rate = fps if labels.unit == "seconds" else 1.0
     backward = sum(span.stop < span.start for span in labels.spans)
@@ -156,11 +157,11 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
         overlaps += apart != kept
         kept = [*apart, new]
     told = {
-        "labels overlap others": overlaps,
-        "labels run backwards: left out": backward,
-        "labels reach beyond the end: cut off there": beyond,
+        "overlapping others": overlaps,
+        "running backwards, left out": backward,
+        "reaching beyond the end, cut off there": beyond,
     }
-    notes = [f"{count} {what}" for what, count in told.items() if count]
+    notes = [f"{what}: {counted(count, 'label')}" for what, count in told.items() if count]
     return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes))
 
 

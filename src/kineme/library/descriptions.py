@@ -16,6 +16,7 @@ from hashlib import sha256
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._counts import counted
 from kineme.errors import MotionError, ParameterError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.features.effectors import Names
@@ -112,7 +113,7 @@ def describe(
             raise ParameterError("signals have no left and right to exchange: leave out mirroring")
         vocabulary = sha256("\0".join(recording.names).encode()).hexdigest()[:8]
         features = signal_features(recording, emg=emg)
-        named = f"{recording.n_channels} channels, {vocabulary}"
+        named = f"{counted(recording.n_channels, 'channel')}, {vocabulary}"
         return Description(named, features, SENSORS.rate)
     try:
         features, poses = features_and_poses(recording, effectors=effectors, mirrored=mirrored)

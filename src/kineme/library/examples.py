@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError, ReadError
+from kineme.formats.files import warn
 from kineme.library.descriptions import Description, describe
 from kineme.library.opened import OpenTables
 from kineme.library.searching import Example, Hit, Named
@@ -20,6 +21,9 @@ from kineme.recordings import Motion, Signals
 
 AnyPath = str | PathLike[str]
 Float32s = NDArray[np.float32]
+
+BEYOND = 0.1
+"""Seconds: an example that stops so much after the end of its recording is rounded."""
 
 
 def as_examples(
@@ -72,6 +76,11 @@ def features_of(
             described = _description(tables, example.recording, mirrored=mirrored)
             lasts = len(described.features) / described.fps
             stop_s = lasts if example.stop_s is None else min(example.stop_s, lasts)
+            if not mirrored and example.stop_s is not None and example.stop_s > lasts + BEYOND:
+                warn(
+                    f"the example stops at {example.stop_s:g} s, its recording lasts "
+                    f"{lasts:.2f} s: taken to its end"
+                )
             if example.start_s >= stop_s:
                 raise ParameterError(
                     f"the example starts at {example.start_s:g} s, its recording lasts "

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from kineme._checks import check_flag, check_path
+from kineme._counts import counted
 from kineme.errors import ParameterError
 from kineme.library.clusters import Cluster, Word, clusters_of, numbers_of, unsure_words
 from kineme.library.editing import merge_clusters, name_cluster, split_cluster
@@ -245,6 +246,6 @@ class Library:
     def __repr__(self) -> str:
         n, clusters = len(self), len(set(self._tables.columns("words")["cluster"].tolist()))
         return (
-            f"<Library of {n} recording{'s' * (n != 1)} ({self.hours:.2g} h), "
-            f"{clusters} cluster{'s' * (clusters != 1)}>"
+            f"<Library of {counted(n, 'recording')} ({self.hours:.2g} h), "
+            f"{counted(clusters, 'cluster')}>"
         )

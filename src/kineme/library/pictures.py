@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from kineme._colors import cluster_color
+from kineme._counts import counted
 from kineme._files import atomic_write
 from kineme.errors import KinemeError, WriteError
 from kineme.library.clusters import Cluster, clusters_of
@@ -84,7 +85,7 @@ def _told(cluster: Cluster) -> str:
     times = cluster.repetitions or cluster.activities
     n = cluster.recordings
     return (
-        f"{named}   {times} × {cluster.typical_s:.2f} s in {n} recording{'s' * (n != 1)}; "
+        f"{named}   {times} × {cluster.typical_s:.2f} s in {counted(n, 'recording')}; "
         f"here {cluster.example}"
     )
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import check_type
+from kineme._counts import counted
 from kineme.errors import MotionError
 from kineme.recordings.arrays import as_rate, assign, frozen
 from kineme.recordings.kinematics import forward_kinematics
@@ -138,8 +139,9 @@ class Motion(Recording):
     def __repr__(self) -> str:
         ends = len(self.skeleton.end_sites)
         return (
-            f"<Motion of {self.n_frames} frames ({self.duration:.1f} s) at {self.fps:g} Hz: "
-            f"{self.skeleton.n_joints} joints{f', {ends} of them end sites' if ends else ''}>"
+            f"<Motion of {counted(self.n_frames, 'frame')} ({self.duration:.1f} s) at "
+            f"{self.fps:g} Hz: {counted(self.skeleton.n_joints, 'joint')}"
+            f"{f', {ends} of them end sites' if ends else ''}>"
         )
 
     @property

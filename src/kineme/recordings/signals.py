@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import as_floats, as_texts
+from kineme._counts import counted
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, assign, frozen
 from kineme.recordings.notebook import channels_svg
@@ -80,8 +81,8 @@ class Signals(Recording):
 
     def __repr__(self) -> str:
         return (
-            f"<Signals of {self.n_frames} frames ({self.duration:.1f} s) at {self.fps:g} Hz: "
-            f"{self.n_channels} channel{'s' if self.n_channels > 1 else ''}>"
+            f"<Signals of {counted(self.n_frames, 'frame')} ({self.duration:.1f} s) at "
+            f"{self.fps:g} Hz: {counted(self.n_channels, 'channel')}>"
         )
 
     @property

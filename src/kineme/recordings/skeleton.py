@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import as_texts
+from kineme._counts import counted
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.arrays import assign, frozen
 
@@ -93,7 +94,7 @@ class Skeleton:
 
     def __repr__(self) -> str:
         ends = f", {len(self.end_sites)} of them end sites" if self.end_sites else ""
-        return f"<Skeleton of {self.n_joints} joints{ends}>"
+        return f"<Skeleton of {counted(self.n_joints, 'joint')}{ends}>"
 
     def joint(self, name: str) -> int:
         """The index of the joint called ``name``.

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import is_number
+from kineme._counts import counted
 from kineme.errors import ParameterError
 from kineme.segments.table import Level, SegmentTable
 
@@ -136,7 +137,7 @@ class Hierarchy:
 
     def __repr__(self) -> str:
         n = len(self.details)
-        of = f"{n} detail{'s' * (n != 1)} from {self.details[0]:g} to {self.details[-1]:g}"
+        of = f"{counted(n, 'detail')} from {self.details[0]:g} to {self.details[-1]:g}"
         return f"<Hierarchy of {of}, {self.detail:g} is looked at>"
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import is_one_of
+from kineme._counts import counted
 from kineme.errors import ParameterError
 from kineme.segments.table import COLUMNS, Level, Segment, SegmentTable
 
@@ -104,10 +105,7 @@ class Levels:
             "primitive": self.primitives.kind.tolist().count("activity"),
             "cluster": len(self.repetitions()),
         }
-        many = {"activity": "activities"}
-        return ", ".join(
-            f"{n} {name if n == 1 else many.get(name, name + 's')}" for name, n in counts.items()
-        )
+        return ", ".join(counted(n, name) for name, n in counts.items())
 
     def to_dataframe(self) -> pd.DataFrame:
         """The table of both levels, as `SegmentTable.to_dataframe` gives it.
@@ -157,7 +155,8 @@ class Levels:
 
     def __repr__(self) -> str:
         seconds = self.n_frames / self.fps
-        return f"<Segmentation of {self.n_frames} frames ({seconds:.1f} s): {self.describe()}>"
+        length = f"{counted(self.n_frames, 'frame')} ({seconds:.1f} s)"
+        return f"<Segmentation of {length}: {self.describe()}>"
 
     def _repr_html_(self) -> str:
         from kineme.segments.notebook import page

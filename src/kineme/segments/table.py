@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, get_args, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._counts import counted
 from kineme.errors import MissingDependencyError, ParameterError
 from kineme.segments.row import COLUMNS, COMMENT, DESCRIBED, Column, Kind, Level, Segment, lacking
 
@@ -167,7 +168,7 @@ class SegmentTable:
 
     def __repr__(self) -> str:
         n = len(self)
-        of = f"{n} segment{'s' * (n != 1)}"
+        of = f"{counted(n, 'segment')}"
         span = f", {self.start_s.min():.2f} to {self.stop_s.max():.2f} s" if n else ""
         return f"<SegmentTable of {of}{span}>"
 

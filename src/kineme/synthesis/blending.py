@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from kineme import _rotations as rot
 from kineme._checks import as_indices, check_type
+from kineme._counts import counted
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Provenance
 from kineme.recordings.kinematics import local_translations
@@ -131,7 +132,9 @@ def synthesize(
         rotations,
         graph.fps,
         translations=translations,
-        provenance=Provenance(format="synthesis").noted(f"{len(route)} primitives, {jumps} jumps"),
+        provenance=Provenance(format="synthesis").noted(
+            f"{counted(len(route), 'primitive')}, {counted(jumps, 'jump')}"
+        ),
     )
     return plant_feet(motion) if plant else motion
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import check_type
+from kineme._counts import counted
 from kineme._doors import reading
 from kineme.errors import ParameterError
 from kineme.features.canonical.matching import DIMS
@@ -232,7 +233,7 @@ class KnowledgeBase:
 
     def __repr__(self) -> str:
         labels = ", ".join(f"{label} {count}" for label, count in self.counts().items())
-        return f"<KnowledgeBase of {len(self)} primitives: {labels}>"
+        return f"<KnowledgeBase of {counted(len(self), 'primitive')}: {labels}>"
 
 
 def _labelled(segments: Segmentation) -> SegmentTable:

@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from kineme._counts import counted
 from kineme.evaluation.tables import score_rows
 from kineme.reproduction.benchmark import Result, mean_scores
 
@@ -28,7 +29,7 @@ def show_results(results: Sequence[Result]) -> None:
     for trial, columns in by_trial.items():
         _show(trial, columns)
     if len(by_trial) > 1:
-        _show(f"mean of {len(by_trial)} trials", mean_scores(results))
+        _show(f"mean of {counted(len(by_trial), 'trial')}", mean_scores(results))
 
 
 def show_one(name: str, scores: Scores) -> None:

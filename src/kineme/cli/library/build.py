@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.help import RECORDINGS
 from kineme.cli.library.folder import Scheduler, path_or_url
 from kineme.cli.messages import Failures, progress, say_skipped
@@ -146,7 +147,7 @@ def _exit(built: Built, batch: Batch) -> None:
 
 def _summary(built: Built) -> str:
     n = len(built.paths)
-    parts = [f"{n} recording{'s' * (n != 1)} in {built.folder}", f"{built.new} new"]
+    parts = [f"{counted(n, 'recording')} in {built.folder}", f"{built.new} new"]
     parts += [f"{built.removed} taken out"] * bool(built.removed)
     parts += [f"{len(built.failed)} failed"] * bool(built.failed)
     return ", ".join(parts)

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.library.folder import Folder, Json, opened
 
 SHOWN = 1000
@@ -46,7 +47,7 @@ def _show(answer: Any) -> None:
         table.add_row(*(Text(_cell(value)) for value in row.values()))
     console.print(table)
     if len(answer) > SHOWN:
-        console.print(f"and {len(answer) - SHOWN} rows more: --json prints all")
+        console.print(f"and {counted(len(answer) - SHOWN, 'row')} more: --json prints all")
 
 
 def _cell(value: object) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.library.folder import Folder, Json, Scheduler, opened
 from kineme.cli.options.reading import Quiet
 from kineme.cli.options.targets import make_folder_of
@@ -91,7 +92,7 @@ def search(
         elif not quiet:
             _show(hits)
             if export is not None:
-                typer.echo(f"{len(clips)} clips in {export}")
+                typer.echo(f"{counted(len(clips), 'clip')} in {export}")
 
 
 def _example(text: str) -> Example:
@@ -132,7 +133,7 @@ def _show(hits: list[Hit]) -> None:
     if hits:
         console.print(table)
     console.print(
-        f"{n} hit{'s' * (n != 1)} in {recordings} recording{'s' * (recordings != 1)}"
+        f"{counted(n, 'hit')} in {counted(recordings, 'recording')}"
         if hits
         else "nothing found: a higher --threshold finds more"
     )

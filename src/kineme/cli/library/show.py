@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme._counts import counted
 from kineme.cli.library.folder import Folder, Json, opened
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ def _show(library: Library) -> None:
     console = Console(highlight=False)
     console.print(Text(str(library.folder), style="bold"))
     n = len(library)
-    console.print(f"{n} recording{'s' * (n != 1)}, {library.hours:.2f} h")
+    console.print(f"{counted(n, 'recording')}, {library.hours:.2f} h")
     table = new_table(
         "cluster", "label", "recordings", "activities", "repetitions", "minutes", "typical s",
         "example",

@@ -17,7 +17,7 @@ import typer
 from kineme.cli.help import RECORDINGS
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
 from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for, targets_for
-from kineme.errors import KinemeError, WriteError
+from kineme.errors import KinemeError, ReadError, WriteError
 
 Files = Annotated[
     list[Path],
@@ -51,6 +51,12 @@ class Batch:
         self._at = 0
         self._given_as: dict[Path, set[Path]] = {}
         self.paths: list[Path] = []
+        if Path("-") in given and not Path("-").exists():
+            raise typer.BadParameter(
+                "recordings are not read from standard input, for a file's name tells what it "
+                "is: save it as one, such as take.bvh or take.csv, and name that",
+                param_hint="FILES",
+            )
         for path in given:
             found = self._recordings_in(path, recursive=recursive) if path.is_dir() else [path]
             for recording in found:
@@ -81,7 +87,8 @@ class Batch:
 
     def tables(self, option: str, given: Path | None) -> list[Path | None]:
         """The table or label file that belongs to each recording."""
-        return tables_for(option, given, self.paths)
+        with self._nothing_without():
+            return tables_for(option, given, self.paths)
 
     @contextmanager
     def caught(self, path: Path) -> Iterator[None]:
@@ -132,10 +139,10 @@ class Batch:
 
     @contextmanager
     def _nothing_without(self) -> Iterator[None]:
-        """End at once where there is no place for any result."""
+        """End at once where there is no place for any result, or no table for any recording."""
         try:
             yield
-        except WriteError as error:
+        except (ReadError, WriteError) as error:
             self._messages.append((say_error, one_line(error)))
             self._missing.add(Path(error.path))
             self.exit()

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import typer
 
-from kineme.errors import WriteError
+from kineme.errors import ReadError, WriteError
 
 NAME, PARENT = "{name}", "{parent}"
 PICTURES = (".png", ".pdf", ".svg")
@@ -76,6 +76,8 @@ def tables_for(option: str, given: Path | None, inputs: list[Path]) -> list[Path
         return [None] * len(inputs)
     if not _is_folder(given):
         return list(_one_each(option, given, inputs))
+    if not given.exists() and not _FIELD.search(str(given)):
+        raise ReadError(given, "there is no such file or folder")
     return [_kept(path, set(inputs)) for path in _one_each(option, given / NAME, inputs)]
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._counts import counted
 from kineme._interpolation import bridge_line
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S, covered, spans_of
@@ -52,7 +53,11 @@ def without_gaps(
         raise content.error("in every frame some channel is missing for long: choose columns")
     holes = spans_of(long)
     gaps = [(start, stop) for start, stop in spans_of(long | jumps).tolist()]
-    notes = [f"{int((missing & ~long[:, None]).sum())} missing values filled in a straight line"]
+    filled_in = counted(int((missing & ~long[:, None]).sum()), "missing value")
+    notes = [f"{filled_in} filled in a straight line"]
     if len(holes):
-        notes.append(f"{len(holes)} gaps of more than {LONGEST_S:g} s, {int(long.sum())} frames")
+        notes.append(
+            f"{counted(len(holes), 'gap')} of more than {LONGEST_S:g} s, "
+            f"{counted(int(long.sum()), 'frame')}"
+        )
     return filled, gaps, notes

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._counts import counted
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.people import Detections, rows_of_person
 from kineme.formats.options import ReadOptions
@@ -111,7 +112,9 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     positions = np.full((n_frames, len(video.names), 3), np.nan)
     positions[frames[rows]] = points[rows]
     if unsure[rows].any():
-        notes.append(f"{int(unsure[rows].sum())} positions less sure than {limit:g} not used")
+        notes.append(
+            f"{counted(int(unsure[rows].sum()), 'position')} less sure than {limit:g} not used"
+        )
     notes += [*video.notes, *_flatness(points, video.unit)]
     unit, up = options.unit or video.unit, options.up or video.up
     found_in = Points(video.names, positions, fps, unit, up)

@@ -13,6 +13,7 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._counts import counted
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, numbers
 
@@ -61,7 +62,9 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     if fault is not None:
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
     if glued:
-        content.warn(f"blanks before minus signs are missing in {glued} frames: put there")
+        content.warn(
+            f"blanks before minus signs are missing in {counted(glued, 'frame')}: put there"
+        )
     return np.frombuffer(values).reshape(-1, width)
 
 
