@@ -829,23 +829,27 @@ def dips(row, least):
     return sorted(found, reverse=True)
 
 
-def matched_lengths(gains):
-    """The largest sum of a warped path through the gains, and the lengths that gather it.
+def matched_lengths(gains, whole):
+    """The largest sum of a warped path through the gains, and what gathers it.
 
-    Paths begin before the corner; steps of (1, 1) weigh 2, those of (1, 2) and (2, 1) weigh 3.
+    That is the length of each such path, and how much of it counts, by gains as shares of the
+    whole. Paths begin before the corner; steps of (1, 1) weigh 2, those of (1, 2) and (2, 1)
+    weigh 3.
     """
 
-    def ends(i, j, total):
-        """(sum, length) of every path that goes on from here, wherever it ends."""
-        yield total, j + 1
+    def ends(i, j, total, counted):
+        """(sum, length, counted) of every path that goes on from here, wherever it ends."""
+        yield total, j + 1, counted
         for down, right in ((1, 1), (1, 2), (2, 1)):
             a, b = i + down, j + right
             if a < len(gains) and b < len(gains[0]):
-                yield from ends(a, b, total + (down + right) * gains[a][b])
+                share = min(max(gains[a][b] / whole, 0), 1)
+                sums = total + (down + right) * gains[a][b]
+                yield from ends(a, b, sums, counted + right * share)
 
-    found = list(ends(-1, -1, 0))
-    best = max(total for total, _ in found)
-    return best, {length for total, length in found if total == best}
+    found = list(ends(-1, -1, 0, 0))
+    best = max(total for total, _, _ in found)
+    return best, {(length, counted) for total, length, counted in found if total == best}
 
 
 def poses_at(poses, path, lengths):
@@ -864,12 +868,12 @@ def unexplained(parts, centering):
     return found
 
 
-def followed(poses, path, lengths, mean, near):
+def followed(poses, path, lengths, mean, near, alike):
     gains = [
         [near - ((pose - place) ** 2).sum() for place in mean]
         for pose in poses_at(poses, path, lengths)
     ]
-    return matched_lengths(gains)
+    return matched_lengths(gains, near - alike)
 
 
 def similarity_band(features, unit, width):
@@ -901,8 +905,8 @@ def smoothed(rows, smoothing):
     return poses, [np.linalg.norm(poses[b] - poses[a]) / max(b - a, 1) for a, b in around]
 
 
-def judged(poses, path, visits, places, near, followed_for, centering):
-    """Ends before the first visit and after the last, and what is unexplained of an activity."""
+def judged(poses, path, visits, places, near, followed_for, centering, scattered):
+    """Ends before the first visit and after the last, what counts, is unexplained, is uneven."""
     whole, at = path[-1], np.array([path[visit] for visit in visits])
     lengths = np.diff(at)
     length = sorted(lengths)[len(lengths) // 2]
@@ -912,12 +916,15 @@ def judged(poses, path, visits, places, near, followed_for, centering):
     ]
     steps = (np.arange(int(places * followed_for)) + 0.5) / places
     ends, mean = [], np.mean(inner, axis=0)
+    alike = 0.9 * near
+    if len(inner) > 1:  # the usual variance of places, of all but one
+        alike = min(scattered * np.var(inner, axis=0, ddof=1).sum(axis=1).mean(), alike)
     for there, expected in ((at[0] - steps * length, mean[::-1]), (at[-1] + steps * length, mean)):
         inside = there[(there >= 0) & (there <= whole)]
         there = poses_at(poses, path, inside)
         gains = near - ((there[:, None] - expected) ** 2).sum(axis=2) if len(there) else []
-        ends.append(_longest(gains) / places)
-    before, after = ends
+        ends.append(np.divide(_longest(gains, near - alike), places))
+    (before, counted_before), (after, counted_after) = ends
     outside = max(at[0] - before * length, 0) + max(whole - at[-1] - after * length, 0)
     if len(inner) == 1:
         ahead = at[-1] + (whole - length) * steps[:places]
@@ -925,21 +932,28 @@ def judged(poses, path, visits, places, near, followed_for, centering):
     shares = np.array(unexplained(inner, centering)[: len(lengths)])
     known = max(whole - outside - lengths.sum(), 0)
     weights = np.maximum(lengths / whole, 1 / (len(lengths) + before + after))
-    return before, after, weights @ shares + (shares.mean() * known + outside) / whole
+    total = weights @ shares + (shares.mean() * known + outside) / whole
+    counted = counted_before + counted_after
+    return before, after, counted, total, min(np.std(np.log(lengths)), 1)
 
 
-def _longest(gains):
-    """The length of the best warped path, as `matched_lengths` but row by row."""
-    best, length, sums = 0.0, 0, {(-1, -1): 0.0}
+WARPING = ((1, 1), (1, 2), (2, 1))
+
+
+def _longest(gains, whole):
+    """The length of the best warped path, and what counts of it, as `matched_lengths` by rows."""
+    best, found, ways = 0.0, (0, 0.0), {(-1, -1): (0.0, 0.0)}
     for i in range(len(gains)):
         for j in range(len(gains[i])):
-            steps = ((1, 1), (1, 2), (2, 1))
-            sums[i, j] = max(
-                sums.get((i - a, j - b), -np.inf) + (a + b) * gains[i][j] for a, b in steps
+            share = min(max(gains[i][j] / whole, 0), 1)
+            befores = [(ways.get((i - a, j - b), (-np.inf, 0)), a, b) for a, b in WARPING]
+            ways[i, j] = max(
+                (total + (a + b) * gains[i][j], counted + b * share)
+                for (total, counted), a, b in befores
             )
-            if sums[i, j] > best:
-                best, length = sums[i, j], j + 1
-    return length
+            if ways[i, j][0] > best:
+                best, found = ways[i, j][0], (j + 1, ways[i, j][1])
+    return found
 
 
 # --- ends: stretches beside a mean repetition --------------------------------------------------

@@ -14,6 +14,7 @@ from bands import points
 from kineme.methods.recurrence import _distance_kernels as kernels
 from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.recurrence.repeating import _candidate_kernels as candidate_kernels
+from kineme.methods.recurrence.repeating import _following_kernels as following_kernels
 from kineme.methods.recurrence.repeating.repetitions import (
     Candidate,
     Repetitions,
@@ -156,7 +157,7 @@ def test_chance_is_told_from_any_number_of_repetitions(times: int) -> None:
         shared = np.sqrt(common) * rng.normal(0, 1, (1000, 15))
         parts = shared + np.sqrt(1 - common) * rng.normal(0, 1, (times, 1000, 15))
         left = float(candidate_kernels.unexplained(parts, 1.0).mean())
-        assert Candidate(np.arange(times + 1), 0, 0, left, 1.5).is_chance(0.6) == is_chance
+        assert Candidate(np.arange(times + 1), 0, 0, 0, left, 0, KINEME).is_chance(0.6) == is_chance
 
 
 @st.composite
@@ -169,9 +170,9 @@ def gains(draw: st.DrawFn) -> np.ndarray:
 @given(gains())
 @seconds
 def test_matched_lengths_are_those_of_the_naive_version(gained) -> None:
-    best, lengths = naive.matched_lengths(gained.tolist())
-    length = candidate_kernels.matched_length(gained)
-    assert length in lengths if best > 0 else length == 0
+    best, ends = naive.matched_lengths(gained.tolist(), 4.0)
+    found = following_kernels.matched(gained, 4.0)
+    assert found in ends if best > 0 else found == (0, 0)
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -182,14 +183,15 @@ def test_ways_are_judged_as_by_the_naive_versions(seed: int) -> None:
     path = np.append(0, np.cumsum(rng.integers(0, 3, 12))).astype(float)
     lengths = rng.uniform(0, path[-1] + 0.1, 5)
     expected = naive.poses_at(poses, path, lengths)
-    np.testing.assert_array_equal(candidate_kernels.poses_at(poses, path, lengths), expected)
+    np.testing.assert_array_equal(following_kernels.poses_at(poses, path, lengths), expected)
     parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
     for centering in (0.0, 0.4, 1.0):
         found = candidate_kernels.unexplained(parts, centering)
         np.testing.assert_allclose(found, naive.unexplained(parts, centering), atol=1e-12)
-    best, ends = naive.followed(poses, path, lengths, parts[0], 4.0)
-    length = candidate_kernels.followed(poses, path, lengths, parts[0], 4.0)
-    assert length in ends if best > 0 else length == 0
+    best, ends = naive.followed(poses, path, lengths, parts[0], 4.0, 2.0)
+    length, counted = following_kernels.followed(poses, path, lengths, parts[0], 4.0, 2.0)
+    known = min(ends, key=lambda end: abs(end[0] - length) + abs(end[1] - counted))
+    np.testing.assert_allclose((length, counted), known if best > 0 else (0, 0), atol=1e-9)
     visits = np.array([1, 5, 9])
     for part, (a, b) in zip(
         candidate_kernels.repetitions_between(poses, path, visits, 4),
@@ -210,6 +212,6 @@ def test_divisions_are_judged_as_by_the_naive_version(seed: int, count: int, smo
         np.testing.assert_allclose(found, expected, atol=1e-5)
     path = np.append(0, np.cumsum(speeds))
     visits = np.sort(rng.choice(np.arange(2, 39, 6), count, replace=False))
-    options = 6, 1.0, 1.5, 0.4
+    options = 6, 1.0, 1.5, 0.4, 0.2
     found = candidate_kernels.judged(poses, path, visits, *options)
     np.testing.assert_allclose(found, naive.judged(poses, path, visits, *options), atol=1e-9)

@@ -58,6 +58,7 @@ SENSORS = HierarchyPreset(
     counting_fps=25.0,
     centering=0.4,
     end_distance=0.65,
+    end_scatter=100.0,
     link_weights=weights.SENSOR_LINK,
     border_weights=weights.SENSOR_BORDER,
 )

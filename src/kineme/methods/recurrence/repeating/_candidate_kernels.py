@@ -10,7 +10,10 @@ import numpy as np
 from numba import njit
 
 from kineme._compiled import OPTIONS
+from kineme.methods.recurrence.repeating._following_kernels import followed, poses_at, steps_inside
 
+# Poses of an end that are farther than this share of the largest distance never count whole.
+FARTHEST = 0.9
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 
 
@@ -35,63 +38,6 @@ def smoothed(rows, smoothing):
             square += difference * difference
         speeds[f] = np.sqrt(square) / max(after - before, 1)
     return poses, speeds
-
-
-@njit("int64(float64[:, ::1])", **OPTIONS)
-def matched_length(gains):
-    """Columns up to which the rows follow them: the warped path of the largest gain.
-
-    Paths begin before the first row and column and take steps of (1, 1),
-    (1, 2) and (2, 1), weighed by their length. None if no path gains.
-    """
-    rows, columns = gains.shape
-    sums = np.full((rows + 2, columns + 2), -np.inf)
-    sums[1, 1] = 0
-    best, length = 0.0, 0
-    for i in range(rows):
-        for j in range(columns):
-            straight = sums[i + 1, j + 1] + 2 * gains[i, j]
-            bent = max(sums[i, j + 1], sums[i + 1, j]) + 3 * gains[i, j]
-            sums[i + 2, j + 2] = max(straight, bent)
-            if sums[i + 2, j + 2] > best:
-                best, length = sums[i + 2, j + 2], j + 1
-    return length
-
-
-@njit("float64[:, ::1](float64[:, ::1], float64[::1], float64[::1])", **OPTIONS)
-def poses_at(poses, path, lengths):
-    """The poses at these lengths along the path."""
-    found = np.empty((len(lengths), poses.shape[1]))
-    for i in range(len(lengths)):
-        low, high = 0, len(path)  # the first frame that is farther
-        while low < high:
-            middle = (low + high) // 2
-            if path[middle] <= lengths[i]:
-                low = middle + 1
-            else:
-                high = middle
-        frame = min(max(low - 1, 0), len(poses) - 1)
-        for d in range(poses.shape[1]):
-            found[i, d] = poses[frame, d]
-    return found
-
-
-@njit("int64(float64[:, ::1], float64[::1], float64[::1], float64[:, ::1], float64)", **SUMS)
-def followed(poses, path, lengths, mean, near):
-    """Places of the mean that the poses at these lengths follow.
-
-    They gain by being nearer than ``near``, a squared distance.
-    """
-    there = poses_at(poses, path, lengths)
-    gains = np.full((len(there), len(mean)), near)
-    for i in range(len(there)):
-        for j in range(len(mean)):
-            square = 0.0
-            for d in range(mean.shape[1]):
-                difference = there[i, d] - mean[j, d]
-                square += difference * difference
-            gains[i, j] -= square
-    return matched_length(gains)
 
 
 @njit("float64[::1](float64[:, :, ::1], float64)", **SUMS)
@@ -155,6 +101,13 @@ def upper_median(values):
     return ordered[len(values) // 2]
 
 
+@njit("float64(float64[::1])", **OPTIONS)
+def unevenness(lengths):
+    """Standard deviation of the logarithms of lengths, at most 1."""
+    logs = np.log(np.maximum(lengths, 1e-12))
+    return min(logs.std(), 1.0)
+
+
 @njit("float64[:, ::1](float64[:, :, ::1])", **OPTIONS)
 def mean_repetition(repetitions):
     """(places, dims): the mean of repetitions of (places, dims) each."""
@@ -170,29 +123,32 @@ def mean_repetition(repetitions):
     return mean
 
 
-@njit("float64[::1](float64, float64, int64, int64, float64)", **OPTIONS)
-def steps_inside(begin, step, places, number, whole):
-    """Lengths of so many steps from ``begin`` on, ``places`` a step, that lie on the path."""
-    lengths = np.empty(number)
-    count = 0
-    for i in range(number):
-        length = begin + (i + 0.5) / places * step
-        if 0 <= length <= whole:
-            lengths[count] = length
-            count += 1
-    return lengths[:count]
+@njit("float64(float64[:, :, ::1], float64[:, ::1])", **SUMS)
+def scatter(repetitions, mean):
+    """Mean square distance of the poses of repetitions from those of their mean; 0 of one."""
+    count, places, dims = repetitions.shape
+    total = 0.0
+    for k in range(count):
+        for p in range(places):
+            for d in range(dims):
+                difference = repetitions[k, p, d] - mean[p, d]
+                total += difference * difference
+    return total / (places * max(count - 1, 1))
 
 
 @njit(
-    "Tuple((float64, float64, float64))(float64[:, ::1], float64[::1], int64[::1], int64, float64,"
-    " float64, float64)",
+    "Tuple((float64, float64, float64, float64, float64))(float64[:, ::1], float64[::1],"
+    " int64[::1], int64, float64, float64, float64, float64)",
     **OPTIONS,
 )
-def judged(poses, path, visits, places, near, followed_for, centering):
-    """Shares of a repetition before the first visit and after the last, and what is unexplained.
+def judged(poses, path, visits, places, near, followed_for, centering, scattered):
+    """Shares of a repetition at both ends, what of them counts, what is unexplained, how uneven.
 
-    Ends are followed for so many repetitions, by poses nearer than ``near``, a squared
-    distance, to the mean of those between the visits. Unexplained is a share of the activity.
+    The ends are what lies before the first visit and after the last. They are followed for so
+    many repetitions, by poses nearer than ``near``, a squared distance, to the mean of those
+    between the visits, and count whole where they are as near to it as these are, ``scattered``
+    times their mean square distance. Unexplained is a share of the activity; uneven are the
+    paths between the visits.
     """
     whole = path[-1]
     count = len(visits) - 1
@@ -206,8 +162,12 @@ def judged(poses, path, visits, places, near, followed_for, centering):
     number_of_steps = int(places * followed_for)
     before = steps_inside(first, -length, places, number_of_steps, whole)
     after = steps_inside(last, length, places, number_of_steps, whole)
-    head = followed(poses, path, before, np.ascontiguousarray(mean[::-1]), near) / places
-    tail = followed(poses, path, after, mean, near) / places
+    alike = FARTHEST * near
+    if count > 1:
+        alike = min(scattered * scatter(inner, mean), alike)
+    to_head, in_head = followed(poses, path, before, np.ascontiguousarray(mean[::-1]), near, alike)
+    to_tail, in_tail = followed(poses, path, after, mean, near, alike)
+    head, tail = to_head / places, to_tail / places
     outside = max(first - head * length, 0.0) + max(whole - last - tail * length, 0.0)
     number = count + head + tail
     if count == 1:  # compared with what comes after it, and goes on at the beginning
@@ -227,4 +187,4 @@ def judged(poses, path, visits, places, near, followed_for, centering):
     total = (shares.sum() / count * known + outside) / whole
     for k in range(count):  # what lies between two visits counts as a repetition, however short
         total += max(lengths[k] / whole, 1 / number) * shares[k]
-    return head, tail, total
+    return head, tail, (in_head + in_tail) / places, total, unevenness(lengths)

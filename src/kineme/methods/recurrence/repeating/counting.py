@@ -46,6 +46,10 @@ class CountingPreset(ConfidencePreset):
         "an end belongs to a repetition as long as it is nearer than this share of the variance",
         limits=SHARE, fine=True, default=0.5,
     )  # fmt: skip
+    end_scatter: float = constant(
+        "an end counts whole where its square distance from the mean repetition is this times that "
+        "of repetitions at most, and less beyond", limits=FACTOR, fine=True, default=2.0,
+    )  # fmt: skip
     centering: float = constant(
         "share of its mean pose taken off each repetition before it is compared with others: of 1, "
         "only how it moves counts, of 0, where it is counts as much",
@@ -54,6 +58,10 @@ class CountingPreset(ConfidencePreset):
     length_cost: float = constant(
         "cost of the repetition that the others are compared with, per share of the activity",
         limits=FACTOR, fine=True, default=1.5,
+    )  # fmt: skip
+    uneven_cost: float = constant(
+        "cost of repetitions with paths of uneven length, per standard deviation of its logarithm",
+        limits=FACTOR, fine=True, default=0.2,
     )  # fmt: skip
     max_unexplained: float = constant(
         "where the mean of any number of repetitions would leave more than this share unexplained, "

@@ -5,7 +5,9 @@ activity, as that goes by, dips as often. How many of its dips are visits is not
 known. So the deepest two, three, ... of several poses each are one *candidate*
 division of the activity, and the best is the one whose repetitions are most
 similar: each is compared with the mean of all others. Of a candidate, what lies
-before the first visit and after the last counts by how far it follows the mean.
+before the first visit and after the last counts by how far it follows the mean,
+and the less the farther it is from it than repetitions are: a step that fades into
+the next movement is part of one. Their paths should be about as long as each other.
 
 Repetitions are compared along their path, not in time, so that pace does not
 matter and a rest has no length; and apart from their size, so that a deep bend
@@ -33,6 +35,8 @@ Frames = NDArray[np.int64]
 
 # An end is followed for as long as one and a half repetitions.
 FOLLOWED = 1.5
+# From this on a part of a repetition is one.
+ROUNDED_UP = 0.35
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,29 +81,35 @@ class Candidate:
         Frames at which a pose is visited.
     before, after : float
         Share of a repetition before the first visit, and after the last.
+    ends : float
+        What of these counts, the less the farther it is from the others.
     unexplained : float
         Share of the activity that the other repetitions do not explain.
-    length_cost : float
-        Of the preset.
+    uneven : float
+        Standard deviation of the logarithms of the paths between the visits.
+    preset : CountingPreset
     """
 
     visits: Frames
     before: float
     after: float
+    ends: float
     unexplained: float
-    length_cost: float
+    uneven: float
+    preset: CountingPreset
 
     @property
     def cost(self) -> float:
-        return self.unexplained + self.length_cost / self.number
+        length_cost = self.preset.length_cost / self.number
+        return self.unexplained + length_cost + self.preset.uneven_cost * self.uneven
 
     @property
     def number(self) -> float:
-        return len(self.visits) - 1 + self.before + self.after
+        return len(self.visits) - 1 + self.ends
 
     @property
     def whole(self) -> int:
-        return int(self.number + 0.5)
+        return _whole(self.number)
 
     def is_chance(self, most: float) -> bool:
         """Whether the mean of however many repetitions would leave more than ``most`` unexplained.
@@ -151,7 +161,7 @@ def repetitions(
         if each.cost <= best.cost + preset.same_cost
         and abs(each.number - best.number) <= preset.same_count
     ]
-    count = int(np.mean([each.number for each in same]) + 0.5)
+    count = _whole(float(np.mean([each.number for each in same])))
     divisions = [cuts for each in same if (cuts := each.cuts(count)) is not None]
     if not divisions:
         count = best.whole
@@ -210,6 +220,8 @@ def _dips(
     large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
     noise = np.float32(preset.noise_share)
     depths, centers = kernels.dips(distances, noise * large)
+    most = max(int(np.count_nonzero(depths.any(axis=0))), 1)  # the others have none
+    depths, centers = depths[:, :most], centers[:, :most]
     shares = np.minimum(depths / large[:, None], 1)
     return np.maximum(shares - noise, 0), centers
 
@@ -217,8 +229,14 @@ def _dips(
 def _candidate(
     movement: Movement, visits: Frames, preset: CountingPreset, centering: float
 ) -> Candidate:
-    before, after, unexplained = candidate_kernels.judged(
+    before, after, ends, unexplained, uneven = candidate_kernels.judged(
         movement.poses, movement.path, visits, preset.path_points,
         preset.end_distance * movement.variance, FOLLOWED, centering,
+        preset.end_scatter,
     )  # fmt: skip
-    return Candidate(visits, before, after, unexplained, preset.length_cost)
+    return Candidate(visits, before, after, ends, unexplained, uneven, preset)
+
+
+def _whole(number: float) -> int:
+    """How many repetitions so many are, parts of them included."""
+    return int(number + 1 - ROUNDED_UP)
