@@ -2,8 +2,7 @@
 
     python benchmarks/left_out.py [--quick] [--only CONSTANT ...]
 
-`narrow_share`, `distinct_share`, `link_gap`, `sure_pace` and `min_periodic` one by one: mean of
-one-to-one accuracy and border F1 (and of the share of counts that are exact, where
+Each constant of `VALUES` by itself: mean of one-to-one accuracy and border F1 (and of the share of counts that are exact, where
 counts are known) of each value on subject 86, HDM05 sequences, synthetic recordings at
 different speeds, and short exercises back to back and with somebody standing between
 them; and mean of recall and precision of sparse events. Then, for each source, the value
@@ -36,6 +35,10 @@ VALUES = {
     "link_gap": (0.15, 0.2, 0.25, 0.3, 0.4),
     "sure_pace": (0.0, 0.75, 0.8, 0.9, 1.0),
     "min_periodic": (0.25, 0.35, 0.5, 0.6, 0.75),
+    "link_common": (0.25, 0.3, 0.35, 0.4, 0.45),
+    "pair_factor": (1.0, 1.5, 2.0, 2.5, 3.0),
+    "end_scatter": (1.0, 1.5, 2.0, 3.0, 4.0),
+    "uneven_cost": (0.0, 0.1, 0.2, 0.3, 0.4),
 }
 JUDGED = ("one_to_one", "border_f1", "count_exact")
 PLATEAU = 0.005
