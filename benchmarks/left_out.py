@@ -1,12 +1,12 @@
-"""Constants of short exercises, chosen with each source of recordings left out.
+"""Constants of the method for bodies, chosen with each source of recordings left out.
 
     python benchmarks/left_out.py [--quick] [--only CONSTANT ...]
 
-Each constant of `VALUES` by itself: mean of one-to-one accuracy and border F1 (and of the share of counts that are exact, where
-counts are known) of each value on subject 86, HDM05 sequences, synthetic recordings at
-different speeds, and short exercises back to back and with somebody standing between
-them; and mean of recall and precision of sparse events. Then, for each source, the value
-that is best on all others, and what the source loses with it. The values shown as chosen
+Each constant of `VALUES` by itself: mean of one-to-one accuracy and border F1 (and of the share
+of counts that are exact, where counts are known) of each value on subject 86, HDM05 sequences,
+synthetic recordings at different speeds, and short exercises back to back and with somebody
+standing between them; and mean of recall and precision of sparse events. Then, for each source,
+the value that is best on all others, and what the source loses with it. The values shown as chosen
 are in the middle of those within 0.005 of the best.
 """
 
