@@ -244,8 +244,6 @@ class Library:
         return len(self.recordings["recording"])
 
     def __repr__(self) -> str:
-        n, clusters = len(self), len(set(self._tables.columns("words")["cluster"].tolist()))
-        return (
-            f"<Library of {counted(n, 'recording')} ({self.hours:.2g} h), "
-            f"{counted(clusters, 'cluster')}>"
-        )
+        words = self._tables.columns("words")["cluster"].tolist()
+        recordings, clusters = counted(len(self), "recording"), counted(len(set(words)), "cluster")
+        return f"<Library of {recordings} ({self.hours:.2g} h), {clusters}>"
