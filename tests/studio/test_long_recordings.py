@@ -64,6 +64,25 @@ def test_segments_that_take_long_are_waited_for_by_files_and_not_by_pages(tmp_pa
     assert not recordings.message(name).finding
 
 
+def test_an_edit_of_found_segments_waits_for_a_server_that_finds_them_again(tmp_path, monkeypatch):
+    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
+    before = OpenRecordings(Folder(tmp_path), lambda *_: None)
+    (name,) = before.folder.recordings()
+    seen = before.message(name)
+    wanted, first_table = threading.Event(), LoadedRecording.first_table
+    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
+    monkeypatch.setattr(
+        LoadedRecording, "first_table", lambda loaded: wanted.wait(60) and first_table(loaded)
+    )
+    again = OpenRecordings(Folder(tmp_path), lambda *_: None)
+    assert again.message(name).finding
+    threading.Timer(0.2, wanted.set).start()
+    split = EditRequest(revision=seen.revision, edit=Split(level="activity", frame=100))
+    made = again.edit(name, split)
+    assert len(made.segmentation.segments) > len(seen.segmentation.segments)
+    assert made.segmentation.segments[0].stop_frame == 100
+
+
 def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypatch):
     shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
 

@@ -82,11 +82,11 @@ class OpenRecording:
         elif digest_in(table) not in ("", self.loaded.provenance.sha256):
             self._notes = [*self._notes, f"{path.name} has changed since its table was made"]
         self._table, self._journal = table, Journal(self._file.path, table)
-        self.revision = max(revision, self._journal.revision)
+        self.revision = max(revision, self._journal.revision) - self.finding  # one more once found
 
     @property
     def finding(self) -> bool:
-        """Whether its segments are still to be found; until then nothing can be edited."""
+        """Whether its segments are still to be found; until then there is nothing to edit."""
         return self._first is not None
 
     def find(self) -> None:
@@ -102,7 +102,7 @@ class OpenRecording:
                 return
             self._first = None
             self._notes = [*self._notes, *notes]
-            self.revision = max(self.revision, self._journal.revision) + 1
+            self.revision += 1
             if not self._file.changed():  # else another program has left a table
                 self._table, self._journal = table, Journal(self._file.path, table)
 
@@ -171,9 +171,10 @@ class OpenRecording:
         KinemeError
             The edit cannot be made, or its result cannot be saved.
         """
+        if self.finding and revision == self.revision:
+            raise ParameterError(STILL_FINDING)
+        self.find()  # what a page could not send to the server before this one waits for its table
         with self._lock:
-            if self.finding:
-                raise ParameterError(STILL_FINDING)
             if self._journal.knows(name):
                 return self._edited([])
             if revision != self.revision:
@@ -211,10 +212,9 @@ class OpenRecording:
         return Comparison(name=at, segmentation=segments_message(table), scores={})
 
     def _after(self, edit: Edit, files: Surroundings) -> tuple[Change, list[str]]:
-        if isinstance(edit, Undo):
-            return self._journal.undone(), []
-        if isinstance(edit, Redo):
-            return self._journal.redone(), []
+        if isinstance(edit, Undo | Redo):
+            undo = isinstance(edit, Undo)
+            return self._journal.undone() if undo else self._journal.redone(), []
         outcome = edited(self._table, edit, self.loaded, files, self._version)
         change = self._journal.changed(outcome.table, edit, replaced=outcome.replaced)
         return change, outcome.notes

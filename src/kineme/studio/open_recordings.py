@@ -138,11 +138,11 @@ class OpenRecordings:
 
     def _read(self, name: str, instead: Sketched) -> None:
         """Open a recording that is shown as a sketch, and say when it is there, or cannot be."""
-        revision = 1
+        revision = OF_SKETCH + 1  # a page asks anew for any other than its own
         with suppress(KinemeError, UnknownError):
             opened = self.get(name)
             opened.loaded.page_data()
-            revision = opened.revision
+            revision = max(revision, opened.revision)
         instead.reading = False
         self._changed(name, revision)
 
