@@ -40,5 +40,4 @@ def test_two_minutes_are_there_soon_and_play_smoothly(new_tab, server, two_minut
     first_picture = page.evaluate("performance.now()") / 1000
     assert first_picture < FIRST_PICTURE
     page.keyboard.press("Space")
-    page.wait_for_timeout(2500)
-    assert screen.state["rate"] > RATE
+    screen.wait(f"k.rate > {RATE}")  # a new server compiles code of other presets meanwhile
