@@ -20,6 +20,7 @@ from dataclasses import replace
 import numpy as np
 
 import short_exercises
+from _plateau import middle_of_best
 from _recordings import Case, hdm05, subject_86, synthetic
 from _sparse_recordings import SparseCase, sparse_events
 from kineme.evaluation import evaluate_segmentation
@@ -73,12 +74,6 @@ def slowly(case: SparseCase) -> SparseCase:
     return replace(case, motion=motion, events=events)
 
 
-def middle_of_best(scores: Sequence[float]) -> int:
-    """The middle one of the values that are about as good as the best."""
-    near = np.flatnonzero(np.array(scores) >= max(scores) - PLATEAU)
-    return int(near[len(near) // 2])
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a quarter of the seeds")
@@ -109,7 +104,7 @@ def main() -> None:
         print(f"\n{constant:18}" + "".join(f"{value:8g}" for value in values) + "  left out: loss")
         for row, name in enumerate([*recordings, EVENTS]):
             others = np.delete(table, row, axis=0).mean(axis=0)
-            chosen = middle_of_best(others.tolist())
+            chosen = middle_of_best(others.tolist(), PLATEAU)
             loss = table[row, values.index(getattr(KINEME, constant))] - table[row, chosen]
             cells = "".join(f"{score:8.3f}" for score in table[row])
             print(f"{name:18}{cells}  {values[chosen]:g}: {loss:+.3f}")

@@ -24,6 +24,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from _plateau import middle_of_best
 from kineme.evaluation.comparison import Comparison, compare
 from kineme.evaluation.recordings import recordings_below
 from kineme.evaluation.score import over_all, scores
@@ -61,12 +62,6 @@ def judged(found: Sequence[Comparison]) -> list[float]:
     return [100 * over_all([scores()[key].function(one) for one in found]) for key in JUDGED]
 
 
-def middle_of_best(means: Floats) -> int:
-    """The middle one of the values that are about as good as the best."""
-    near = np.flatnonzero(means >= means.max() - PLATEAU)
-    return int(near[len(near) // 2])
-
-
 def show(tried: Sequence[Changed], figures: Floats) -> None:
     """Of figures (sets, values, judged): the table, and what each set loses when left out."""
     means = figures.mean(axis=2)
@@ -78,7 +73,7 @@ def show(tried: Sequence[Changed], figures: Floats) -> None:
         values = " ".join(f"{value:15g}" for value in each.values())
         print(values + "".join(f"{cell:10.1f}" for cell in row) + f"{row.mean():10.1f}")
     for i, name in enumerate(SETS):
-        at = middle_of_best(np.delete(means, i, axis=0).mean(axis=0))
+        at = middle_of_best(np.delete(means, i, axis=0).mean(axis=0).tolist(), PLATEAU)
         lost = figures[i, shipped] - figures[i, at]
         chosen = ", ".join(f"{key} {value:g}" for key, value in tried[at].items())
         print(

@@ -37,7 +37,7 @@ def _repeated(columns: dict[int, Floats], times: int, rest: float) -> Floats:
     return np.tile(once, (times, 1))
 
 
-def measured(*parts: Floats) -> Recurrence:
+def measured(*parts: Floats, **overrides: int) -> Recurrence:
     """How movements recur that follow each other, ten samples a second."""
     options = {
         "step": 3,
@@ -47,4 +47,4 @@ def measured(*parts: Floats) -> Recurrence:
         "low": 0.08,
         "high": 0.16,
     }
-    return recurrence(np.concatenate(parts), **options, softness=1.6)
+    return recurrence(np.concatenate(parts), **{**options, **overrides}, softness=1.6)

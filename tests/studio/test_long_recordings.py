@@ -24,13 +24,19 @@ from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest
 
 
-def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatch):
-    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
+def held_back(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
+    """Segments are found from now on once this is set."""
     wanted, first_table = threading.Event(), LoadedRecording.first_table
-    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
     monkeypatch.setattr(
         LoadedRecording, "first_table", lambda loaded: wanted.wait(60) and first_table(loaded)
     )
+    return wanted
+
+
+def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatch):
+    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
+    wanted = held_back(monkeypatch)
+    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
     told: queue.Queue[tuple[str, int]] = queue.Queue()
     recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
     (name,) = recordings.folder.recordings()
@@ -50,11 +56,8 @@ def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatc
 
 def test_segments_that_take_long_are_waited_for_by_files_and_not_by_pages(tmp_path, monkeypatch):
     shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
-    wanted, first_table = threading.Event(), LoadedRecording.first_table
+    wanted = held_back(monkeypatch)
     monkeypatch.setattr("kineme.studio.first_segments.SOON", 0.1)
-    monkeypatch.setattr(
-        LoadedRecording, "first_table", lambda loaded: wanted.wait(60) and first_table(loaded)
-    )
     recordings = OpenRecordings(Folder(tmp_path), lambda *_: None)
     (name,) = recordings.folder.recordings()
     assert recordings.message(name).finding
@@ -69,11 +72,8 @@ def test_an_edit_of_found_segments_waits_for_a_server_that_finds_them_again(tmp_
     before = OpenRecordings(Folder(tmp_path), lambda *_: None)
     (name,) = before.folder.recordings()
     seen = before.message(name)
-    wanted, first_table = threading.Event(), LoadedRecording.first_table
+    wanted = held_back(monkeypatch)
     monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
-    monkeypatch.setattr(
-        LoadedRecording, "first_table", lambda loaded: wanted.wait(60) and first_table(loaded)
-    )
     again = OpenRecordings(Folder(tmp_path), lambda *_: None)
     assert again.message(name).finding
     threading.Timer(0.2, wanted.set).start()

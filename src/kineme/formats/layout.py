@@ -85,7 +85,7 @@ def has_commas(rows: Sequence[str], separator: str) -> bool:
     """Whether numbers in these rows have a decimal comma."""
     if separator == ",":
         return False
-    cells = [cell for row in islice(_full(rows), _LOOKED_AT) for cell in _cells(row, separator)]
+    cells = [cell for row in islice(_full(rows), _LOOKED_AT) for cell in cells_of(row, separator)]
     return any(map(_COMMA.fullmatch, cells)) and not any("." in c for c in cells if _is_number(c))
 
 
@@ -107,11 +107,11 @@ def _heads(lines: Sequence[str], full: Sequence[int], at: int, separator: str | 
     """Whether names stand in a line, rows of as many cells below it, and fewer cells above it."""
     head = lines[full[at]]
     sep = separator or separator_of(head)
-    if sep not in head or _has(_cells(head, sep), _is_number):
+    if sep not in head or _has(cells_of(head, sep), _is_number):
         return False
     width = head.count(sep) + 1
     above = (lines[i].strip().rstrip(sep) for i in full[:at])  # spreadsheets fill lines up
-    rows = [_cells(lines[i], sep) for i in full[at + 1 : at + 4]]
+    rows = [cells_of(lines[i], sep) for i in full[at + 1 : at + 4]]
     rows = rows[1:] if rows and not _has(rows[0], _is_number) else rows[:2]
     return (
         bool(rows)
@@ -122,7 +122,7 @@ def _heads(lines: Sequence[str], full: Sequence[int], at: int, separator: str | 
 
 def _is_units(lines: Sequence[str], full: Sequence[int], separator: str) -> bool:
     """Whether words stand below the names, and numbers below these."""
-    names, *rows = (_cells(lines[i], separator) for i in full[:3])
+    names, *rows = (cells_of(lines[i], separator) for i in full[:3])
     if len(rows) < 2 or separator not in lines[full[0]] or _has(names, _is_number):
         return False
     words = [i for i, cell in enumerate(rows[0]) if cell.lower() not in EMPTY]
@@ -134,7 +134,8 @@ def _is_units(lines: Sequence[str], full: Sequence[int], separator: str) -> bool
     )
 
 
-def _cells(line: str, separator: str) -> list[str]:
+def cells_of(line: str, separator: str) -> list[str]:
+    """The cells of a line, without blanks and quotes around them."""
     return [cell.strip().strip('"').strip() for cell in line.split(separator)]
 
 

@@ -5,18 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from kineme.methods.recurrence.actions import refine
-from kineme.methods.recurrence.preset import KINEME
-from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
-from loops import swing
+from loops import measured, swing
 
-OPTIONS = {
-    "step": 3,
-    "width": 600,
-    "phases": phase_windows(12, KINEME.phase_shares),
-    "rank": 30,
-    "low": 0.08,
-    "high": 0.16,
-}
 COSTS = {
     "least_similarity": 0.2,
     "least_own": 0.05,
@@ -25,10 +15,6 @@ COSTS = {
     "no_action_cost": 0.55,
     "min_length": 10,
 }
-
-
-def measured(*parts: np.ndarray, **overrides: int) -> Recurrence:
-    return recurrence(np.concatenate(parts), **{**OPTIONS, **overrides}, softness=1.6)
 
 
 WALK, TURN = swing(8, period=1), swing(10, period=1.2, axis=2)

@@ -5,25 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from kineme.methods.recurrence.actions import Actions
-from kineme.methods.recurrence.preset import KINEME
-from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
+from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.transitions import activity_ends, leading
-from loops import swing
+from loops import measured, swing
 
-OPTIONS = {
-    "step": 3,
-    "width": 600,
-    "phases": phase_windows(12, KINEME.phase_shares),
-    "rank": 30,
-    "low": 0.08,
-    "high": 0.16,
-}
 ENDS = {"factor": 1.15, "spread": 0.3, "usual": 0.9, "largest_share": 0.25}
 WALK, TURN = swing(8, period=1), swing(10, period=1.2, axis=2)
-
-
-def measured(*parts: np.ndarray) -> Recurrence:
-    return recurrence(np.concatenate(parts), **OPTIONS, softness=1.6)
 
 
 def leap(seconds: float) -> np.ndarray:

@@ -17,7 +17,7 @@ from kineme.formats.columns import dated, is_timing
 from kineme.formats.delimited import EMPTY, rows_of
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut
-from kineme.formats.layout import COMMAS, dotted, first_full, has_commas, layout_of
+from kineme.formats.layout import COMMAS, cells_of, dotted, first_full, has_commas, layout_of
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class TextTable:
         if ended or separator not in lines[first]:
             lines[first:] = ["\t".join(line.split()) for line in lines[first:]]
             separator = "\t"
-        cells = _cells(lines[first], separator)
+        cells = cells_of(lines[first], separator)
         if any(map(_is_number, cells)) and not any(map(is_timing, cells)):
             names, below = [str(i) for i in range(1, len(cells) + 1)], first
         else:
@@ -88,7 +88,7 @@ class TextTable:
     def first_cells(self) -> list[str]:
         """The cells of the first row that is not blank."""
         row = first_full(self.rows)
-        return _cells(row, self.separator) if row else []
+        return cells_of(row, self.separator) if row else []
 
 
 def text_channels(
@@ -129,10 +129,6 @@ def text_channels(
     table = channel_table(content, text.names, dict(zip(wanted, values.T, strict=True)), columns)
     commas = (COMMAS,) if text.comma else ()
     return replace(table, notes=(*text.notes, *commas, *table.notes))
-
-
-def _cells(line: str, separator: str) -> list[str]:
-    return [cell.strip().strip('"').strip() for cell in line.split(separator)]
 
 
 def _is_number(cell: str) -> bool:
