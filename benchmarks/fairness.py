@@ -3,7 +3,9 @@
     python benchmarks/fairness.py [--quick] [--record]
 
 - **subject 86**: five trials, beside uniform cuts and the recorded runs of ACA
-  and HACA, which are told the number of classes (mean of their five seeds).
+  and HACA, which are told the number of classes (mean of their five seeds), and what
+  the annotators' own borders score: cut at their means, and with the spans in which they
+  differ as transitions.
 - **HDM05**: exercises of three actors, joined in random order, 50 seeds.
 - **synthetic**: 100 seeds per condition (see ``_recordings.synthetic``).
 - **the same recording** larger, turned, in another unit, at another rate or in
@@ -82,6 +84,15 @@ def uniform_scores(cases: Iterable[Case]) -> Scores:
         return evaluate(truth, Labelling.from_cuts(cuts, frames=truth.frames, fps=truth.fps))
 
     return mean(score(case.truth) for case in cases)
+
+
+def annotators_scores(cases: Iterable[Case]) -> dict[str, Scores]:
+    """What nobody's borders can be far above: those of the people who made the truth."""
+    truths = [case.truth for case in cases]
+    return {
+        "means of annotators": mean(evaluate(truth, truth.at_means()) for truth in truths),
+        "spans of annotators": mean(evaluate(truth, truth.labelling()) for truth in truths),
+    }
 
 
 def recorded_scores(cases: Iterable[Case], method: str) -> Scores:
@@ -164,6 +175,7 @@ def main() -> None:
     scores = by_presets(cases)
     scores |= {method: recorded_scores(cases, method) for method in ("aca", "haca")}
     scores["uniform 0.5 s"] = uniform_scores(cases)
+    scores |= annotators_scores(cases)
     show("subject 86", scores, PROMISED["subject 86"])
     for label, row in scores.items():
         for name, value in row.items():
