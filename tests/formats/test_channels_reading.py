@@ -88,6 +88,15 @@ def test_joints_with_decimal_commas(tmp_path) -> None:
     assert "numbers have a decimal comma" in motion.provenance.notes
 
 
+def test_decimal_commas_are_those_of_numbers_alone(tmp_path) -> None:
+    dates = "".join(f"2026-01-31 09:30:00,{i}00;{i},5;1,25\n" for i in range(9))
+    path = write(tmp_path, "a.csv", "time;acc_x;acc_y\n" + dates)
+    assert read(path).fps == 10
+    path = write(tmp_path, "b.csv", path.read_text().replace("3,5", "1,203,5"))
+    with pytest.raises(ReadError, match="line 5: '1,203,5' is not a number"):
+        read(path)
+
+
 def test_names_as_windows_writes_them(tmp_path) -> None:
     path = tmp_path / "a.csv"
     path.write_bytes("time,Größe (m/s²)\n0,1\n0.1,2\n".encode("cp1252"))

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from kineme._counts import counted
-from kineme.formats.delimited import EMPTY, separator_of
+from kineme.formats.delimited import EMPTY, has_comma, separator_of
 from kineme.formats.timing import is_date
 
 HIGHEST = 200
@@ -24,7 +24,6 @@ COMMAS = "numbers have a decimal comma"
 
 _LOOKED_AT = 50  # rows in which a decimal comma is looked for
 _SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
-_COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 _NUMBER = re.compile(r"\s*[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?\s*")
 
 
@@ -86,12 +85,7 @@ def has_commas(rows: Sequence[str], separator: str) -> bool:
     if separator == ",":
         return False
     cells = [cell for row in islice(_full(rows), _LOOKED_AT) for cell in cells_of(row, separator)]
-    return any(map(_COMMA.fullmatch, cells)) and not any("." in c for c in cells if _is_number(c))
-
-
-def dotted(cell: str) -> str:
-    """A cell with a decimal point in place of a decimal comma; other text as it is."""
-    return cell.replace(",", ".") if _COMMA.fullmatch(cell) else cell
+    return any(map(has_comma, cells)) and not any("." in c for c in cells if _is_number(c))
 
 
 def first_full(rows: Sequence[str]) -> str:

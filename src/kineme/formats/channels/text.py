@@ -14,10 +14,10 @@ from kineme.formats.channels.table import (
     wanted_columns,
 )
 from kineme.formats.columns import dated, is_timing
-from kineme.formats.delimited import EMPTY, rows_of
+from kineme.formats.delimited import EMPTY, dotted, rows_of
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut
-from kineme.formats.layout import COMMAS, cells_of, dotted, first_full, has_commas, layout_of
+from kineme.formats.layout import COMMAS, cells_of, first_full, has_commas, layout_of
 
 
 @dataclass(frozen=True)
