@@ -8,7 +8,7 @@ is listed at once. Opened are
 - npz archives, whose directory names ``poses``, ``positions``, a time, a rate or the
   coordinates of a joint;
 - JSON and text, which may hold anything and are recordings only if a format knows their
-  first bytes.
+  first bytes, or those and the last ones of JSON: sets of COCO often begin with their images.
 
 A file that cannot be judged (damaged, gone, closed to us) is passed over with its name and
 the reason; it never ends the listing.
@@ -148,8 +148,8 @@ def _is_recording(path: Path) -> bool:
     if not formats or suffix in _SKELETONS:
         return False
     if suffix in _ANYTHING:
-        head = head_of(path)
-        return any(known.recognises(head) for known in formats)
+        ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
+        return any(known.recognises(ends) for known in formats)
     if suffix in (".csv", ".tsv"):
         return not _names_spans(head_of(path))
     if suffix == ".parquet":
