@@ -326,6 +326,9 @@ def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
         "1 missing value filled in a straight line",
         "1 gap of more than 0.2 s, 20 frames",
     )
+    cells[10] = "10,10"
+    whole = read(write(tmp_path, "c.csv", "a,b\n" + "\n".join(cells)), fps=50)
+    assert whole.provenance.notes == ("1 gap of more than 0.2 s, 20 frames",)
     with pytest.raises(ReadError, match="column 'b' holds no number"):
         read(write(tmp_path, "b.csv", "a,b\n1,\n2,\n"), fps=50)
 

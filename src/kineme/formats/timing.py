@@ -32,6 +32,9 @@ UNEVEN = 0.1
 UNITS_OF_TIME = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "μs": 1e6, "ns": 1e9}
 """How many of each make a second."""
 
+NO_TIMES = "holds neither numbers nor ISO dates such as 2026-01-31T09:30:00.25"
+"""What is said of a column that is called as times are, and tells none."""
+
 _ORDINARY = 0.5  # share of the median step by which an ordinary step differs from it at most
 _MOST = 2 / 3  # share of steps that are ordinary, else the rate is that of the whole duration
 _ADDS_UP = 0.1  # share by which steps of whole periods may miss the duration
