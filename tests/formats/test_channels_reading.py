@@ -333,6 +333,17 @@ def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
         read(write(tmp_path, "b.csv", "a,b\n1,\n2,\n"), fps=50)
 
 
+@pytest.mark.parametrize("column", ["device", "person_id", "Joint"])
+@pytest.mark.parametrize("channels", ["x,y", "head_x,head_y"])
+def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels) -> None:
+    rows = [f"{i // 2 / 50},{'AB'[i % 2]},{i % 7}.5,0.25\n" for i in range(40)]
+    path = write(tmp_path, "a.csv", f"time,{column},{channels}\n" + "".join(rows))
+    with pytest.raises(ReadError, match=rf"told apart by column '{column}' \(A, B\)"):
+        read(path)
+    path.write_text(path.read_text().replace("B", "A"), encoding="utf-8")
+    assert read(path).n_frames == 40
+
+
 def test_opensim_tables(tmp_path) -> None:
     path = write(tmp_path, "a.mot", MOT + "0.0\t1\t2\n0.01 3   4\n0.02\t5\t6\n")
     signals = read(path)

@@ -20,6 +20,7 @@ from kineme.formats.columns import columns_to_motion, dated, is_timing, is_used
 from kineme.formats.delimited import EMPTY, rows_of
 from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
 from kineme.formats.gaps import unseen
+from kineme.formats.interleaved import refuse_interleaved
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut, read_deeplabcut
 from kineme.formats.layout import COMMAS, first_full, has_commas, is_number, layout_of
 from kineme.formats.options import ReadOptions
@@ -76,6 +77,7 @@ def _read_motion(content: FileContent, options: ReadOptions) -> Motion:
     for recognises, reader in POSE_TABLES:
         if recognises(names):
             return reader(table, options)
+    refuse_interleaved(content, names, lines[layout.below :], separator)
     timeless = options.fps is not None
     used = [i for i, n in enumerate(names) if is_used(n) and not (timeless and is_timing(n))]
     below, line = lines[layout.below :], layout.below + 1
