@@ -64,6 +64,16 @@ def test_what_is_worth_a_warning_is_warned_of_once(tmp_path: Path) -> None:
     assert quiet.provenance == motion.provenance
 
 
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [("a.fbx", "export BVH or C3D"), ("a.xlsx", "save it as CSV"), ("a.csv.gz", "unpack it first")],
+)
+def test_files_that_people_try(tmp_path: Path, name: str, what: str) -> None:
+    (tmp_path / name).write_bytes(b"PK\x03\x04")
+    with pytest.raises(ReadError, match=f"is not read: {what}"):
+        kineme.read(tmp_path / name)
+
+
 @pytest.mark.usefixtures("known")
 def test_a_format_of_another_package(tmp_path: Path, monkeypatch) -> None:
     register(TOY)

@@ -403,6 +403,7 @@ def _npy() -> bytes:
 
 SOUND = {
     "a.csv": table(body(4), time=TIMES).encode(),
+    "b.csv": b"Trajectories\n100\n,,A,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2,3\n2,0,1,2,4\n",
     "a.trc": TRC.encode(),
     "a.npy": _npy(),
     "a.npz": _npz(False, positions=body(4), fps=30.0, names=np.array(JOINTS)),

@@ -109,6 +109,7 @@ PARENTS = {
 
 _SIDES = {"l": "L", "left": "L", "r": "R", "right": "R"}
 _SIDE_AT_THE_END = re.compile(r"([A-Z]+)([lr])")
+_NAMELESS = re.compile(r"\*.*|unlabel+ed.*|c_\d{3,}|\d+", re.IGNORECASE)
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
 
@@ -152,6 +153,11 @@ def plain(name: str) -> str:
             words.insert(0, _SIDES[words.pop(place).lower()])
             break
     return "".join(words).upper()
+
+
+def is_nameless(name: str) -> bool:
+    """Whether a program has called a marker so that nobody had named, as ``*12``."""
+    return _NAMELESS.fullmatch(name.rpartition(":")[2]) is not None
 
 
 def of_one_subject(names: Sequence[str]) -> tuple[list[str], list[str]]:

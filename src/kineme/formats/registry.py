@@ -87,6 +87,15 @@ class Format:
     sketch: Callable[[FileContent, ReadOptions, int], Sketch | None] | None = None
 
 
+_EXPORT = "export BVH or C3D from the program that made it"
+_UNPACK = "unpack it first"
+INSTEAD = {
+    **dict.fromkeys((".fbx", ".gltf", ".glb", ".mvnx", ".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
+    **dict.fromkeys((".xlsx", ".xls", ".ods"), "save it as CSV"),
+    **dict.fromkeys((".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz"), _UNPACK),
+}
+"""What to do with files that people try, by suffix."""
+
 _formats: list[Format] = []
 
 
@@ -125,6 +134,8 @@ def recognise(content: FileContent) -> Format:
     formats = supported_formats()
     by_content = [known for known in formats if known.recognises(head)]
     by_suffix = [known for known in formats if suffix in known.suffixes]
+    if suffix in INSTEAD and not by_suffix:
+        raise ReadError(content.path, f"{suffix} is not read: {INSTEAD[suffix]}")
     for known in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
         return known
     suffixes = sorted({s for known in formats for s in known.suffixes})

@@ -11,6 +11,7 @@ import csv
 from dataclasses import replace
 from pathlib import Path
 
+from kineme._files import HEAD
 from kineme.errors import ReadError
 from kineme.formats.channels.reading import to_signals
 from kineme.formats.channels.sensors import hold_channels
@@ -23,6 +24,7 @@ from kineme.formats.gaps import unseen
 from kineme.formats.interleaved import refuse_interleaved
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut, read_deeplabcut
 from kineme.formats.layout import COMMAS, first_full, has_commas, is_number, layout_of
+from kineme.formats.markers.capture_tables import is_capture_table, read_capture_table
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.tables.pose_tables import POSE_TABLES, PoseTable
@@ -34,6 +36,8 @@ NAME = "table"
 
 def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """The joints or keypoints in a text table, or its channels where there are none."""
+    if not options.channels and is_capture_table(content.data[:HEAD]):
+        return read_capture_table(content, options)
     channels = _channels(content, asked=options.channels)
     if channels is not None:
         table = text_channels(content, channels, options.columns or None)
