@@ -74,6 +74,20 @@ def test_files_that_people_try(tmp_path: Path, name: str, what: str) -> None:
         kineme.read(tmp_path / name)
 
 
+@pytest.mark.parametrize("suffixes", [("toy",), ".toy", (".Toy",), ()])
+def test_suffixes_as_paths_are_compared_with_them(suffixes) -> None:
+    with pytest.raises(ParameterError, match="suffixes of 'toy' must be a tuple in lower case"):
+        replace(TOY, suffixes=suffixes)
+
+
+@pytest.mark.usefixtures("known")
+def test_a_reader_that_gives_no_recording(tmp_path: Path) -> None:
+    register(replace(TOY, read=lambda content, options: None))
+    (tmp_path / "a.toy").write_text("TOY 1")
+    with pytest.raises(ReadError, match="the reader of toy gave no Motion or Signals"):
+        kineme.read(tmp_path / "a.toy")
+
+
 @pytest.mark.usefixtures("known")
 def test_a_format_of_another_package(tmp_path: Path, monkeypatch) -> None:
     register(TOY)

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kineme._counts import counted
 from kineme.errors import ReadError
@@ -41,7 +41,7 @@ class Points:
     ----------
     names : sequence of str
         One per point.
-    positions : ndarray of shape (frames, points, 3)
+    positions : array_like of shape (frames, points, 3)
         NaN where not seen.
     fps : float
         Frames per second.
@@ -54,7 +54,7 @@ class Points:
     """
 
     names: Sequence[str]
-    positions: Floats
+    positions: ArrayLike
     fps: float
     unit: str | float | None = None
     up: str | None = None

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from kineme._checks import check_type
+from kineme._checks import check_suffixes, check_type
 from kineme._files import HEAD
 from kineme._plugins import plugins
 from kineme.errors import ReadError
@@ -85,6 +85,9 @@ class Format:
     channels: bool = False
     analog: bool = False
     sketch: Callable[[FileContent, ReadOptions, int], Sketch | None] | None = None
+
+    def __post_init__(self) -> None:
+        check_suffixes(self.suffixes, self.name)
 
 
 _EXPORT = "export BVH or C3D from the program that made it"
