@@ -11,7 +11,7 @@ import typer
 from kineme._counts import counted
 from kineme.cli.help import RECORDINGS
 from kineme.cli.library.folder import Scheduler, path_or_url
-from kineme.cli.messages import Failures, progress, say_skipped
+from kineme.cli.messages import Failures, one_line, progress, say_skipped
 from kineme.cli.options.inputs import Batch
 from kineme.cli.options.preset_options import DETAIL, PRESET, with_preset_options
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
@@ -141,19 +141,19 @@ def _say_elsewhere(built: Built, sources: set[Path]) -> None:
     """Say what failed that was to be read from URLs; end with 1 if a source itself did."""
     failed = {path: reason for path, reason in built.failed.items() if hasattr(path, "protocol")}
     for path, reason in failed.items():
-        say_skipped(f"{path}: {reason.removeprefix(f'{path}: ')}")
+        say_skipped(one_line(reason, subject=path))
     if sources & failed.keys():
         raise typer.Exit(1)
 
 
 def _exit(built: Built, batch: Batch) -> None:
     """Say what was left out and why; end with code 1 if something named gave nothing."""
-    from kineme.errors import ReadError
+    from kineme.errors import KinemeError
 
     for path in batch.paths:
         with batch.caught(path):
             if path in built.failed:
-                raise ReadError(path, built.failed[path].removeprefix(f"{path}: "))
+                raise KinemeError(built.failed[path])
     batch.exit()
 
 
