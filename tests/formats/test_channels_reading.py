@@ -271,11 +271,11 @@ EVEN = np.arange(400) / 100
 @pytest.mark.parametrize(
     ("times", "gaps", "said"),
     [
-        (EVEN - 0.05 * (EVEN >= 2), (), "1 steps go back in time"),
+        (EVEN - 0.05 * (EVEN >= 2), (), "1 step back in time"),
         (EVEN - 3600 * (EVEN >= 2), ((199, 200),), "jump -3600 s after frame 199"),
         (EVEN + 5 * (EVEN >= 2), ((199, 200),), "jump 5.01 s after frame 199"),
         (EVEN + 1.7e9 * (EVEN >= 1), ((99, 100),), "jump 1.7e+09 s after frame 99"),
-        (EVEN + 0.1 * (EVEN >= 2), (), "1 steps are longer"),
+        (EVEN + 0.1 * (EVEN >= 2), (), "1 step longer"),
         (EVEN + 0.004 * (np.arange(400) % 3), (), "jitter"),
         (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), (), "19 rows have the time"),
         (np.floor(EVEN * 4) / 4, (), "384 rows have the time"),
