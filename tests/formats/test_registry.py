@@ -81,6 +81,13 @@ def test_suffixes_as_paths_are_compared_with_them(suffixes) -> None:
 
 
 @pytest.mark.usefixtures("known")
+def test_a_format_that_cannot_tell_its_files_costs_itself_only() -> None:
+    register(replace(TOY, recognises=lambda head: 1 / 0))
+    with pytest.warns(KinemeWarning, match="the format toy is passed over, .* ZeroDivisionError"):
+        assert kineme.read(kineme.bundled_recording()).n_frames == 2898
+
+
+@pytest.mark.usefixtures("known")
 def test_a_reader_that_gives_no_recording(tmp_path: Path) -> None:
     register(replace(TOY, read=lambda content, options: None))
     (tmp_path / "a.toy").write_text("TOY 1")

@@ -26,7 +26,7 @@ from kineme._counts import counted
 from kineme._files import head_of, tail_of
 from kineme.formats.columns import is_timing, joint_names
 from kineme.formats.keypoints.openpose import frame_files
-from kineme.formats.registry import supported_formats
+from kineme.formats.registry import speaks, supported_formats
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""
@@ -149,7 +149,7 @@ def _is_recording(path: Path) -> bool:
         return False
     if suffix in _ANYTHING:
         ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
-        return any(known.recognises(ends) for known in formats)
+        return any(speaks(known, ends) for known in formats)
     if suffix in (".csv", ".tsv"):
         return not _names_spans(head_of(path))
     if suffix == ".parquet":

@@ -20,7 +20,7 @@ from kineme._checks import check_suffixes, check_type
 from kineme._files import HEAD
 from kineme._plugins import plugins
 from kineme.errors import ReadError
-from kineme.formats.files import FileContent
+from kineme.formats.files import FileContent, warn
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion, Signals
 
@@ -135,7 +135,7 @@ def recognise(content: FileContent) -> Format:
     head = content.data[:HEAD]
     suffix = content.path.suffix.lower()
     formats = supported_formats()
-    by_content = [known for known in formats if known.recognises(head)]
+    by_content = [known for known in formats if speaks(known, head)]
     by_suffix = [known for known in formats if suffix in known.suffixes]
     if suffix in INSTEAD and not by_suffix:
         raise ReadError(content.path, f"{suffix} is not read: {INSTEAD[suffix]}")
@@ -147,6 +147,16 @@ def recognise(content: FileContent) -> Format:
         f"neither its content nor its suffix {suffix!r} is known: kineme reads "
         f"{', '.join(suffixes)}",
     )
+
+
+def speaks(known: Format, head: bytes) -> bool:
+    """Whether a file's first bytes look like a format; one that cannot tell costs itself only."""
+    try:
+        return known.recognises(head)
+    except Exception as error:  # noqa: BLE001 (whatever a stranger's format raises)
+        reason = f"{type(error).__name__}: {error}"
+        warn(f"the format {known.name} is passed over, it cannot tell its files: {reason:.200}")
+        return False
 
 
 @cache
