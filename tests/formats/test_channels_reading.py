@@ -277,9 +277,9 @@ EVEN = np.arange(400) / 100
         (EVEN + 1.7e9 * (EVEN >= 1), ((99, 100),), "jump 1.7e+09 s after frame 99"),
         (EVEN + 0.1 * (EVEN >= 2), (), "1 step longer"),
         (EVEN + 0.004 * (np.arange(400) % 3), (), "jitter"),
-        (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), (), "19 rows have the time"),
-        (np.floor(EVEN * 4) / 4, (), "384 rows have the time"),
-        (np.floor(EVEN + 0.37), (), "395 rows have the time"),
+        (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), (), "19 rows with the time"),
+        (np.floor(EVEN * 4) / 4, (), "384 rows with the time"),
+        (np.floor(EVEN + 0.37), (), "395 rows with the time"),
     ],
 )
 def test_frames_are_rows_whatever_the_clock_does(tmp_path, times, gaps, said) -> None:
