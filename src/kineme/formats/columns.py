@@ -96,7 +96,7 @@ def columns_to_motion(
     if flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")
         unit, up = unit or "pixel", up or "-y"
-    points = Points(names, positions, timing.fps, unit, up)
+    points = Points(names, positions, timing.fps, unit, up, person=options.person)
     return split_at(to_motion(points, content.provenance(name, notes)), timing.gaps)
 
 

@@ -160,18 +160,20 @@ def is_nameless(name: str) -> bool:
     return _NAMELESS.fullmatch(name.rpartition(":")[2]) is not None
 
 
-def of_one_subject(names: Sequence[str]) -> tuple[list[str], list[str]]:
+def of_one_subject(names: Sequence[str], wanted: str | None = None) -> tuple[list[str], list[str]]:
     """The names without the subject's, and the subjects whose points make up a pelvis.
 
-    ``Ann:LANK`` becomes ``LANK`` for the first of those subjects, or where all
-    names begin with the same one; points of others keep their full names.
+    ``Ann:LANK`` becomes ``LANK`` for the one wanted of those subjects, else the first, or where
+    all names begin with the same one; points of others keep their full names.
     """
     points: dict[str, list[int]] = {}
     for i, name in enumerate(names):
         points.setdefault(name.rpartition(":")[0], []).append(i)
     short = [name.rpartition(":")[2] for name in names]
     subjects = [who for who, which in points.items() if "pelvis" in find_body(short, which)]
-    chosen = subjects[0] if subjects else names[0].rpartition(":")[0] if len(points) == 1 else ""
+    chosen = names[0].rpartition(":")[0] if len(points) == 1 else ""
+    if subjects:
+        chosen = wanted if wanted in subjects else subjects[0]
     mine = set(points.get(chosen, ()))
     return [short[i] if i in mine else name for i, name in enumerate(names)], subjects
 

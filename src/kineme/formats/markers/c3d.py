@@ -58,6 +58,7 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
         unit=options.unit or _unit(file),
         up=options.up or _up(file),
         usual_up="z",
+        person=options.person,
     )
     return to_motion(points, content.provenance("C3D", notes).marked(file.events))
 

@@ -86,6 +86,7 @@ def read_capture_table(content: FileContent, options: ReadOptions) -> Motion:
         options.unit or unit_named(table.unit),
         options.up,
         usual_up="y" if motive else "z",
+        person=options.person,
     )
     return to_motion(points, content.provenance(f"{table.program} table", notes))
 

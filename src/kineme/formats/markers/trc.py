@@ -49,7 +49,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     positions = table[:, 2:].reshape(len(table), -1, 3)
     timing = _rate(content, options, head, table[:, 1])
     unit = options.unit or unit_named(head.get("Units", ""))
-    points = Points(names, positions, timing.fps, unit, options.up)
+    points = Points(names, positions, timing.fps, unit, options.up, person=options.person)
     return split_at(to_motion(points, content.provenance("TRC", timing.notes)), timing.gaps)
 
 
