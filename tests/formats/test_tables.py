@@ -218,6 +218,10 @@ def test_trc(tmp_path: Path) -> None:
     assert motion.skeleton.names == ("R.ASIS", "Top.Head")
     assert np.allclose(motion.positions[:, 0] * 1000, [(1, 2, 3), (2, 2, 3), (3, 2, 3)])
     assert any("filled" in note for note in motion.provenance.notes)
+    decimal = TRC.replace("0.0", "0,0").replace("\n100\t", "\n100,0\t")
+    german = read(tmp_path, "c.trc", decimal)
+    assert np.array_equal(german.positions, motion.positions)
+    assert "numbers have a decimal comma" in german.provenance.notes
     commas = TRC.replace("\t", ",").replace("\n\n", "\n")
     assert np.array_equal(read(tmp_path, "b.trc", commas).positions, motion.positions)
 
