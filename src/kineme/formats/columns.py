@@ -53,7 +53,9 @@ _TIME = re.compile(
     r"[\[(]?(?:utc|iso|[+-]\d{2}:?\d{2})[\])]?)",
     re.IGNORECASE,
 )
-_POSITION = re.compile(r"(.+?)(?:[\s_.:/-]+pos(?:ition)?|(?-i:Pos(?:ition)?))", re.IGNORECASE)
+_POSITION = re.compile(
+    r"(.*[^\s_.:/-])(?:[\s_.:/-]+pos(?:ition)?|(?-i:Pos(?:ition)?))", re.IGNORECASE
+)
 _RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
 
 
