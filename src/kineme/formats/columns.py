@@ -31,7 +31,7 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import UNITS_OF_TIME, Timing, is_date, seconds, timing_of
 from kineme.recordings import Motion
-from kineme.recordings.coordinates import COORDINATE, axes_by_point, is_body
+from kineme.recordings.coordinates import COORDINATE, axes_by_point, beginnings, is_body
 
 Floats = NDArray[np.float64]
 Joints = Mapping[str, Mapping[str, str]]
@@ -154,7 +154,7 @@ def timed(content: FileContent, columns: Mapping[str, ArrayLike], fps: float | N
 
 
 def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
-    """For each joint the columns of its axes; of other points only where no joint is there."""
+    """For each joint the columns of its axes; without those of its velocity, rotation and such."""
     points = axes_by_point(columns)
     if not points:
         shown = ", ".join(list(columns)[:8])
@@ -162,10 +162,16 @@ def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
             "no columns JOINT_x, JOINT_y and JOINT_z found, so there are no positions "
             f"(columns: {shown or 'none'}); channels are named with columns= (--columns)"
         )
-    joints = {name: axes for name, axes in points.items() if is_body(name)} or points
-    called = [_POSITION.fullmatch(name) for name in joints]
-    plain = [match[1] for match in called if match]
-    return dict(zip(plain, joints.values(), strict=True)) if all(called) else joints
+    called = {name: _POSITION.fullmatch(name) for name in points if is_body(name)}
+    plain = {name: match[1] if match else name for name, match in called.items()}
+    known, all_so = set(plain.values()), all(called.values())
+    joints: dict[str, Mapping[str, str]] = {}
+    for name, axes in points.items():
+        if name in plain:
+            joints[plain[name] if all_so else name] = axes
+        elif known.isdisjoint(beginnings(name)):
+            joints[name] = axes
+    return joints
 
 
 def _unit(joints: Joints) -> str | None:

@@ -8,13 +8,16 @@ Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by t
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from itertools import islice
 
 COORDINATE = re.compile(
     r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:[\s_]*[\[(](m|cm|mm)[\])])?"
 )
 """A point and its axis, in two ways, and a unit."""
 
+_WORD = re.compile(r"[A-Z]?[a-z]+\d*|[A-Z]+\d*(?![a-z])|\d+")
+_MOST_WORDS = 8
 _SENSOR = re.compile(
     r"acc(el\w*)?|gyr(o\w*)?|mag(net\w*)?|imu|emg|grf|forces?|moments?|torques?|cop|gravity|"
     r"angular|angles?|rot(ation)?|euler|attitude|velocity|vel|quat(ernion)?|orient(ation)?|[agwm]",
@@ -50,5 +53,16 @@ def is_body(name: str) -> bool:
     (True, False)
     """
     joint = name.rpartition(":")[2]
-    words = re.findall(r"[A-Z]?[a-z]+\d*|[A-Z]+\d*(?![a-z])|\d+", joint)
-    return not any(_SENSOR.fullmatch(word) for word in words)
+    return not any(_SENSOR.fullmatch(word) for word in _WORD.findall(joint))
+
+
+def beginnings(name: str) -> Iterator[str]:
+    """What a name begins with, word by word; of long ones the first few.
+
+    Examples
+    --------
+    >>> list(beginnings("hip_angular_vel"))
+    ['hip', 'hip_angular']
+    """
+    for word in islice(_WORD.finditer(name), 1, _MOST_WORDS):
+        yield name[: word.start()].rstrip(" \t_.:/-")
