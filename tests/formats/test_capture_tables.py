@@ -83,7 +83,6 @@ def test_markers_that_nobody_named_are_left_out(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        (nexus().replace("Trajectories", "Devices"), "no chapter 'Trajectories'"),
         (nexus().replace("\n100\n", "\nfast\n"), r"'fast' is no frame rate: give fps= \(--fps\)"),
         (nexus().replace("X,Y,Z", "A,B,C"), "line 4: no name stands above the axes"),
         (motive().replace("Frame,Time", "Zeit"), "no line 'Frame'"),
@@ -93,6 +92,11 @@ def test_markers_that_nobody_named_are_left_out(tmp_path: Path) -> None:
 def test_bad_tables(tmp_path: Path, text: str, reason: str) -> None:
     with pytest.raises(ReadError, match=reason):
         read(tmp_path, text)
+
+
+def test_devices_alone_are_channels(tmp_path: Path) -> None:
+    signals = read(tmp_path, nexus().replace("Trajectories", "Devices"), fps=100)
+    assert isinstance(signals, kineme.Signals)
 
 
 def test_channels_of_such_a_table_are_still_there(tmp_path: Path) -> None:

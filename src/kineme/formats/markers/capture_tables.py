@@ -14,10 +14,12 @@ Markers without a name are left out where others have one, and an empty cell is 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from kineme._counts import counted
+from kineme._files import HEAD
 from kineme.formats.delimited import rows_of, separator_of
 from kineme.formats.files import FileContent
 from kineme.formats.layout import cells_of
@@ -29,6 +31,8 @@ from kineme.recordings import Motion
 
 CHAPTERS = ("trajectories", "devices", "model outputs", "joints", "segments", "events")
 """First lines of Nexus's tables, in lower case."""
+
+_MARKERS = re.compile(rb'^[ ",;\t]*trajectories[ ",;\t\r]*$', re.IGNORECASE | re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -57,11 +61,13 @@ class CaptureTable:
     unit: str
 
 
-def is_capture_table(head: bytes) -> bool:
-    """Whether a file begins as one of these tables, by its first bytes."""
-    first = head.removeprefix(b"\xef\xbb\xbf").lstrip().split(b"\n", 1)[0].lower()
+def is_capture_table(data: bytes) -> bool:
+    """Whether a file is one of these tables; one of devices alone holds channels as others do."""
+    first = data[:HEAD].removeprefix(b"\xef\xbb\xbf").lstrip().split(b"\n", 1)[0].lower()
     plain = first.strip(b' "\r,;\t').decode("ascii", errors="replace")
-    return plain.startswith("format version,") or plain in CHAPTERS
+    if plain in CHAPTERS:
+        return _MARKERS.search(data) is not None
+    return plain.startswith("format version,")
 
 
 def read_capture_table(content: FileContent, options: ReadOptions) -> Motion:
@@ -92,12 +98,7 @@ def read_capture_table(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def _nexus(content: FileContent, lines: Sequence[str]) -> CaptureTable:
-    at = next((i for i, line in enumerate(lines) if _plain(line) == "trajectories"), None)
-    if at is None:
-        raise content.error(
-            "has no chapter 'Trajectories', so there are no markers; channels are named with "
-            "columns= (--columns)"
-        )
+    at = next(i for i, line in enumerate(lines) if _MARKERS.match(line.encode()))
     axes = _line_of_axes(content, lines, at)
     if axes < at + 3 or axes + 1 >= len(lines):
         raise content.error("rate and names expected under 'Trajectories', units under 'Frame'")
@@ -156,7 +157,3 @@ def _rate(content: FileContent, table: CaptureTable) -> float:
     if not 0 < rate < float("inf"):
         raise content.error(f"{table.rate[:40]!r} is no frame rate: give fps= (--fps)")
     return rate
-
-
-def _plain(line: str) -> str:
-    return line.strip(' "\r,;\t').lower()

@@ -11,7 +11,6 @@ import csv
 from dataclasses import replace
 from pathlib import Path
 
-from kineme._files import HEAD
 from kineme.errors import ReadError
 from kineme.formats.channels.reading import to_signals
 from kineme.formats.channels.sensors import hold_channels
@@ -36,7 +35,7 @@ NAME = "table"
 
 def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """The joints or keypoints in a text table, or its channels where there are none."""
-    if not options.channels and is_capture_table(content.data[:HEAD]):
+    if not options.channels and is_capture_table(content.data):
         return read_capture_table(content, options)
     channels = _channels(content, asked=options.channels)
     if channels is not None:
