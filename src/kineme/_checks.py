@@ -72,6 +72,19 @@ def check_path(path: object, door: str) -> None:
     check_type(path, (str, PathLike), door, "give the path of a file")
 
 
+def check_suffixes(suffixes: object, name: str) -> None:
+    """ParameterError unless a format's suffixes are as paths are compared with them."""
+    if not (
+        isinstance(suffixes, tuple)
+        and suffixes
+        and all(isinstance(s, str) and s.startswith(".") and s == s.lower() for s in suffixes)
+    ):
+        raise ParameterError(
+            f"suffixes of {name!r:.60} must be a tuple in lower case with the dot, such as "
+            f"('.xyz',), not {suffixes!r:.60}"
+        )
+
+
 def as_indices(values: Any, name: str) -> list[int]:
     """The values as whole numbers; ParameterError where they are not."""
     try:

@@ -23,12 +23,15 @@ def corpus(tmp_path_factory) -> Path:
 
 
 def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> None:
+    table = (corpus / "labels.csv").read_text() + "\nghost,0,1,walk\n"
+    (tmp_path / "labels.csv").write_text(table)
     ran = kineme(
-        *("evaluate", corpus, "--labels", corpus / "labels.csv", "--methods", "kineme,uniform,gmm"),
+        *("evaluate", corpus, "--labels", "labels.csv", "--methods", "kineme,uniform,gmm"),
         *("--without-columns", "emg*", "-o", "scores.csv"),
     )
     assert ran.returncode == 0, ran.stderr
     assert "without labels, left out: unlabelled.csv" in ran.stderr
+    assert "labels of recordings that are not there: ghost\n" in ran.stderr
     assert "broken.csv, kineme: " in ran.stderr
     assert "b.csv: overlapping others: 1 label" in ran.stderr
     for text in ("MoF", "Edit", "F1@50", "ARI", "NMI", "recordings scored", "2 of 3"):

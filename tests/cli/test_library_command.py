@@ -24,12 +24,12 @@ Kineme = Callable[..., object]
 def home(tmp_path: Path, kineme) -> Path:
     (tmp_path / "takes").mkdir()
     shutil.copy(bundled_recording(), tmp_path / "takes" / "take.bvh")
-    (tmp_path / "takes" / "broken.bvh").write_text("HIERARCHY\n")
+    (tmp_path / "takes" / "broken.bvh").write_text("HIERARCHY\nROOT hips\nROOT\n")
     built = kineme("library", "build", "takes", "--into", "lib", "--jobs", 1)
     assert built.returncode == 0, built.stderr
     assert built.stdout == "1 recording in lib, 1 new, 1 failed\n"
     assert built.stderr.startswith("skipped: ")
-    assert "broken.bvh" in built.stderr
+    assert built.stderr.count("broken.bvh") == 1
     return tmp_path
 
 
@@ -50,7 +50,7 @@ def test_from_a_folder_to_all_the_walks_in_it(home: Path, kineme) -> None:
         "select count(*) n from segments where label = 'walk' and level = 'primitive'",
     )  # fmt: skip
     assert json.loads(asked.stdout)["n"] >= 5
-    assert kineme("library", "export", "lib", "--to", "table.csv").returncode == 0
+    assert kineme("library", "export", "lib", "--output", "table.csv").returncode == 0
     with (home / "table.csv").open(newline="") as file:
         assert {row["recording"] for row in csv.DictReader(file)} == {"take.bvh"}
     shown = kineme("library", "show", "lib")
@@ -88,7 +88,7 @@ def test_clusters_are_merged_and_split(home: Path, kineme) -> None:
         (("search", "lib", "--like", "take.bvh", "--threshold", "-1"), 1, "threshold"),
         (("search", "lib", "--cluster", "swim"), 1, "no cluster is called swim"),
         (("query", "lib", "select nothing"), 1, "nothing"),
-        (("export", "lib", "--to", "table.xlsx"), 1, "suffix"),
+        (("export", "lib", "--output", "table.xlsx"), 1, "suffix"),
         (("name", "lib", "99", "walk"), 1, "no cluster is called 99"),
         (("split", "lib", "0", "nobody.bvh"), 1, "is split by naming some"),
     ],

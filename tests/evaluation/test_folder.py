@@ -188,6 +188,10 @@ def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
         assert result.methods["uniform"][0].scores["longest"] == 15
         with pytest.raises(ParameterError, match="there is a score 'longest' already"):
             register(Score("longest", "", "", "segments", longest))
+        with pytest.raises(ParameterError, match="level of 'a' must be one of frames, segments"):
+            Score("a", "", "", "rows", longest)
+        with pytest.raises(ParameterError, match="register takes a Score, not function"):
+            register(longest)
     finally:
         _known().pop("longest")
 

@@ -23,7 +23,7 @@ from marker_samples import (
 )
 
 import kineme
-from kineme.errors import KinemeError, KinemeWarning, ReadError
+from kineme.errors import KinemeError, KinemeWarning, ReadError, SeveralPeopleError
 from kineme.features import pose_features
 from kineme.formats.files import FileContent, load
 from kineme.formats.markers.c3d_file import parse_c3d
@@ -125,6 +125,12 @@ def test_two_subjects(tmp_path: Path) -> None:
         motion = read(tmp_path, c3d_bytes(points, labels))
     assert np.allclose(motion.positions[0, motion.joint("pelvis")], (0, 1, 0), atol=1e-4)
     assert "Bob:LANK" in motion.skeleton.names
+    other = kineme.read(tmp_path / "take.c3d", person="Bob")
+    assert np.allclose(other.positions[0, other.joint("pelvis")], (1, 2, -1), atol=1e-4)
+    assert "Ann:LANK" in other.skeleton.names
+    assert "person Bob of 2" in other.provenance.notes
+    with pytest.raises(SeveralPeopleError, match="no person 'Eve': choose from Ann, Bob"):
+        kineme.read(tmp_path / "take.c3d", person="Eve")
 
 
 def test_what_the_file_does_not_say_is_inferred_and_said(tmp_path: Path) -> None:

@@ -88,6 +88,15 @@ def test_joints_with_decimal_commas(tmp_path) -> None:
     assert "numbers have a decimal comma" in motion.provenance.notes
 
 
+def test_decimal_commas_are_those_of_numbers_alone(tmp_path) -> None:
+    dates = "".join(f"2026-01-31 09:30:00,{i}00;{i},5;1,25\n" for i in range(9))
+    path = write(tmp_path, "a.csv", "time;acc_x;acc_y\n" + dates)
+    assert read(path).fps == 10
+    path = write(tmp_path, "b.csv", path.read_text().replace("3,5", "1,203,5"))
+    with pytest.raises(ReadError, match="line 5: '1,203,5' is not a number"):
+        read(path)
+
+
 def test_names_as_windows_writes_them(tmp_path) -> None:
     path = tmp_path / "a.csv"
     path.write_bytes("time,Größe (m/s²)\n0,1\n0.1,2\n".encode("cp1252"))
@@ -262,15 +271,15 @@ EVEN = np.arange(400) / 100
 @pytest.mark.parametrize(
     ("times", "gaps", "said"),
     [
-        (EVEN - 0.05 * (EVEN >= 2), (), "1 steps go back in time"),
+        (EVEN - 0.05 * (EVEN >= 2), (), "1 step back in time"),
         (EVEN - 3600 * (EVEN >= 2), ((199, 200),), "jump -3600 s after frame 199"),
         (EVEN + 5 * (EVEN >= 2), ((199, 200),), "jump 5.01 s after frame 199"),
         (EVEN + 1.7e9 * (EVEN >= 1), ((99, 100),), "jump 1.7e+09 s after frame 99"),
-        (EVEN + 0.1 * (EVEN >= 2), (), "1 steps are longer"),
+        (EVEN + 0.1 * (EVEN >= 2), (), "1 step longer"),
         (EVEN + 0.004 * (np.arange(400) % 3), (), "jitter"),
-        (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), (), "19 rows have the time"),
-        (np.floor(EVEN * 4) / 4, (), "384 rows have the time"),
-        (np.floor(EVEN + 0.37), (), "395 rows have the time"),
+        (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), (), "19 rows with the time"),
+        (np.floor(EVEN * 4) / 4, (), "384 rows with the time"),
+        (np.floor(EVEN + 0.37), (), "395 rows with the time"),
     ],
 )
 def test_frames_are_rows_whatever_the_clock_does(tmp_path, times, gaps, said) -> None:
@@ -317,8 +326,22 @@ def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
         "1 missing value filled in a straight line",
         "1 gap of more than 0.2 s, 20 frames",
     )
+    cells[10] = "10,10"
+    whole = read(write(tmp_path, "c.csv", "a,b\n" + "\n".join(cells)), fps=50)
+    assert whole.provenance.notes == ("1 gap of more than 0.2 s, 20 frames",)
     with pytest.raises(ReadError, match="column 'b' holds no number"):
         read(write(tmp_path, "b.csv", "a,b\n1,\n2,\n"), fps=50)
+
+
+@pytest.mark.parametrize("column", ["device", "person_id", "Joint"])
+@pytest.mark.parametrize("channels", ["x,y", "head_x,head_y"])
+def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels) -> None:
+    rows = [f"{i // 2 / 50},{'AB'[i % 2]},{i % 7}.5,0.25\n" for i in range(40)]
+    path = write(tmp_path, "a.csv", f"time,{column},{channels}\n" + "".join(rows))
+    with pytest.raises(ReadError, match=rf"told apart by column '{column}' \(A, B\)"):
+        read(path)
+    path.write_text(path.read_text().replace("B", "A"), encoding="utf-8")
+    assert read(path).n_frames == 40
 
 
 def test_opensim_tables(tmp_path) -> None:

@@ -288,6 +288,11 @@ def test_mediapipe_csv(tmp_path: Path, pattern: str, first: int) -> None:
     assert (motion.provenance.format, motion.fps, motion.n_frames) == ("MediaPipe", 25, 30)
     assert stands(motion)
     assert waves(motion) == pytest.approx(0.8, abs=0.05)
+    head, rows = text.split("\n", 1)
+    german = f"{head}\n{rows.replace(',', ';').replace('.', ',')}".replace(
+        ",", ";", head.count(",")
+    )
+    assert np.array_equal(read(tmp_path, "b.csv", german).positions, motion.positions)
     text = _wide(pattern, first, frame=[*range(20), *range(22, 32)])
     assert read(tmp_path, "a.csv", text, fps=25).n_frames == 32
 

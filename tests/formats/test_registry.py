@@ -64,6 +64,37 @@ def test_what_is_worth_a_warning_is_warned_of_once(tmp_path: Path) -> None:
     assert quiet.provenance == motion.provenance
 
 
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [("a.fbx", "export BVH or C3D"), ("a.xlsx", "save it as CSV"), ("a.csv.gz", "unpack it first")],
+)
+def test_files_that_people_try(tmp_path: Path, name: str, what: str) -> None:
+    (tmp_path / name).write_bytes(b"PK\x03\x04")
+    with pytest.raises(ReadError, match=f"is not read: {what}"):
+        kineme.read(tmp_path / name)
+
+
+@pytest.mark.parametrize("suffixes", [("toy",), ".toy", (".Toy",), ()])
+def test_suffixes_as_paths_are_compared_with_them(suffixes) -> None:
+    with pytest.raises(ParameterError, match="suffixes of 'toy' must be a tuple in lower case"):
+        replace(TOY, suffixes=suffixes)
+
+
+@pytest.mark.usefixtures("known")
+def test_a_format_that_cannot_tell_its_files_costs_itself_only() -> None:
+    register(replace(TOY, recognises=lambda head: 1 / 0))
+    with pytest.warns(KinemeWarning, match="the format toy is passed over, .* ZeroDivisionError"):
+        assert kineme.read(kineme.bundled_recording()).n_frames == 2898
+
+
+@pytest.mark.usefixtures("known")
+def test_a_reader_that_gives_no_recording(tmp_path: Path) -> None:
+    register(replace(TOY, read=lambda content, options: None))
+    (tmp_path / "a.toy").write_text("TOY 1")
+    with pytest.raises(ReadError, match="the reader of toy gave no Motion or Signals"):
+        kineme.read(tmp_path / "a.toy")
+
+
 @pytest.mark.usefixtures("known")
 def test_a_format_of_another_package(tmp_path: Path, monkeypatch) -> None:
     register(TOY)

@@ -102,6 +102,42 @@ def test_dates_tell_the_rate_of_a_motion(tmp_path: Path) -> None:
         read(tmp_path, "a.csv", table(body(), timestamp=[str(at[0]), "noon-ish", *at[2:]]))
 
 
+def test_times_that_nobody_can_read(tmp_path: Path) -> None:
+    text = table(body(), time=[f"29.03.2026 01:30:{i:02}" for i in range(20)])
+    with pytest.raises(ReadError, match=r"line 2: column 'time' holds neither .* \(--fps\)"):
+        read(tmp_path, "a.csv", text)
+    assert read(tmp_path, "a.csv", text, fps=25).fps == 25
+
+
+@pytest.mark.parametrize(("factor", "unit"), [(1e3, "milli"), (1e6, "micro"), (1e9, "nano")])
+def test_times_in_another_unit_are_told(tmp_path: Path, factor: float, unit: str) -> None:
+    text = table(body(), time=[f"{i / 25 * factor:.0f}" for i in range(20)])
+    with pytest.raises(ReadError, match=rf"\(--fps; 25 for {unit}seconds\)"):
+        read(tmp_path, "a.csv", text)
+
+
+def test_units_in_the_names_of_columns(tmp_path: Path) -> None:
+    plain = read(tmp_path, "a.csv", table(body(), time=TIMES), unit="mm")
+    named = read(tmp_path, "b.csv", table(body(), "{joint} {axis} [mm]", time=TIMES))
+    assert named.positions.tolist() == plain.positions.tolist()
+    assert named.skeleton.names == plain.skeleton.names
+    assert not any("unit" in note for note in named.provenance.notes)
+
+
+def test_positions_beside_other_columns_of_joints(tmp_path: Path) -> None:
+    plain = read(tmp_path, "a.csv", table(body(), time=TIMES))
+    more = {f"head_{what}_{axis}": [90.0] * 20 for what in ("rotation", "vel") for axis in "xyz"}
+    text = table(body(), "{joint}_position_{axis}", time=TIMES, **more)
+    beside = read(tmp_path, "b.csv", text)
+    assert beside.skeleton.names == plain.skeleton.names
+    assert beside.positions.tolist() == plain.positions.tolist()
+
+
+def test_a_subject_may_be_called_by_a_letter(tmp_path: Path) -> None:
+    motion = read(tmp_path, "a.csv", table(body(), "A:{joint}_{axis}", time=TIMES))
+    assert motion.skeleton.names[:8] == tuple(JOINTS[:8])
+
+
 def test_units_and_axes_of_tables(tmp_path: Path) -> None:
     centimetres_z_up = 100 * body()[:, :, [0, 2, 1]] * [1, -1, 1]
     motion = read(tmp_path, "a.csv", table(centimetres_z_up, time=TIMES))
@@ -182,6 +218,10 @@ def test_trc(tmp_path: Path) -> None:
     assert motion.skeleton.names == ("R.ASIS", "Top.Head")
     assert np.allclose(motion.positions[:, 0] * 1000, [(1, 2, 3), (2, 2, 3), (3, 2, 3)])
     assert any("filled" in note for note in motion.provenance.notes)
+    decimal = TRC.replace("0.0", "0,0").replace("\n100\t", "\n100,0\t")
+    german = read(tmp_path, "c.trc", decimal)
+    assert np.array_equal(german.positions, motion.positions)
+    assert "numbers have a decimal comma" in german.provenance.notes
     commas = TRC.replace("\t", ",").replace("\n\n", "\n")
     assert np.array_equal(read(tmp_path, "b.trc", commas).positions, motion.positions)
 
@@ -367,6 +407,7 @@ def _npy() -> bytes:
 
 SOUND = {
     "a.csv": table(body(4), time=TIMES).encode(),
+    "b.csv": b"Trajectories\n100\n,,A,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2,3\n2,0,1,2,4\n",
     "a.trc": TRC.encode(),
     "a.npy": _npy(),
     "a.npz": _npz(False, positions=body(4), fps=30.0, names=np.array(JOINTS)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -127,6 +128,14 @@ def test_a_format_of_ones_own_is_read_and_written_by_its_suffix(tmp_path: Path) 
         assert back.activities.label.tolist() == ["walk", "jump"]
         with pytest.raises(ParameterError, match="there is a label format 'toy' already"):
             register(toy)
+        with pytest.raises(
+            ParameterError, match="holds of 'toy' must be one of all, levels, level"
+        ):
+            replace(toy, holds="rows")
+        with pytest.raises(ParameterError, match="suffixes of 'toy' must be a tuple"):
+            replace(toy, suffixes=("toy",))
+        with pytest.raises(ParameterError, match="register takes a LabelFormat, not str"):
+            register("toy")
     finally:
         registry._known().pop("toy")
 

@@ -96,6 +96,20 @@ def test_settings_stay_until_others_are_given(takes: Path, tmp_path: Path) -> No
     assert build((), folder, settings=Settings()).new == 1
 
 
+def test_a_library_keeps_segments_of_the_detail_asked_for(tmp_path: Path) -> None:
+    folder = tmp_path / "library"
+    asked = "select count(*) n from segments where level = 'activity'"
+    found = kineme.segment(kineme.read(kineme.bundled_recording()))
+    counts = []
+    for detail in (0.2, 1.0):
+        assert build(kineme.bundled_recording(), folder, settings=Settings(detail=detail)).new == 1
+        assert build((), folder).new == 0
+        (row,) = Library(folder).query(asked).to_pylist()
+        assert row["n"] == len(found.level(detail).level("activity"))
+        counts.append(row["n"])
+    assert counts[0] < counts[1]
+
+
 def test_a_source_that_is_gone_keeps_its_recordings_until_it_is_removed(
     takes: Path, tmp_path: Path
 ) -> None:

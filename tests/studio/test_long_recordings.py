@@ -54,6 +54,24 @@ def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatc
     assert not (tmp_path / "take.segments.json").exists()
 
 
+def test_a_long_recording_that_is_read_otherwise_says_when_its_segments_are_there(
+    tmp_path, monkeypatch
+):
+    shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
+    told: queue.Queue[tuple[str, int]] = queue.Queue()
+    recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
+    (name,) = recordings.folder.recordings()
+    before = recordings.message(name).revision
+    wanted = held_back(monkeypatch)
+    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
+    recordings.read_as(name, {"fps": 30})
+    assert told.get(timeout=60) == (name, before)  # one more once they are found
+    assert recordings.message(name).finding
+    wanted.set()
+    assert told.get(timeout=60) == (name, before + 1)
+    assert not recordings.message(name).finding
+
+
 def test_segments_that_take_long_are_waited_for_by_files_and_not_by_pages(tmp_path, monkeypatch):
     shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
     wanted = held_back(monkeypatch)

@@ -17,8 +17,9 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from types import MappingProxyType
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
+from kineme._checks import check_type, is_one_of
 from kineme._plugins import plugins
 from kineme.errors import ParameterError
 from kineme.evaluation.comparison import Comparison
@@ -26,6 +27,7 @@ from kineme.evaluation.comparison import Comparison
 MODULES = ("label_scores", "segmental_scores", "cut_scores")
 """Modules of this package that end in a tuple ``SCORES``, in the order shown."""
 GROUP = "kineme.scores"
+Counted = Literal["frames", "segments", "borders", "clusters"]
 
 
 class Ratio(NamedTuple):
@@ -72,8 +74,15 @@ class Score:
     name: str
     title: str
     help: str
-    level: Literal["frames", "segments", "borders", "clusters"]
+    level: Counted
     function: Callable[[Comparison], float | Ratio]
+
+    def __post_init__(self) -> None:
+        if not is_one_of(self.level, get_args(Counted)):
+            raise ParameterError(
+                f"level of {self.name!r:.60} must be one of {', '.join(get_args(Counted))}, not "
+                f"{self.level!r:.60}"
+            )
 
 
 def scores() -> Mapping[str, Score]:
@@ -103,8 +112,9 @@ def register(new: Score) -> None:
     Raises
     ------
     ParameterError
-        There is a score of this name.
+        There is a score of this name, or it is none.
     """
+    check_type(new, Score, "register", "see kineme.evaluation.Score")
     if new.name in _known():
         raise ParameterError(f"there is a score {new.name!r} already: choose another name")
     _known()[new.name] = new

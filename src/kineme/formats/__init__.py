@@ -8,6 +8,7 @@ One module per format; `register` adds more.
 
 from kineme.formats.arrays import mat, numpy_files
 from kineme.formats.channels import opensim
+from kineme.formats.files import FileContent
 from kineme.formats.keypoints import pose_json, sleap
 from kineme.formats.markers import c3d, trc
 from kineme.formats.options import ReadOptions
@@ -37,6 +38,7 @@ for _format in (
     register(_format)
 
 __all__ = [
+    "FileContent",
     "Format",
     "ReadOptions",
     "read",

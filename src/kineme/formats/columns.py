@@ -1,7 +1,9 @@
 """Tables whose columns are coordinates of joints: from named columns to a motion.
 
 A joint is two or three columns that differ in their last letter: ``hip_x hip_y
-hip_z``, ``hip.x``, ``hip x`` or ``hipX``, in any order. Besides these there may be
+hip_z``, ``hip.x``, ``hip x`` or ``hipX``, in any order; ``hip_pos_x`` where all are called so,
+and ``hip_x [mm]``, which tells the unit. Velocities, rotations and the like of joints are passed
+over. Besides these there may be
 
 - the time: ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or ``seconds``,
   with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``: numbers or dates, see
@@ -29,14 +31,18 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import UNITS_OF_TIME, Timing, is_date, seconds, timing_of
 from kineme.recordings import Motion
-from kineme.recordings.coordinates import COORDINATE, axes_by_point
+from kineme.recordings.coordinates import COORDINATE, axes_by_point, beginnings, is_body
 
 Floats = NDArray[np.float64]
+Joints = Mapping[str, Mapping[str, str]]
+"""For each joint the columns of its axes."""
 
 SURE = 0.5
 """Confidence from which a keypoint counts as seen."""
 
 _SLOWEST = 1.0  # frames per second: at or below, a column of times is hardly in seconds
+
+_FINER = {"milliseconds": 1e3, "microseconds": 1e6, "nanoseconds": 1e9}
 
 _CONFIDENCE = re.compile(
     r"(.*[^\s_.:/-])[\s_.:/-]+(confidence|likelihood|score|visibility|presence|c)", re.IGNORECASE
@@ -46,6 +52,9 @@ _TIME = re.compile(
     rf"seconds?(?:[\s_]*elapsed)?|epoch?(?=[\s_]*[\[(]?[mun]?s\b))[\s_]*(?:[\[(]?({'|'.join(UNITS_OF_TIME)})?[\])]?|"
     r"[\[(]?(?:utc|iso|[+-]\d{2}:?\d{2})[\])]?)",
     re.IGNORECASE,
+)
+_POSITION = re.compile(
+    r"(.*[^\s_.:/-])(?:[\s_.:/-]+pos(?:ition)?|(?-i:Pos(?:ition)?))", re.IGNORECASE
 )
 _RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
 
@@ -74,21 +83,22 @@ def columns_to_motion(
     ReadError
         No joints are found, columns differ in length, or nothing tells the rate.
     """
-    names, positions, sure = _joints(content, columns)
+    joints = _joints(content, columns)
+    names, positions, sure = _positions(content, columns, joints)
     limit = limit if options.confidence is None else options.confidence
     positions[sure < limit] = np.nan
-    flat = all(len(axes) == 2 for axes in axes_by_point(columns).values())
+    flat = all(len(axes) == 2 for axes in joints.values())
     timing = timed(content, columns, options.fps)
     notes = list(timing.notes)
     if (sure < limit).any():
         notes.append(
             f"{counted(int((sure < limit).sum()), 'position')} less sure than {limit:g} not used"
         )
-    unit, up = options.unit, options.up
+    unit, up = options.unit or _unit(joints), options.up
     if flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")
         unit, up = unit or "pixel", up or "-y"
-    points = Points(names, positions, timing.fps, unit, up)
+    points = Points(names, positions, timing.fps, unit, up, person=options.person)
     return split_at(to_motion(points, content.provenance(name, notes)), timing.gaps)
 
 
@@ -143,17 +153,38 @@ def timed(content: FileContent, columns: Mapping[str, ArrayLike], fps: float | N
     raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
 
 
-def _joints(
-    content: FileContent, columns: Mapping[str, ArrayLike]
-) -> tuple[list[str], Floats, Floats]:
-    """Names, positions (rows, joints, 3) and confidences (rows, joints)."""
-    joints = axes_by_point(columns)
-    if not joints:
+def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
+    """For each joint the columns of its axes; without those of its velocity, rotation and such."""
+    points = axes_by_point(columns)
+    if not points:
         shown = ", ".join(list(columns)[:8])
         raise content.error(
             "no columns JOINT_x, JOINT_y and JOINT_z found, so there are no positions "
             f"(columns: {shown or 'none'}); channels are named with columns= (--columns)"
         )
+    called = {name: _POSITION.fullmatch(name) for name in points if is_body(name)}
+    plain = {name: match[1] if match else name for name, match in called.items()}
+    known, all_so = set(plain.values()), all(called.values())
+    joints: dict[str, Mapping[str, str]] = {}
+    for name, axes in points.items():
+        if name in plain:
+            joints[plain[name] if all_so else name] = axes
+        elif known.isdisjoint(beginnings(name)):
+            joints[name] = axes
+    return joints
+
+
+def _unit(joints: Joints) -> str | None:
+    """The unit that all of the columns' names tell."""
+    columns = [column.strip() for axes in joints.values() for column in axes.values()]
+    told = {match[5] for column in columns if (match := COORDINATE.fullmatch(column))}
+    return told.pop() if len(told) == 1 else None
+
+
+def _positions(
+    content: FileContent, columns: Mapping[str, ArrayLike], joints: Joints
+) -> tuple[list[str], Floats, Floats]:
+    """Names, positions (rows, joints, 3) and confidences (rows, joints)."""
     sureness = {
         match[1]: column for column in columns if (match := _CONFIDENCE.fullmatch(column.strip()))
     }
@@ -196,9 +227,10 @@ def _in_seconds(content: FileContent, timing: Timing) -> Timing:
     """What the times tell, refused where they are so far apart that they are hardly seconds."""
     rate = timing.fps
     if rate <= _SLOWEST:
+        unit = next((unit for unit in _FINER if rate * _FINER[unit] > _SLOWEST), "milliseconds")
         raise content.error(
             f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
-            f"(--fps; {1000 * rate:g} for milliseconds)"
+            f"(--fps; {rate * _FINER[unit]:g} for {unit})"
         )
     return timing
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from array import array
 from collections.abc import Sequence
 from math import nan
@@ -17,6 +18,8 @@ EMPTY = frozenset(
     {"", "nan", "na", "n/a", "null", "none", "-"} | {"#n/a", "#nv", "#div/0!", "#num!", "#value!"}
 )
 """What stands in a cell without a number, in lower case; the last are those of spreadsheets."""
+
+_COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 
 
 def rows_of(
@@ -69,11 +72,10 @@ def rows_of(
                     raise content.error(reason, line)
                 content.warn(f"{reason}: the last row breaks off, left out", line)
                 break
-            if comma:
-                cells = [cell.replace(",", ".") for cell in cells]  # noqa: PLW2901
             for i in dated:
                 cells[i] = _seconds(content, cells[i].strip(), line)
-            values.extend(_numbers(content, [cells[i] for i in wanted], line))
+            row = [cells[i] for i in wanted]
+            values.extend(_numbers(content, [*map(dotted, row)] if comma else row, line))
     except csv.Error as error:
         raise content.error(str(error), first + reader.line_num - 1) from None
     if not values:
@@ -90,6 +92,16 @@ def texts_of(lines: Sequence[str], separator: str, column: int) -> list[str]:
 def separator_of(line: str) -> str:
     """Tab, semicolon or comma, whichever cuts the line into most cells."""
     return max("\t;,", key=line.count)
+
+
+def has_comma(cell: str) -> bool:
+    """Whether a cell is a number with a decimal comma."""
+    return _COMMA.fullmatch(cell) is not None
+
+
+def dotted(cell: str) -> str:
+    """A cell with a decimal point in place of a decimal comma; other text as it is."""
+    return cell.replace(",", ".") if has_comma(cell) else cell
 
 
 def _seconds(content: FileContent, cell: str, line: int) -> str:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from kineme._counts import counted
-from kineme.formats.delimited import EMPTY, separator_of
+from kineme.formats.delimited import EMPTY, has_comma, separator_of
 from kineme.formats.timing import is_date
 
 HIGHEST = 200
@@ -24,7 +24,6 @@ COMMAS = "numbers have a decimal comma"
 
 _LOOKED_AT = 50  # rows in which a decimal comma is looked for
 _SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
-_COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 _NUMBER = re.compile(r"\s*[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?\s*")
 
 
@@ -86,12 +85,7 @@ def has_commas(rows: Sequence[str], separator: str) -> bool:
     if separator == ",":
         return False
     cells = [cell for row in islice(_full(rows), _LOOKED_AT) for cell in cells_of(row, separator)]
-    return any(map(_COMMA.fullmatch, cells)) and not any("." in c for c in cells if _is_number(c))
-
-
-def dotted(cell: str) -> str:
-    """A cell with a decimal point in place of a decimal comma; other text as it is."""
-    return cell.replace(",", ".") if _COMMA.fullmatch(cell) else cell
+    return any(map(has_comma, cells)) and not any("." in c for c in cells if is_number(c))
 
 
 def first_full(rows: Sequence[str]) -> str:
@@ -107,15 +101,15 @@ def _heads(lines: Sequence[str], full: Sequence[int], at: int, separator: str | 
     """Whether names stand in a line, rows of as many cells below it, and fewer cells above it."""
     head = lines[full[at]]
     sep = separator or separator_of(head)
-    if sep not in head or _has(cells_of(head, sep), _is_number):
+    if sep not in head or _has(cells_of(head, sep), is_number):
         return False
     width = head.count(sep) + 1
     above = (lines[i].strip().rstrip(sep) for i in full[:at])  # spreadsheets fill lines up
     rows = [cells_of(lines[i], sep) for i in full[at + 1 : at + 4]]
-    rows = rows[1:] if rows and not _has(rows[0], _is_number) else rows[:2]
+    rows = rows[1:] if rows and not _has(rows[0], is_number) else rows[:2]
     return (
         bool(rows)
-        and all(len(row) == width and _has(row, _is_number) for row in rows)
+        and all(len(row) == width and _has(row, is_number) for row in rows)
         and all(line.count(sep) + 1 < width for line in above)
     )
 
@@ -123,14 +117,14 @@ def _heads(lines: Sequence[str], full: Sequence[int], at: int, separator: str | 
 def _is_units(lines: Sequence[str], full: Sequence[int], separator: str) -> bool:
     """Whether words stand below the names, and numbers below these."""
     names, *rows = (cells_of(lines[i], separator) for i in full[:3])
-    if len(rows) < 2 or separator not in lines[full[0]] or _has(names, _is_number):
+    if len(rows) < 2 or separator not in lines[full[0]] or _has(names, is_number):
         return False
     words = [i for i, cell in enumerate(rows[0]) if cell.lower() not in EMPTY]
     return (
         bool(words)
         and len(rows[0]) == len(rows[1]) == len(names)
-        and not any(_is_number(rows[0][i]) or is_date(rows[0][i]) for i in words)
-        and all(_is_number(rows[1][i]) or is_date(rows[1][i]) for i in words)
+        and not any(is_number(rows[0][i]) or is_date(rows[0][i]) for i in words)
+        and all(is_number(rows[1][i]) or is_date(rows[1][i]) for i in words)
     )
 
 
@@ -143,5 +137,6 @@ def _has(cells: Sequence[str], what: Callable[[str], bool]) -> bool:
     return any(map(what, cells))
 
 
-def _is_number(cell: str) -> bool:
+def is_number(cell: str) -> bool:
+    """Whether a cell is a number, with a decimal point or comma."""
     return bool(_NUMBER.fullmatch(cell))

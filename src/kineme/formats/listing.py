@@ -8,7 +8,7 @@ is listed at once. Opened are
 - npz archives, whose directory names ``poses``, ``positions``, a time, a rate or the
   coordinates of a joint;
 - JSON and text, which may hold anything and are recordings only if a format knows their
-  first bytes.
+  first bytes, or those and the last ones of JSON: sets of COCO often begin with their images.
 
 A file that cannot be judged (damaged, gone, closed to us) is passed over with its name and
 the reason; it never ends the listing.
@@ -26,7 +26,7 @@ from kineme._counts import counted
 from kineme._files import head_of, tail_of
 from kineme.formats.columns import is_timing, joint_names
 from kineme.formats.keypoints.openpose import frame_files
-from kineme.formats.registry import supported_formats
+from kineme.formats.registry import speaks, supported_formats
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""
@@ -148,8 +148,8 @@ def _is_recording(path: Path) -> bool:
     if not formats or suffix in _SKELETONS:
         return False
     if suffix in _ANYTHING:
-        head = head_of(path)
-        return any(known.recognises(head) for known in formats)
+        ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
+        return any(speaks(known, ends) for known in formats)
     if suffix in (".csv", ".tsv"):
         return not _names_spans(head_of(path))
     if suffix == ".parquet":

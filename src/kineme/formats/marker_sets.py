@@ -109,6 +109,7 @@ PARENTS = {
 
 _SIDES = {"l": "L", "left": "L", "r": "R", "right": "R"}
 _SIDE_AT_THE_END = re.compile(r"([A-Z]+)([lr])")
+_NAMELESS = re.compile(r"\*.*|unlabel+ed.*|c_\d{3,}|\d+", re.IGNORECASE)
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
 
@@ -154,18 +155,25 @@ def plain(name: str) -> str:
     return "".join(words).upper()
 
 
-def of_one_subject(names: Sequence[str]) -> tuple[list[str], list[str]]:
+def is_nameless(name: str) -> bool:
+    """Whether a program has called a marker so that nobody had named, as ``*12``."""
+    return _NAMELESS.fullmatch(name.rpartition(":")[2]) is not None
+
+
+def of_one_subject(names: Sequence[str], wanted: str | None = None) -> tuple[list[str], list[str]]:
     """The names without the subject's, and the subjects whose points make up a pelvis.
 
-    ``Ann:LANK`` becomes ``LANK`` for the first of those subjects, or where all
-    names begin with the same one; points of others keep their full names.
+    ``Ann:LANK`` becomes ``LANK`` for the one wanted of those subjects, else the first, or where
+    all names begin with the same one; points of others keep their full names.
     """
     points: dict[str, list[int]] = {}
     for i, name in enumerate(names):
         points.setdefault(name.rpartition(":")[0], []).append(i)
     short = [name.rpartition(":")[2] for name in names]
     subjects = [who for who, which in points.items() if "pelvis" in find_body(short, which)]
-    chosen = subjects[0] if subjects else names[0].rpartition(":")[0] if len(points) == 1 else ""
+    chosen = names[0].rpartition(":")[0] if len(points) == 1 else ""
+    if subjects:
+        chosen = wanted if wanted in subjects else subjects[0]
     mine = set(points.get(chosen, ()))
     return [short[i] if i in mine else name for i, name in enumerate(names)], subjects
 

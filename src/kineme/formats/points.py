@@ -17,10 +17,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kineme._counts import counted
-from kineme.errors import ReadError
+from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
 from kineme.formats.inferred import scale_of, up_axis
@@ -41,7 +41,7 @@ class Points:
     ----------
     names : sequence of str
         One per point.
-    positions : ndarray of shape (frames, points, 3)
+    positions : array_like of shape (frames, points, 3)
         NaN where not seen.
     fps : float
         Frames per second.
@@ -51,14 +51,17 @@ class Points:
         The axis that points up, or None if not known.
     usual_up : str, optional
         The axis taken where neither the file nor the body tells.
+    person : str, optional
+        Which of several subjects makes the body; the first by default.
     """
 
     names: Sequence[str]
-    positions: Floats
+    positions: ArrayLike
     fps: float
     unit: str | float | None = None
     up: str | None = None
     usual_up: str = "y"
+    person: str | None = None
 
 
 def to_motion(points: Points, provenance: Provenance) -> Motion:
@@ -67,14 +70,14 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     Raises
     ------
     ReadError
-        No point was seen throughout, or the body in no frame.
+        No point was seen throughout, the body in no frame, or the person is none of several.
     """
     path = provenance.path or "recording"
-    names, subjects = of_one_subject([name.strip() or "point" for name in points.names])
+    given = [name.strip() or "point" for name in points.names]
+    names, subjects = of_one_subject(given, points.person)
     names = unique(names)
     if len(subjects) > 1:
-        said = f"{len(subjects)} subjects: the body is that of {subjects[0]!r}"
-        provenance = provenance.noted(Note(said, "warning"))
+        provenance = provenance.noted(_said_of_subjects(path, subjects, points.person))
     positions = np.array(points.positions, np.float64)
     gaps = fill_gaps(positions, points.fps)
     body = _least_broken(names, gaps, len(positions))
@@ -103,6 +106,17 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     if "pelvis" in body:
         notes.append(f"joints of the body: {described(body, names)}")
     return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)
+
+
+def _said_of_subjects(path: str, subjects: list[str], person: str | None) -> Note:
+    """Whose body it is; SeveralPeopleError for somebody who is not there."""
+    if person is None:
+        said = f"{len(subjects)} subjects: the body is that of {subjects[0]!r}"
+        return Note(f"{said}; person= (--person) takes another", "warning")
+    if person not in subjects:
+        reason = f"there is no person {person!r}: choose from {', '.join(subjects)}"
+        raise SeveralPeopleError(path, reason, subjects)
+    return Note(f"person {person} of {len(subjects)}")
 
 
 def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:

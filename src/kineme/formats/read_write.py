@@ -228,7 +228,11 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
             f"is {known.name}, which is not read as channels (columns, emg): load them as an "
             "array and give it to kineme.Signals"
         )
-    return known.read(content, options)
+    recording: object = known.read(content, options)  # of another package, perhaps
+    if not isinstance(recording, Motion | Signals):
+        given = type(recording).__name__
+        raise content.error(f"the reader of {known.name} gave no Motion or Signals, but {given}")
+    return recording
 
 
 def _read_folder(path: Path, options: ReadOptions) -> Motion | Signals:

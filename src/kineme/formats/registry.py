@@ -16,11 +16,11 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from kineme._checks import check_type
+from kineme._checks import check_suffixes, check_type
 from kineme._files import HEAD
 from kineme._plugins import plugins
 from kineme.errors import ReadError
-from kineme.formats.files import FileContent
+from kineme.formats.files import FileContent, warn
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion, Signals
 
@@ -86,6 +86,18 @@ class Format:
     analog: bool = False
     sketch: Callable[[FileContent, ReadOptions, int], Sketch | None] | None = None
 
+    def __post_init__(self) -> None:
+        check_suffixes(self.suffixes, self.name)
+
+
+_EXPORT = "export BVH or C3D from the program that made it"
+_UNPACK = "unpack it first"
+INSTEAD = {
+    **dict.fromkeys((".fbx", ".gltf", ".glb", ".mvnx", ".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
+    **dict.fromkeys((".xlsx", ".xls", ".ods"), "save it as CSV"),
+    **dict.fromkeys((".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz"), _UNPACK),
+}
+"""What to do with files that people try, by suffix."""
 
 _formats: list[Format] = []
 
@@ -123,8 +135,10 @@ def recognise(content: FileContent) -> Format:
     head = content.data[:HEAD]
     suffix = content.path.suffix.lower()
     formats = supported_formats()
-    by_content = [known for known in formats if known.recognises(head)]
+    by_content = [known for known in formats if speaks(known, head)]
     by_suffix = [known for known in formats if suffix in known.suffixes]
+    if suffix in INSTEAD and not by_suffix:
+        raise ReadError(content.path, f"{suffix} is not read: {INSTEAD[suffix]}")
     for known in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
         return known
     suffixes = sorted({s for known in formats for s in known.suffixes})
@@ -133,6 +147,16 @@ def recognise(content: FileContent) -> Format:
         f"neither its content nor its suffix {suffix!r} is known: kineme reads "
         f"{', '.join(suffixes)}",
     )
+
+
+def speaks(known: Format, head: bytes) -> bool:
+    """Whether a file's first bytes look like a format; one that cannot tell costs itself only."""
+    try:
+        return known.recognises(head)
+    except Exception as error:  # noqa: BLE001 (whatever a stranger's format raises)
+        reason = f"{type(error).__name__}: {error}"
+        warn(f"the format {known.name} is passed over, it cannot tell its files: {reason:.200}")
+        return False
 
 
 @cache

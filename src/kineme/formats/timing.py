@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._counts import counted
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S, spans_of
 
@@ -31,6 +32,9 @@ UNEVEN = 0.1
 
 UNITS_OF_TIME = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "μs": 1e6, "ns": 1e9}
 """How many of each make a second."""
+
+NO_TIMES = "holds neither numbers nor ISO dates such as 2026-01-31T09:30:00.25"
+"""What is said of a column that is called as times are, and tells none."""
 
 _ORDINARY = 0.5  # share of the median step by which an ordinary step differs from it at most
 _MOST = 2 / 3  # share of steps that are ordinary, else the rate is that of the whole duration
@@ -95,7 +99,8 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
     fps = _rounded(len(steps) / duration if even else 1 / period, max(1e-6, float(doubt)))
     notes = [] if even else [_said(steps, jumps, period, fps)]
     if not known.all():
-        notes.append(f"{int((~known).sum())} rows without a time counted as frames")
+        untimed = counted(int((~known).sum()), "row")
+        notes.append(f"{untimed} without a time counted as frames")
     gaps = tuple((start, stop) for start, stop in spans_of(jumps).tolist())
     return Timing(fps, gaps, tuple(notes))
 
@@ -195,18 +200,18 @@ def _period(steps: Floats, jumps: NDArray[np.bool_]) -> float:
             return period
     changes = np.flatnonzero(steps > 0)
     between = slice(changes[0] + 1, changes[-1] + 1) if len(changes) > 1 else slice(None)
-    counted = steps[between][~jumps[between]]
-    return float(counted.mean()) if len(counted) else 0.0
+    used = steps[between][~jumps[between]]
+    return float(used.mean()) if len(used) else 0.0
 
 
 def _said(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: float) -> str:
     """One sentence on uneven times."""
-    seen: Sequence[tuple[int, str]] = [
-        (int((steps == 0).sum()), "rows have the time of the row before"),
-        (int((steps < 0).sum()), "steps go back in time"),
-        (int((steps > 1.5 * period).sum()), "steps are longer than a frame and a half"),
+    seen: Sequence[tuple[int, str, str]] = [
+        (int((steps == 0).sum()), "row", "with the time of the row before"),
+        (int((steps < 0).sum()), "step", "back in time"),
+        (int((steps > 1.5 * period).sum()), "step", "longer than a frame and a half"),
     ]
-    parts = [f"{n} {what}" for n, what in seen if n]
+    parts = [f"{counted(n, one)} {what}" for n, one, what in seen if n]
     said = f"times are uneven ({', '.join(parts) or 'jitter'}): rows are frames, at {fps:g} Hz"
     if not jumps.any():
         return said

@@ -114,6 +114,26 @@ def labels_of(
     return found
 
 
+def strays_of(recordings: Iterable[Path], labels: str | PathLike[str]) -> list[str]:
+    """The recordings that a table has labels of and that are not there.
+
+    Parameters
+    ----------
+    recordings : iterable of Path
+        Those that are there.
+    labels : path-like
+        As for `labels_of`; a folder has none.
+
+    Returns
+    -------
+    list of str
+        As the table names them.
+    """
+    home = Path(labels)
+    there = {name for path in recordings for name in (path.name, path.stem)}
+    return [] if home.is_dir() else [name for name in _in_table(home) if name not in there]
+
+
 def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     """The labels as spans of a recording's frames that neither overlap nor run backwards.
 

@@ -27,7 +27,7 @@ from typing import Any, Literal
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.formats.layout import dotted
+from kineme.formats.delimited import dotted
 from kineme.labels import pairs
 from kineme.labels.delimited import as_text, from_text, number, read_rows, write_rows
 from kineme.labels.heads import columns as columns_of

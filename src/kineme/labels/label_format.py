@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
+from kineme._checks import check_suffixes, is_one_of
+from kineme.errors import ParameterError
 from kineme.labels.spans import Labels
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
 Read = Callable[[Path], Segmentation | Labels]
+Holds = Literal["all", "levels", "level"]
 Write = Callable[[Sequence[Segment], Segmentation, Path], None]
 
 
@@ -58,7 +61,7 @@ class LabelFormat:
     name: str
     help: str
     suffixes: tuple[str, ...]
-    holds: Literal["all", "levels", "level"]
+    holds: Holds
     read: Read
     write: Write | None = None
     recognises: Callable[[Path], bool] | None = None
@@ -67,6 +70,12 @@ class LabelFormat:
     folder: str = ""
 
     def __post_init__(self) -> None:
+        check_suffixes(self.suffixes, self.name)
+        if not is_one_of(self.holds, get_args(Holds)):
+            raise ParameterError(
+                f"holds of {self.name!r:.60} must be one of {', '.join(get_args(Holds))}, not "
+                f"{self.holds!r:.60}"
+            )
         object.__setattr__(self, "written_suffix", self.written_suffix or self.suffixes[0])
 
     @property

@@ -13,7 +13,7 @@ from os import PathLike
 from pathlib import Path
 from types import MappingProxyType
 
-from kineme._checks import is_one_of
+from kineme._checks import check_type, is_one_of
 from kineme._plugins import plugins
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
@@ -63,8 +63,9 @@ def register(new: LabelFormat) -> None:
     Raises
     ------
     ParameterError
-        There is a format of this name.
+        There is a format of this name, or it is none.
     """
+    check_type(new, LabelFormat, "register", "see kineme.labels.LabelFormat")
     if new.name in _known():
         raise ParameterError(f"there is a label format {new.name!r} already: choose another name")
     _known()[new.name] = new

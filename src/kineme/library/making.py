@@ -38,7 +38,7 @@ def make_piece(
         effectors=settings.effectors,
         emg=emg,
         **settings.constants,
-    )
+    ).level(settings.detail)
     described = describe(recording, effectors=settings.effectors, emg=emg)
     embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
     for row, each in enumerate(found.table):

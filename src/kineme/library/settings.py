@@ -15,6 +15,7 @@ from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.methods.presets import DEFAULT, resolve_preset
+from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
 PIECE = "kineme.library.piece/4"
 """Schema of a piece: a change of what is kept of a recording gets the next number."""
@@ -34,11 +35,13 @@ class Settings:
         Keywords of `kineme.read`, such as ``fps`` and ``unit``.
     effectors : mapping or sequence of str, optional
         Joints to take for head, hands and feet where names do not tell.
+    detail : float
+        Of the segments that are kept: 1 as found, less is coarser, more is finer.
 
     Raises
     ------
     ParameterError
-        No such preset, constant or keyword, or a value that it cannot take.
+        No such preset, constant, keyword or detail, or a value that it cannot take.
 
     Examples
     --------
@@ -50,6 +53,7 @@ class Settings:
     constants: Mapping[str, Any] = field(default_factory=dict)
     reading: Mapping[str, Any] = field(default_factory=dict)
     effectors: Mapping[str, str] | Sequence[str] | None = None
+    detail: float = DEFAULT_DETAIL
 
     def __post_init__(self) -> None:
         if not isinstance(self.preset, str):
@@ -59,6 +63,7 @@ class Settings:
             if not (isinstance(given, Mapping) and all(isinstance(key, str) for key in given)):
                 raise ParameterError(f"{name} must be values by their names, not {given!r:.60}")
         resolve_preset(self.preset, **self.constants)
+        check_detail(self.detail)
         self.options()
 
     def options(self) -> ReadOptions:
@@ -88,7 +93,8 @@ class Settings:
         try:
             constants = {name: _tupled(value) for name, value in held["constants"].items()}
             reading = {name: _tupled(value) for name, value in held["reading"].items()}
-            return cls(held["preset"], constants, reading, held["effectors"])
+            detail = held.get("detail", DEFAULT_DETAIL)  # libraries of before have none
+            return cls(held["preset"], constants, reading, held["effectors"], detail)
         except (KeyError, TypeError, AttributeError) as error:
             raise ParameterError(
                 "the settings of the library are not as they were written: build it anew"

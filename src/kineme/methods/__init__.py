@@ -11,16 +11,22 @@ A method is used by a preset: its constants with values, and a name.
 `kineme.methods.base` says what a preset and what it finds are made of.
 """
 
-from kineme.methods.base import Found, Preset
+from kineme.methods.base import Columns, Found, Leveled, Mirror, Preset, Unit
 from kineme.methods.constants import Constant, constant
 from kineme.methods.presets import DEFAULT, PRESETS, register, resolve_preset
+from kineme.methods.stages import Progress
 
 __all__ = [
     "DEFAULT",
     "PRESETS",
+    "Columns",
     "Constant",
     "Found",
+    "Leveled",
+    "Mirror",
     "Preset",
+    "Progress",
+    "Unit",
     "constant",
     "register",
     "resolve_preset",

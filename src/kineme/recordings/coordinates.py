@@ -1,18 +1,26 @@
 """Coordinates of points by the names of their columns: ``hip_x hip_y hip_z``.
 
+A unit of length may follow: ``hip x [mm]``.
+
 Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from itertools import islice
 
-COORDINATE = re.compile(r"(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ])")
+COORDINATE = re.compile(
+    r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:[\s_]*[\[(](m|cm|mm)[\])])?"
+)
+"""A point and its axis, in two ways, and a unit."""
 
+_WORD = re.compile(r"[A-Z]?[a-z]+\d*|[A-Z]+\d*(?![a-z])|\d+")
+_MOST_WORDS = 8
 _SENSOR = re.compile(
     r"acc(el\w*)?|gyr(o\w*)?|mag(net\w*)?|imu|emg|grf|forces?|moments?|torques?|cop|gravity|"
-    r"angular|rotation|attitude|velocity|vel|quat(ernion)?|orient(ation)?|[agwm]",
+    r"angular|angles?|rot(ation)?|euler|attitude|velocity|vel|quat(ernion)?|orient(ation)?|[agwm]",
     re.IGNORECASE,
 )
 
@@ -37,10 +45,24 @@ def axes_by_point(columns: Iterable[str]) -> dict[str, dict[str, str]]:
 def is_body(name: str) -> bool:
     """Whether a name with coordinates is that of a joint, and not of a sensor.
 
+    What stands before a colon is whose joint it is.
+
     Examples
     --------
-    >>> is_body("hip"), is_body("hip_acc")
+    >>> is_body("A:hip"), is_body("hip_acc")
     (True, False)
     """
-    words = re.findall(r"[A-Z]?[a-z]+\d*|[A-Z]+\d*(?![a-z])|\d+", name)
-    return not any(_SENSOR.fullmatch(word) for word in words)
+    joint = name.rpartition(":")[2]
+    return not any(_SENSOR.fullmatch(word) for word in _WORD.findall(joint))
+
+
+def beginnings(name: str) -> Iterator[str]:
+    """What a name begins with, word by word; of long ones the first few.
+
+    Examples
+    --------
+    >>> list(beginnings("hip_angular_vel"))
+    ['hip', 'hip_angular']
+    """
+    for word in islice(_WORD.finditer(name), 1, _MOST_WORDS):
+        yield name[: word.start()].rstrip(" \t_.:/-")

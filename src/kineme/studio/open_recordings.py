@@ -87,14 +87,18 @@ class OpenRecordings:
         with opening:
             known = self._open.get(name)
             if known is None or known.loaded.changed():
-                others = [other for other in list(self._open.values()) if other.path != path]
-                tables = {other.table_path for other in others}
-                revision = 1 if known is None else known.revision + 1
-                opened = OpenRecording(name, path, self._cache, tables, revision)
-                self._open[name] = opened
-                if opened.finding:
-                    self._in_background(lambda: self._find(opened))
-            return self._open[name]
+                return self._opened(name, path, known)
+            return known
+
+    def _opened(self, name: str, path: Path, before: OpenRecording | None) -> OpenRecording:
+        """Open a recording, perhaps once more, and say later when its segments are there."""
+        others = [other for other in list(self._open.values()) if other.path != path]
+        tables = {other.table_path for other in others}
+        revision = 1 if before is None else before.revision + 1
+        opened = self._open[name] = OpenRecording(name, path, self._cache, tables, revision)
+        if opened.finding:
+            self._in_background(lambda: self._find(opened))
+        return opened
 
     def _forget_others(self, name: str) -> None:
         """Let go of the pictures of recordings that nobody has asked for since many others."""
@@ -201,12 +205,8 @@ class OpenRecordings:
         except KinemeError:
             keep_options(path, before)
             raise
-        with self._lock:
-            known = self._open.pop(name, None)
-            others = {other.table_path for other in self._open.values()}
-        opened = OpenRecording(name, path, self._cache, others, known.revision + 1 if known else 1)
-        with self._lock:
-            self._open[name] = opened
+        known = self._open.get(name)
+        opened = self._opened(name, path, known)
         if opened.table_path.exists():
             of = opened if known is None else known
             signals = not opened.loaded.is_motion

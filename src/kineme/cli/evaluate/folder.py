@@ -16,7 +16,7 @@ from kineme.evaluation.methods import check_method
 from kineme.evaluation.recordings import Reading, recordings_below
 from kineme.evaluation.score import scores
 from kineme.evaluation.tables import write_records, write_text
-from kineme.labels.collections import labels_of
+from kineme.labels.collections import labels_of, strays_of
 
 NAMED = 5
 """Names that a list of files shows before it only counts."""
@@ -53,6 +53,7 @@ def run_folder(
             progress=stage,
         )
     if not quiet:
+        _tell("labels of recordings that are not there", strays_of(recordings, labels))
         _tell("without labels, left out", [path.name for path in recordings if path not in found])
     _tell_of_recordings(result, quiet=quiet)
     if as_json:

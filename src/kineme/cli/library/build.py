@@ -11,12 +11,13 @@ import typer
 from kineme._counts import counted
 from kineme.cli.help import RECORDINGS
 from kineme.cli.library.folder import Scheduler, path_or_url
-from kineme.cli.messages import Failures, progress, say_skipped
+from kineme.cli.messages import Failures, one_line, progress, say_skipped
 from kineme.cli.options.inputs import Batch
-from kineme.cli.options.preset_options import PRESET, with_preset_options
+from kineme.cli.options.preset_options import DETAIL, PRESET, with_preset_options
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.options.request import Request
 from kineme.methods.presets import DEFAULT
+from kineme.segments.hierarchy import DEFAULT_DETAIL
 
 if TYPE_CHECKING:
     from kineme.library import Built, Settings
@@ -65,6 +66,7 @@ def build(
             show_default="as the last time",
         ),
     ] = None,
+    detail: Annotated[float | None, DETAIL] = None,
     preset: Annotated[str | None, PRESET] = None,
     quiet: Quiet = False,
     effectors: Effectors = None,
@@ -77,7 +79,13 @@ def build(
     recordings does only these. Options that say how recordings are read and segmented stay as
     they were unless one of them is given.
     """
-    request = Request.of(preset or DEFAULT, constants, reading, effectors)
+    request = Request.of(
+        preset or DEFAULT,
+        constants,
+        reading,
+        effectors,
+        DEFAULT_DETAIL if detail is None else detail,
+    )
     failures = Failures()
     processes = _cores() if jobs is None else jobs
     with failures.caught(into):
@@ -90,11 +98,15 @@ def build(
         from kineme.library.planning import known_sources
         from kineme.library.storage.places import is_remote
 
-        said = any((preset, constants, reading, effectors))
+        said = any((preset, constants, reading, effectors, detail))
         settings: Settings | None = None
         if said:
             settings = Settings(
-                request.preset, request.constants, request.reading, request.effectors
+                request.preset,
+                request.constants,
+                request.reading,
+                request.effectors,
+                request.detail,
             )
         sources = known_sources(into, files or (), remove or ())
         with progress(into, quiet=quiet) as stage:
@@ -129,19 +141,19 @@ def _say_elsewhere(built: Built, sources: set[Path]) -> None:
     """Say what failed that was to be read from URLs; end with 1 if a source itself did."""
     failed = {path: reason for path, reason in built.failed.items() if hasattr(path, "protocol")}
     for path, reason in failed.items():
-        say_skipped(f"{path}: {reason.removeprefix(f'{path}: ')}")
+        say_skipped(one_line(reason, subject=path))
     if sources & failed.keys():
         raise typer.Exit(1)
 
 
 def _exit(built: Built, batch: Batch) -> None:
     """Say what was left out and why; end with code 1 if something named gave nothing."""
-    from kineme.errors import ReadError
+    from kineme.errors import KinemeError
 
     for path in batch.paths:
         with batch.caught(path):
             if path in built.failed:
-                raise ReadError(path, built.failed[path].removeprefix(f"{path}: "))
+                raise KinemeError(built.failed[path])
     batch.exit()
 
 

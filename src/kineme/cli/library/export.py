@@ -12,11 +12,13 @@ from kineme.cli.library.folder import Folder, opened
 
 def export(
     folder: Folder,
-    to: Annotated[Path, typer.Option("--to", help="File to write: .parquet, .csv or .tsv.")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="File to write: .parquet, .csv or .tsv.")
+    ],
     table: Annotated[
         str, typer.Option(help="segments, recordings, clusters, words or embeddings.")
     ] = "segments",
 ) -> None:
     """Write one table of a library: its segments, with a column for the recording."""
     with opened(folder) as library:
-        library.export(to, table)
+        library.export(output, table)

@@ -10,6 +10,7 @@ import typer
 
 from kineme._counts import counted
 from kineme.cli.library.folder import Folder, Json, opened
+from kineme.cli.messages import one_line
 
 if TYPE_CHECKING:
     from kineme.library import Library
@@ -86,4 +87,4 @@ def _show(library: Library) -> None:
     if len(unsure) > UNSURE:
         console.print(Text(f"and {len(unsure) - UNSURE} more that are unsure", style="dim"))
     for path, reason in library.failed.items():
-        console.print(Text(f"failed: {path}: {reason.removeprefix(f'{path}: ')}"), soft_wrap=True)
+        console.print(Text(f"failed: {one_line(reason, subject=path)}"), soft_wrap=True)

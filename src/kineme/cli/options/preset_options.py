@@ -30,14 +30,12 @@ PRESET = typer.Option(
     help="\n\n".join(f"{name}: {preset.help}" for name, preset in PRESETS.items()),
 )
 PresetName = Annotated[str, PRESET]
-Detail = Annotated[
-    float,
-    typer.Option(
-        "--detail",
-        metavar="NUMBER",
-        help="1 as found; less for fewer, longer segments, more for finer ones.",
-    ),
-]
+DETAIL = typer.Option(
+    "--detail",
+    metavar="NUMBER",
+    help="1 as found; less for fewer, longer segments, more for finer ones.",
+)
+Detail = Annotated[float, DETAIL]
 Uses = dict[str, Constant]
 """A constant in each preset that has it, by the name of the preset."""
 

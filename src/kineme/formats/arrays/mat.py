@@ -168,7 +168,7 @@ def _qtm_motion(
         raise content.error("no FrameRate in it: give fps= (--fps)")
     positions = np.asarray(data[:, :3], np.float64).transpose(2, 0, 1)
     unit, up = options.unit or "mm", options.up
-    points = Points(names, positions, options.fps or fps, unit, up, usual_up="z")
+    points = Points(names, positions, options.fps or fps, unit, up, "z", options.person)
     return to_motion(points, content.provenance("MAT of QTM", []))
 
 

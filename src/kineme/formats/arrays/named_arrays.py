@@ -65,7 +65,7 @@ def positions_to_motion(
     if len(names) != len(usual):
         raise content.error(f"{len(names)} names for {len(usual)} joints")
     positions = np.where(np.isfinite(positions), positions, np.nan)
-    points = Points(names, positions, fps, options.unit, options.up)
+    points = Points(names, positions, fps, options.unit, options.up, person=options.person)
     return to_motion(points, content.provenance(name, []))
 
 

@@ -53,8 +53,8 @@ def without_gaps(
         raise content.error("in every frame some channel is missing for long: choose columns")
     holes = spans_of(long)
     gaps = [(start, stop) for start, stop in spans_of(long | jumps).tolist()]
-    filled_in = counted(int((missing & ~long[:, None]).sum()), "missing value")
-    notes = [f"{filled_in} filled in a straight line"]
+    short = int((missing & ~long[:, None]).sum())
+    notes = [f"{counted(short, 'missing value')} filled in a straight line"] if short else []
     if len(holes):
         notes.append(
             f"{counted(len(holes), 'gap')} of more than {LONGEST_S:g} s, "

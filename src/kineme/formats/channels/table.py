@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.formats.columns import is_timing, timed
 from kineme.formats.files import FileContent, unique
-from kineme.formats.timing import Timing
+from kineme.formats.timing import NO_TIMES, Timing
 
 Floats = NDArray[np.float64]
 
@@ -115,11 +115,7 @@ def channel_table(
 ) -> ChannelTable:
     """The columns read, taken apart: channels, times, and a note of what is neither."""
     timing = {name: column for name, column in values.items() if is_timing(name)}
-    hints = [
-        f"; {name!r} holds neither numbers nor ISO dates such as 2026-01-31T09:30:00.25"
-        for name in names
-        if is_timing(name) and name not in timing
-    ]
+    hints = [f"; {name!r} {NO_TIMES}" for name in names if is_timing(name) and name not in timing]
     if columns is not None:
         chosen, notes = list(columns), []
     else:

@@ -14,10 +14,11 @@ from kineme.formats.channels.table import (
     wanted_columns,
 )
 from kineme.formats.columns import dated, is_timing
-from kineme.formats.delimited import EMPTY, rows_of
+from kineme.formats.delimited import EMPTY, dotted, rows_of
 from kineme.formats.files import FileContent, numbers
+from kineme.formats.interleaved import refuse_interleaved
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut
-from kineme.formats.layout import COMMAS, cells_of, dotted, first_full, has_commas, layout_of
+from kineme.formats.layout import COMMAS, cells_of, first_full, has_commas, layout_of
 
 
 @dataclass(frozen=True)
@@ -113,6 +114,7 @@ def text_channels(
     ReadError
         There is no such column, a cell is no number, or nothing is a channel.
     """
+    refuse_interleaved(content, text.names, text.rows, text.separator)
     columns = asked_for(content, text.names, columns, text.numeric())
     wanted = wanted_columns(columns, text.numeric())
     at = [text.names.index(name) for name in wanted]

@@ -26,9 +26,9 @@ from kineme.formats.channels.parquet import parquet_channels, parquet_file
 from kineme.formats.channels.table import named
 from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.columns import is_timing
+from kineme.formats.delimited import dotted
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import covered
-from kineme.formats.layout import dotted
 from kineme.recordings import Signals
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}

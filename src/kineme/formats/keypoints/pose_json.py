@@ -45,7 +45,10 @@ def begins_openpose(head: bytes) -> bool:
 
 
 def begins_coco(head: bytes) -> bool:
-    """Whether JSON begins as COCO's results, or as a set of it whose keypoints come soon."""
+    """Whether JSON begins as COCO's results, or as a set of it whose keypoints come soon.
+
+    Of a whole set that begins with its images, the first and the last bytes together tell.
+    """
     return b'"keypoints"' in head and any(key in head for key in _OF_COCO)
 
 

@@ -13,10 +13,9 @@ asked for, see `kineme.formats.markers.c3d_analog`.
 
 from __future__ import annotations
 
-import re
-
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent
+from kineme.formats.marker_sets import is_nameless
 from kineme.formats.markers.c3d_analog import read_analog
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
 from kineme.formats.options import ReadOptions
@@ -26,7 +25,6 @@ from kineme.formats.units import AXES, unit_named
 from kineme.recordings import Motion, Signals
 
 _MODELLED = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
-_NAMELESS = re.compile(r"\*.*|unlabel+ed.*|c_\d{3,}|\d+", re.IGNORECASE)
 
 
 def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
@@ -60,6 +58,7 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
         unit=options.unit or _unit(file),
         up=options.up or _up(file),
         usual_up="z",
+        person=options.person,
     )
     return to_motion(points, content.provenance("C3D", notes).marked(file.events))
 
@@ -70,9 +69,7 @@ def _markers(file: C3D) -> tuple[list[int], int]:
     groups = {*_MODELLED, *parameters.strings("POINT", "TYPE_GROUPS")} - {"MARKERS"}
     modelled = {label for group in groups for label in parameters.strings("POINT", group)}
     kept = [
-        i
-        for i, label in enumerate(file.labels)
-        if label not in modelled and not _NAMELESS.fullmatch(label.rpartition(":")[2])
+        i for i, label in enumerate(file.labels) if label not in modelled and not is_nameless(label)
     ]
     return kept, len(file.labels) - len(kept)
 

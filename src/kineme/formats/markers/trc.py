@@ -14,9 +14,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.delimited import rows_of, separator_of
+from kineme.formats.delimited import dotted, rows_of, separator_of
 from kineme.formats.files import FileContent, in_a_cell, numbers, save, spelled
 from kineme.formats.gaps import split_at, unseen
+from kineme.formats.layout import COMMAS, has_commas
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
@@ -39,9 +40,9 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     names = _names(lines[3].split(separator)[2:])
     if not names:
         raise content.error("no marker is named after 'Frame#' and 'Time'", 4)
-    table = rows_of(
-        content, lines[_HEADER_LINES:], _HEADER_LINES + 1, separator, 2 + 3 * len(names)
-    )
+    rows, width = lines[_HEADER_LINES:], 2 + 3 * len(names)
+    comma = has_commas(rows, separator)
+    table = rows_of(content, rows, _HEADER_LINES + 1, separator, width, comma=comma)
     head = _header(lines[1], lines[2], separator_of(lines[1]))
     declared = head.get("NumFrames", "")
     if declared.isdigit() and int(declared) != len(table):
@@ -49,8 +50,9 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     positions = table[:, 2:].reshape(len(table), -1, 3)
     timing = _rate(content, options, head, table[:, 1])
     unit = options.unit or unit_named(head.get("Units", ""))
-    points = Points(names, positions, timing.fps, unit, options.up)
-    return split_at(to_motion(points, content.provenance("TRC", timing.notes)), timing.gaps)
+    points = Points(names, positions, timing.fps, unit, options.up, person=options.person)
+    notes = [*timing.notes, *([COMMAS] if comma else [])]
+    return split_at(to_motion(points, content.provenance("TRC", notes)), timing.gaps)
 
 
 def write_trc(motion: Motion, path: Path) -> None:
@@ -95,7 +97,7 @@ def _rate(
     if options.fps:
         return Timing(options.fps)
     try:
-        (declared,) = numbers([head.get("DataRate", "")])
+        (declared,) = numbers([dotted(head.get("DataRate", ""))])
     except ValueError:
         declared = 0.0
     if declared > 0 and (len(times) < 2 or np.isnan(times).any()):

@@ -51,7 +51,10 @@ class Bone:
 def write_amc(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in an AMC file and its skeleton in an ASF of the same name."""
     if motion.rotations is None:
-        raise WriteError(path, "an AMC needs rotations, and this motion has positions only")
+        raise WriteError(
+            path,
+            "an AMC needs rotations, and this motion has positions only: write .trc, .csv or .npz",
+        )
     if sum(parent < 0 for parent in motion.skeleton.parents) != 1:
         raise WriteError(path, "an AMC holds one figure, and this motion has several roots")
     translations = local_translations(motion.skeleton, motion.positions, motion.rotations)

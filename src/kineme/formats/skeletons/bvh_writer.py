@@ -31,7 +31,10 @@ RIGID = 1e-9
 def write_bvh(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in a BVH file in centimetres."""
     if motion.rotations is None:
-        raise WriteError(path, "a BVH needs rotations, and this motion has positions only")
+        raise WriteError(
+            path,
+            "a BVH needs rotations, and this motion has positions only: write .trc, .csv or .npz",
+        )
     skeleton = motion.skeleton
     translations = local_translations(motion.skeleton, motion.positions, motion.rotations)
     slides = np.abs(translations - skeleton.offsets).max(axis=(0, 2)) > RIGID

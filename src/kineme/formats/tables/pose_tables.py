@@ -22,6 +22,7 @@ from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
 from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion
 from kineme.formats.keypoints.video import Person, Video, video_to_motion
+from kineme.formats.layout import has_commas
 from kineme.formats.options import ReadOptions
 from kineme.formats.timing import Timing
 from kineme.recordings import Motion
@@ -69,11 +70,16 @@ class PoseTable:
 
     def numbers(self, columns: Sequence[int]) -> Floats:
         """(rows, columns): some of the columns."""
-        width = len(self.names)
         cells = next(csv.reader(self.lines[:1], delimiter=self.separator), [])
-        dates = dated(self.names, cells)
         return rows_of(
-            self.content, self.lines, self.first, self.separator, width, columns, dates=dates
+            self.content,
+            self.lines,
+            self.first,
+            self.separator,
+            len(self.names),
+            columns,
+            dates=dated(self.names, cells),
+            comma=has_commas(self.lines, self.separator),
         )
 
     def texts(self, column: int) -> list[str]:

@@ -16,15 +16,18 @@ from kineme.formats.channels.reading import to_signals
 from kineme.formats.channels.sensors import hold_channels
 from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.channels.writing import write_signals
-from kineme.formats.columns import columns_to_motion, dated, is_used
-from kineme.formats.delimited import rows_of
+from kineme.formats.columns import columns_to_motion, dated, is_timing, is_used
+from kineme.formats.delimited import EMPTY, rows_of
 from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
 from kineme.formats.gaps import unseen
+from kineme.formats.interleaved import refuse_interleaved
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut, read_deeplabcut
-from kineme.formats.layout import COMMAS, first_full, has_commas, layout_of
+from kineme.formats.layout import COMMAS, first_full, has_commas, is_number, layout_of
+from kineme.formats.markers.capture_tables import is_capture_table, read_capture_table
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.tables.pose_tables import POSE_TABLES, PoseTable
+from kineme.formats.timing import NO_TIMES, is_date
 from kineme.recordings import Motion, Signals
 
 NAME = "table"
@@ -32,6 +35,8 @@ NAME = "table"
 
 def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """The joints or keypoints in a text table, or its channels where there are none."""
+    if not options.channels and is_capture_table(content.data):
+        return read_capture_table(content, options)
     channels = _channels(content, asked=options.channels)
     if channels is not None:
         table = text_channels(content, channels, options.columns or None)
@@ -75,14 +80,25 @@ def _read_motion(content: FileContent, options: ReadOptions) -> Motion:
     for recognises, reader in POSE_TABLES:
         if recognises(names):
             return reader(table, options)
-    used = [i for i, name in enumerate(names) if is_used(name)]
+    refuse_interleaved(content, names, lines[layout.below :], separator)
+    timeless = options.fps is not None
+    used = [i for i, n in enumerate(names) if is_used(n) and not (timeless and is_timing(n))]
     below, line = lines[layout.below :], layout.below + 1
-    dates = dated(names, _cells(first_full(below), separator, content))
+    cells = _cells(first_full(below), separator, content)
+    dates = dated(names, cells)
+    if wrong := [names[i] for i in used if i < len(cells) and _tells_nothing(names[i], cells[i])]:
+        raise content.error(f"column {wrong[0]!r} {NO_TIMES}: give fps= (--fps)", line)
     comma = has_commas(below, separator)
     values = rows_of(content, below, line, separator, len(names), used, dates=dates, comma=comma)
     columns = {names[i]: column for i, column in zip(used, values.T, strict=True)}
     motion = columns_to_motion(content, NAME, columns, options)
     return motion.noted(*layout.notes, *((COMMAS,) if comma else ()))
+
+
+def _tells_nothing(name: str, cell: str) -> bool:
+    """Whether a column is called as times are, and its first cell is none."""
+    known = is_number(cell) or is_date(cell) or cell.lower() in EMPTY
+    return is_timing(name) and not known
 
 
 def _cells(line: str, separator: str, content: FileContent) -> list[str]:
