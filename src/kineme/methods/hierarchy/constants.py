@@ -98,7 +98,7 @@ class HierarchyConstants(CountingPreset):
         limits=SHARE, fine=True,
     )  # fmt: skip
     joint_border_shift: float = constant(
-        "the same where channels are joints", limits=SHARE, fine=True
+        "how far a border is moved so where channels are joints", limits=SHARE, fine=True
     )
     counting_fps: float = constant(
         "frames per second at which repetitions are counted, at most", unit="Hz", limits=RATE,
