@@ -80,11 +80,18 @@ def test_other_channels_beside_a_body_are_seen_as_well(made) -> None:
     body = as_channels(made.motion.positions)
     half = (np.arange(body.n_frames) < body.n_frames // 2).astype(float)
     both = Signals(np.column_stack([body.values, half]), 30.0, [*body.names, "handle"])
-    found = kineme.segment(both)
-    assert (
-        found.activities.start_frame.tolist()
-        != kineme.segment(body).activities.start_frame.tolist()
-    )
+    alone, beside = (kineme.segment(each).activities.cluster for each in (body, both))
+    assert alone[0] == alone[-1]
+    assert beside[0] != beside[-1]
+
+
+@pytest.mark.parametrize("constants", [{"way_weight": 9.0}, {"joint_border_shift": 0.0}])
+def test_what_counts_for_joints_counts_for_nothing_else(made, constants) -> None:
+    body = as_channels(made.motion.positions)
+    sensors = Signals(body.values, body.fps)
+    for channels, same in ((body, False), (sensors, True)):
+        before, after = (kineme.segment(channels, **each).activities for each in ({}, constants))
+        assert (before.start_frame.tolist() == after.start_frame.tolist()) is same
 
 
 @pytest.mark.parametrize("constants", [{"standardize": False}, {"preset": "krueger2017"}])

@@ -117,7 +117,8 @@ class Preset(ABC):
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "metres", "standard deviations", "any")
     """What its lengths can be in."""
     told_bodies: ClassVar[bool] = False
-    """Whether channels that are places of a body's points are seen by the distances of these."""
+    """Whether channels that are places of a body's points are seen by the distances of these, and
+    `analyze` takes ``joints``: whether that is so."""
     told_rides: ClassVar[bool] = False
     """Whether `analyze` takes ``carried``: 1 in samples of a ride upwards, -1 downwards, else 0."""
 

@@ -66,7 +66,8 @@ def view_of_signals(
         seen.append(SeenSpan(start, stop, len(row)))
     notes = _notes(signals, values, emg=emg, standardize=standardize)
     told = standardize and not emg  # what channels are may be told by their names and values
-    if preset.told_bodies and told and (points := joints_among(signals)) is not None:
+    points = joints_among(signals) if preset.told_bodies and told else None
+    if points is not None:
         rows = by_distances(rows, points, preset.working_fps)
         notes.append(f"{len(points)} points with bones: seen by how far they are from each other")
     features = _stacked(rows, preset, standardize=standardize)
@@ -85,7 +86,8 @@ def view_of_signals(
         seconds = np.count_nonzero(carried) / preset.working_fps
         notes.append(f"carried for {seconds:.0f} s, as by a lift, say accelerometers")
     ends = np.cumsum([span.n_samples for span in seen])[:-1]
-    return View(np.split(features, ends), seen, notes, carried=carried)
+    split = np.split(features, ends)
+    return View(split, seen, notes, carried=carried, joints=points is not None)
 
 
 def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:

@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 AXES = "xyz"
-STEADY = 0.1
+STEADY = 0.15
 """Seconds: places are smoothed by a normal curve that deviates by this. Joints that a camera
 guesses shake as much as hands move."""
 

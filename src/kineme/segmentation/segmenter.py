@@ -164,6 +164,8 @@ def segment_and_found(
         view = on_recording(view, recording, seen.fps)
     timings = {"features": time.perf_counter() - start}
     told: dict[str, Any] = {} if view.carried is None else {"carried": view.carried}
+    if view.joints:
+        told["joints"] = True
     found = chosen.analyze(
         np.concatenate(view.features), mirror=view.mirror, progress=progress, **told
     )

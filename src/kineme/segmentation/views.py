@@ -30,6 +30,8 @@ class View:
     carried : (samples,) array, optional
         1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere, in all spans; None
         where there are no rides, or the preset does not ask for them.
+    joints : bool
+        Whether channels are places of joints, and the preset wants to be told.
     """
 
     features: Sequence[Floats]
@@ -37,3 +39,4 @@ class View:
     notes: Sequence[str]
     mirror: Mirror | None = None
     carried: Floats | None = None
+    joints: bool = False

@@ -21,13 +21,15 @@ def quiet_and_loud(seed: int, ends: list[int]) -> np.ndarray:
     return deviations[:, None] * rng.standard_normal((ends[-1], 4))
 
 
-@given(seed=st.integers(0, 99), late=st.integers(-SECOND // 2, SECOND // 2))
+@given(seed=st.integers(0, 99), late=st.integers(-SECOND // 2, SECOND // 2), joints=st.booleans())
 @settings(max_examples=30)
-def test_a_border_moves_towards_where_quiet_ends(seed, late) -> None:
+def test_a_border_moves_towards_where_quiet_ends(seed, late, joints) -> None:
     true = 6 * FPS
     channels = quiet_and_loud(seed, [true, 12 * FPS])
-    moved = to_the_frame(channels, np.array([0, true + late, 12 * FPS]), SENSORS)
-    assert abs(moved[1] - (true + (1 - SENSORS.border_shift) * late)) <= 2
+    borders = np.array([0, true + late, 12 * FPS])
+    moved = to_the_frame(channels, borders, SENSORS, joints=joints)
+    shift = SENSORS.joint_border_shift if joints else SENSORS.border_shift
+    assert abs(moved[1] - (true + (1 - shift) * late)) <= 2
 
 
 @given(seed=st.integers(0, 99), lengths=st.lists(st.integers(1, 200), min_size=1, max_size=8))

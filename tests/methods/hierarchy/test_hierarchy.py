@@ -237,3 +237,16 @@ def test_views_need_a_number_of_each_kind() -> None:
     alone = SENSORS.replace(shared=(0.3,), weights=(1.0,), restless_over=(1.0,))
     found = kineme.segment(kineme.Signals(worn()[0], FPS), preset=alone)
     assert len(found.activities) >= 6
+
+
+def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
+    t = np.arange(int(60 * FPS)) / FPS
+    height = np.abs((t / 6) % 2 - 1)
+    channels = np.column_stack([height, 2 * height**2])
+    down, up, again = np.round(np.array([15, 21, 27]) * SENSORS.rate).astype(int)  # halfway each
+    joints, sensors = (seen(channels, SENSORS, joints=each).views for each in (True, False))
+    for told, plain in zip(joints, sensors, strict=True):
+        unit = tree.median_distance(plain)
+        assert np.linalg.norm(plain[down] - plain[up]) < 0.05 * unit
+        assert np.linalg.norm(told[down] - told[up]) > 0.3 * unit
+        assert np.linalg.norm(told[down] - told[again]) < 0.05 * unit

@@ -38,6 +38,7 @@ def analyze_channels(
     preset: HierarchyConstants,
     *,
     carried: ArrayLike | None = None,
+    joints: bool = False,
     progress: Progress | None = None,
 ) -> HierarchyFound:
     """Segments, clusters and repetitions of channels.
@@ -49,6 +50,8 @@ def analyze_channels(
     preset : HierarchyConstants
     carried : (frames,) array, optional
         1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere.
+    joints : bool
+        Whether channels are places of joints, and not what sensors measure.
     progress : callable, optional
         Called with the name of each stage before it runs.
 
@@ -64,7 +67,7 @@ def analyze_channels(
     with threadpool_limits(1):  # segments run side by side; sums do not hang on threads
         rows = as_features(channels)
         ridden = np.zeros(len(rows)) if carried is None else np.asarray(carried, np.float64)
-        return _analyze(rows, ridden, preset, progress)
+        return _analyze(rows, ridden, preset, progress, joints=joints)
 
 
 def _analyze(
@@ -72,13 +75,15 @@ def _analyze(
     carried: NDArray[np.float64],
     preset: HierarchyConstants,
     progress: Progress | None,
+    *,
+    joints: bool,
 ) -> HierarchyFound:
     bare = unstacked(rows, preset.offsets)
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
     with stage("statistics"):
         channels = rows if bare is None else bare
-        statistics = seen(channels, preset, carried)
+        statistics = seen(channels, preset, carried, joints=joints)
     with stage("tree"):
         answers = [_in_parts(view, preset) for view in statistics.views]
         others = [_in_parts(view, preset) for view in statistics.halves]
@@ -88,7 +93,8 @@ def _analyze(
         unit = median_distance(features)
         level = linked(features, answers[best])
     with stage("borders"):
-        frames = to_the_frame(channels, _in_frames(level.borders, preset, len(rows)), preset)
+        frames = _in_frames(level.borders, preset, len(rows))
+        frames = to_the_frame(channels, frames, preset, joints=joints)
         borders = _in_samples(frames, preset, len(features))
         fine = carried_over(level.fine, level.borders, borders)
     with stage("repetitions"):

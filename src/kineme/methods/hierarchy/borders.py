@@ -28,7 +28,9 @@ SHARE = 3
 """A border is looked for in one part of so many of a segment at most."""
 
 
-def to_the_frame(channels: Floats, borders: Frames, preset: HierarchyConstants) -> Frames:
+def to_the_frame(
+    channels: Floats, borders: Frames, preset: HierarchyConstants, *, joints: bool = False
+) -> Frames:
     """The borders, each moved towards where the two segments beside it explain most.
 
     Parameters
@@ -38,7 +40,10 @@ def to_the_frame(channels: Floats, borders: Frames, preset: HierarchyConstants) 
     borders : (segments + 1,) array
         Frames, from 0 to the end.
     preset : HierarchyConstants
+    joints : bool
+        Whether channels are places of joints.
     """
+    shift = preset.joint_border_shift if joints else preset.border_shift
     averaged = max(1, preset.frames(preset.averaging))
     learnt = max(1, preset.frames(LEARNT))
     centred = channels - channels.mean(axis=0)
@@ -57,7 +62,7 @@ def to_the_frame(channels: Floats, borders: Frames, preset: HierarchyConstants) 
         near = scaled[first : at + min(averaged, (stop - at) // SHARE)]
         gains = _likelihoods(near, scaled[own]) - _likelihoods(near, scaled[after])
         likeliest = first + int(np.argmax(np.concatenate([[0.0], np.cumsum(gains)])))
-        moved[i] = at + round(preset.border_shift * (likeliest - int(at)))
+        moved[i] = at + round(shift * (likeliest - int(at)))
     return moved
 
 

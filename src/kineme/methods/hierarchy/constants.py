@@ -59,6 +59,9 @@ class HierarchyConstants(CountingPreset):
         "per view: a statistic varies as much as it changes over this; 0: as its band does",
         unit="s", limits=TIME, fine=True,
     )  # fmt: skip
+    way_weight: float = constant(
+        "how much it counts which way joints go, beside where they are", limits=FACTOR, fine=True
+    )
     ride_weight: float = constant(
         "how far riding, as in a lift, is from standing, where all else deviates by 1",
         limits=FACTOR, fine=True,
@@ -94,6 +97,9 @@ class HierarchyConstants(CountingPreset):
         "how far a border is moved from where means over `averaging` put it to where frames do",
         limits=SHARE, fine=True,
     )  # fmt: skip
+    joint_border_shift: float = constant(
+        "how far a border is moved so where channels are joints", limits=SHARE, fine=True
+    )
     counting_fps: float = constant(
         "frames per second at which repetitions are counted, at most", unit="Hz", limits=RATE,
         fine=True,

@@ -27,11 +27,12 @@ class HierarchyPreset(HierarchyConstants):
         mirror: Mirror | None = None,  # noqa: ARG002 (left and right are told apart)
         progress: Progress | None = None,
         carried: ArrayLike | None = None,
+        joints: bool = False,
     ) -> HierarchyFound:
         """Segments, clusters and repetitions; see :mod:`kineme.methods.hierarchy.analysis`."""
         from kineme.methods.hierarchy.analysis import analyze_channels  # compiled code
 
-        return analyze_channels(features, self, carried=carried, progress=progress)
+        return analyze_channels(features, self, carried=carried, joints=joints, progress=progress)
 
 
 SENSORS = HierarchyPreset(
@@ -44,6 +45,7 @@ SENSORS = HierarchyPreset(
     shared=(1e4, 1e4, 1e4, 1.0, 1.0, 1.0, 0.3, 0.3, 0.3),
     weights=(0.5, 1.0, 1.0) * 3,
     restless_over=(0.0, 0.0, 1.0) * 3,
+    way_weight=0.5,
     ride_weight=5.0,
     part=600.0,
     fine_cost=0.4,
@@ -54,6 +56,7 @@ SENSORS = HierarchyPreset(
     cluster_growth=0.2,
     spread_share=0.5,
     border_shift=0.4,
+    joint_border_shift=1.0,
     max_clusters=16,
     counting_fps=25.0,
     centering=0.4,

@@ -8,6 +8,9 @@ ways, and those between them are the other answers; that of the two is taken
 which all agree with more (`kineme.methods.hierarchy.agreement`), among them the
 two as half of the channels give them: what hangs on few channels is doubtful.
 
+Where channels are places of joints it counts, too, which way they go: who sits down and who
+stands up are in the same places.
+
 Rides (`kineme.features.rides`) are one more number of all views: whoever rides does
 something else than who stands, however little of it channels show.
 """
@@ -28,6 +31,8 @@ Ints = NDArray[np.int64]
 
 STILL = 0.05
 """Least restlessness of a statistic, as a share of that of all of them."""
+WAY = 0.6
+"""Seconds before and after, between which joints go."""
 TINY = 1e-9
 """Deviations below it are rounding."""
 
@@ -48,7 +53,13 @@ class Seen:
     halves: list[NDArray[np.float32]]
 
 
-def seen(channels: Floats, preset: HierarchyConstants, carried: Floats | None = None) -> Seen:
+def seen(
+    channels: Floats,
+    preset: HierarchyConstants,
+    carried: Floats | None = None,
+    *,
+    joints: bool = False,
+) -> Seen:
     """The statistics of the channels in each of the scales that the preset names.
 
     Parameters
@@ -58,6 +69,8 @@ def seen(channels: Floats, preset: HierarchyConstants, carried: Floats | None = 
     preset : HierarchyConstants
     carried : (frames,) array, optional
         1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere.
+    joints : bool
+        Whether channels are places of joints.
 
     Returns
     -------
@@ -68,11 +81,12 @@ def seen(channels: Floats, preset: HierarchyConstants, carried: Floats | None = 
     bands = in_bands(scaled, preset.working_fps, preset.bands)
     every = range(len(preset.shared))
     ends = (every[0], every[-1]) if len(every) > 1 else ()
-    views = _in_scales(bands, every, preset)
+    weight = preset.way_weight if joints else 0.0
+    views = _in_scales(bands, every, preset, weight)
     halves = [
         view
         for half in slow_and_fast(scaled)
-        for view in _in_scales([band[:, half] for band in bands], ends, preset)
+        for view in _in_scales([band[:, half] for band in bands], ends, preset, weight)
     ]
     if carried is not None and carried.any():
         riding = carried[sampled_at(len(carried), preset.working_fps, preset.rate)]
@@ -95,6 +109,22 @@ def with_rides(view: NDArray[np.float32], riding: Floats, weight: float) -> NDAr
     return np.ascontiguousarray(np.column_stack([view, weight * deviation * riding]), np.float32)
 
 
+def with_ways(
+    view: NDArray[np.float32], channels: int, steps: int, weight: float
+) -> NDArray[np.float32]:
+    """The view and, `weight` times, how its means change from `steps` before to `steps` after.
+
+    Examples
+    --------
+    >>> with_ways(np.float32([[0], [1], [5], [5]]), 1, 1, 0.5)[:, 1].tolist()
+    [0.5, 2.5, 2.0, 0.0]
+    """
+    means, at = view[:, :channels], np.arange(len(view))
+    after, before = np.minimum(at + steps, len(view) - 1), np.maximum(at - steps, 0)
+    ways = weight * (means[after] - means[before])
+    return np.ascontiguousarray(np.column_stack([view, ways]), np.float32)
+
+
 def slow_and_fast(scaled: Floats) -> list[Ints]:
     """The half of the channels that changes less from frame to frame, and the other half.
 
@@ -112,7 +142,7 @@ def slow_and_fast(scaled: Floats) -> list[Ints]:
 
 
 def _in_scales(
-    bands: Sequence[Floats], which: Iterable[int], preset: HierarchyConstants
+    bands: Sequence[Floats], which: Iterable[int], preset: HierarchyConstants, way_weight: float
 ) -> list[NDArray[np.float32]]:
     """Statistics of channels of which all bands are given, in these scales of the preset."""
     channels = bands[0].shape[1]
@@ -128,11 +158,13 @@ def _in_scales(
                 rate=preset.rate,
                 window=preset.averaging,
             )
-        found.append(
+        view = (
             by_restlessness(raw[shared], round(preset.samples(over)), preset.weights[i])
             if over
             else by_deviation(raw[shared], channels, preset.weights[i])
         )
+        steps = max(1, round(preset.samples(WAY)))
+        found.append(with_ways(view, channels, steps, way_weight) if way_weight else view)
     return found
 
 
