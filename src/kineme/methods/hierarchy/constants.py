@@ -59,8 +59,8 @@ class HierarchyConstants(CountingPreset):
         "per view: a statistic varies as much as it changes over this; 0: as its band does",
         unit="s", limits=TIME, fine=True,
     )  # fmt: skip
-    way_weight: float = constant(
-        "how much it counts which way joints go, beside where they are", limits=FACTOR, fine=True
+    velocity_weight: float = constant(
+        "how much the velocity of joints counts, beside where they are", limits=FACTOR, fine=True
     )
     ride_weight: float = constant(
         "how far riding, as in a lift, is from standing, where all else deviates by 1",

@@ -8,8 +8,8 @@ ways, and those between them are the other answers; that of the two is taken
 which all agree with more (`kineme.methods.hierarchy.agreement`), among them the
 two as half of the channels give them: what hangs on few channels is doubtful.
 
-Where channels are places of joints it counts, too, which way they go: who sits down and who
-stands up are in the same places.
+Where channels are places of joints their velocity counts, too: who sits down and who stands up
+are in the same places.
 
 Rides (`kineme.features.rides`) are one more number of all views: whoever rides does
 something else than who stands, however little of it channels show.
@@ -31,8 +31,8 @@ Ints = NDArray[np.int64]
 
 STILL = 0.05
 """Least restlessness of a statistic, as a share of that of all of them."""
-WAY = 0.6
-"""Seconds before and after, between which joints go."""
+VELOCITY_OVER = 0.6
+"""Seconds before and after, between which it is told how joints move."""
 TINY = 1e-9
 """Deviations below it are rounding."""
 
@@ -81,7 +81,7 @@ def seen(
     bands = in_bands(scaled, preset.working_fps, preset.bands)
     every = range(len(preset.shared))
     ends = (every[0], every[-1]) if len(every) > 1 else ()
-    weight = preset.way_weight if joints else 0.0
+    weight = preset.velocity_weight if joints else 0.0
     views = _in_scales(bands, every, preset, weight)
     halves = [
         view
@@ -109,20 +109,20 @@ def with_rides(view: NDArray[np.float32], riding: Floats, weight: float) -> NDAr
     return np.ascontiguousarray(np.column_stack([view, weight * deviation * riding]), np.float32)
 
 
-def with_ways(
+def with_velocities(
     view: NDArray[np.float32], channels: int, steps: int, weight: float
 ) -> NDArray[np.float32]:
     """The view and, `weight` times, how its means change from `steps` before to `steps` after.
 
     Examples
     --------
-    >>> with_ways(np.float32([[0], [1], [5], [5]]), 1, 1, 0.5)[:, 1].tolist()
+    >>> with_velocities(np.float32([[0], [1], [5], [5]]), 1, 1, 0.5)[:, 1].tolist()
     [0.5, 2.5, 2.0, 0.0]
     """
     means, at = view[:, :channels], np.arange(len(view))
     after, before = np.minimum(at + steps, len(view) - 1), np.maximum(at - steps, 0)
-    ways = weight * (means[after] - means[before])
-    return np.ascontiguousarray(np.column_stack([view, ways]), np.float32)
+    velocities = weight * (means[after] - means[before])
+    return np.ascontiguousarray(np.column_stack([view, velocities]), np.float32)
 
 
 def slow_and_fast(scaled: Floats) -> list[Ints]:
@@ -142,9 +142,12 @@ def slow_and_fast(scaled: Floats) -> list[Ints]:
 
 
 def _in_scales(
-    bands: Sequence[Floats], which: Iterable[int], preset: HierarchyConstants, way_weight: float
+    bands: Sequence[Floats], which: Iterable[int], preset: HierarchyConstants, weight: float
 ) -> list[NDArray[np.float32]]:
-    """Statistics of channels of which all bands are given, in these scales of the preset."""
+    """Statistics of channels of which all bands are given, in these scales of the preset.
+
+    With velocities, so many times, if that is not 0.
+    """
     channels = bands[0].shape[1]
     raw: dict[float, Floats] = {}
     found = []
@@ -163,8 +166,8 @@ def _in_scales(
             if over
             else by_deviation(raw[shared], channels, preset.weights[i])
         )
-        steps = max(1, round(preset.samples(WAY)))
-        found.append(with_ways(view, channels, steps, way_weight) if way_weight else view)
+        steps = max(1, round(preset.samples(VELOCITY_OVER)))
+        found.append(with_velocities(view, channels, steps, weight) if weight else view)
     return found
 
 
