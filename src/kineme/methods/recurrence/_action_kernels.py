@@ -55,14 +55,24 @@ def class_affinities(similarity, labels, gap, start, stop, affinity):
     """
     samples, width = similarity.shape
     counts = np.empty(affinity.shape[1], np.int64)
+    until = np.full(samples, samples)  # where another class than that of the sample begins
+    for j in range(samples - 2, -1, -1):
+        until[j] = until[j + 1] if labels[j] == labels[j + 1] else j + 1
     for i in range(start, stop):
         affinity[i] = 0
         counts[:] = 0
-        for j in range(max(0, i - width + 1), min(samples, i + width)):
-            lag = abs(j - i)
-            if lag > gap:
-                affinity[i, labels[j]] += similarity[min(i, j), lag]
-                counts[labels[j]] += 1
+        first, end = max(0, i - width + 1), min(samples, i + width)
+        while first < end:
+            last = min(until[first], end)
+            before, after = min(last, i - gap), max(first, i + gap + 1)
+            total = 0.0
+            for j in range(first, before):
+                total += similarity[j, i - j]
+            for j in range(after, last):
+                total += similarity[i, j - i]
+            affinity[i, labels[first]] += total
+            counts[labels[first]] += max(before - first, 0) + max(last - after, 0)
+            first = last
         for c in range(len(counts)):
             affinity[i, c] /= max(counts[c], 1)
 
