@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from kineme._threads import even_slices, map_threads
 from kineme.methods.recurrence import _action_kernels as kernels
 from kineme.methods.recurrence.change_points import Samples
-from kineme.methods.recurrence.recurrence import Recurrence
+from kineme.methods.recurrence.recurrence import SHORT, Recurrence
 from kineme.methods.segments import by_first_appearance
 
 
@@ -131,7 +131,7 @@ def _relative_affinity(
             recurrence.similarity, columns, recurrence.phase, part.start, part.stop, affinity
         )
 
-    map_threads(fill, even_slices(len(per_sample)))
+    map_threads(fill, even_slices(len(per_sample), SHORT))
     by_action = np.split(
         np.argsort(per_sample, kind="stable"), np.cumsum(np.bincount(per_sample + 1))
     )
