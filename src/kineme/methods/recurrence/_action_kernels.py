@@ -26,18 +26,21 @@ def change_points(similarity, penalty, min_length):
     best = np.full(samples + 1, np.inf)
     best[0] = 0
     before = np.zeros(samples + 1, np.int64)
-    # row_sums[s]: similarities of s with the later samples of the segment so far.
+    # row_sums[s]: similarity of s to itself, and twice those to the later samples of the segment.
     row_sums = np.zeros(samples)
+    inverse = 1 / np.arange(samples + 1)
     for end in range(1, samples + 1):
         last = end - 1
+        first = max(0, end - width)
+        row_sums[last] = similarity[last, 0]
+        for start in range(first, last):
+            row_sums[start] += 2 * similarity[start, last - start]
         inside = 0.0
-        for start in range(last, max(-1, last - width), -1):
-            if start < last:
-                row_sums[start] += similarity[start, last - start]
-            inside += similarity[start, 0] + 2 * row_sums[start]
+        for start in range(last, first - 1, -1):
+            inside += row_sums[start]
             length = end - start
             if length >= min_length or length == samples:
-                cost = best[start] + length - inside / length + penalty
+                cost = best[start] + length - inside * inverse[length] + penalty
                 if cost < best[end]:
                     best[end] = cost
                     before[end] = start
