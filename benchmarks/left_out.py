@@ -39,7 +39,6 @@ VALUES = {
     "link_common": (0.25, 0.3, 0.35, 0.4, 0.45),
     "pair_factor": (1.0, 1.5, 2.0, 2.5, 3.0),
     "end_scatter": (1.0, 1.5, 2.0, 3.0, 4.0),
-    "end_factor": (2.0, 2.5, 3.0, 4.0, 6.0),
     "uneven_cost": (0.0, 0.1, 0.2, 0.3, 0.4),
 }
 JUDGED = ("one_to_one", "border_f1", "count_exact")

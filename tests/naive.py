@@ -972,24 +972,6 @@ def best_length(rows, stop, shortest, longest, mean):
     )
 
 
-def distances_from_mean(rows, start, stop, first, length, mean, reach):
-    """How far each row is from the places of the mean that are near its phase."""
-    found = []
-    for f in range(start, stop):
-        at = int(np.floor((f + 0.5 - first) / length * len(mean)))
-        near = [mean[place % len(mean)] for place in range(at - reach, at + reach + 1)]
-        found.append(min(np.linalg.norm(rows[f] - place) for place in near))
-    return found
-
-
-def distances_to_others(rows, cuts, repetitions, reach):
-    found = []
-    for k, (start, stop) in enumerate(pairwise(cuts)):
-        others = np.mean([*repetitions[:k], *repetitions[k + 1 :]], axis=0)
-        found += distances_from_mean(rows, start, stop, start, stop - start, others, reach)
-    return found
-
-
 def mean_in_band(similarity, rows, columns, gap, width):
     """Mean of the pairs farther apart than the gap and within the width; 0 if there is none."""
     known = [similarity[i, j] for i in rows for j in columns if gap < abs(i - j) < width]

@@ -30,9 +30,9 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
     return list(_pool().map(function, items))
 
 
-def even_slices(n: int) -> list[slice]:
+def even_slices(n: int, short: int = SHORT) -> list[slice]:
     """``range(n)`` in slices of like size, a few for each core; fewer where these were short."""
-    parts = min(2 * n_threads(), -(-n // SHORT))
+    parts = min(2 * n_threads(), -(-n // short))
     edges = [n * part // parts for part in range(parts + 1)] if parts else []
     return [slice(a, b) for a, b in pairwise(edges)]
 

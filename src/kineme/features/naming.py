@@ -33,9 +33,9 @@ def find_by_name(names: Sequence[str], words: Sequence[str], side: str | None) -
     """
     for word in words:
         found = [
-            (len(prefix), joint)
+            (before, joint)
             for joint, name in enumerate(names)
-            if (prefix := _prefix_before(name, word, side)) is not None
+            if (before := _words_before(name, word, side)) is not None
         ]
         if found:
             return min(found)[1]
@@ -60,8 +60,9 @@ def part_and_side(name: str) -> tuple[str, str]:
     return (glued[2], _SIDES[glued[1]]) if glued else ("".join(words), "")
 
 
-def _prefix_before(name: str, word: str, side: str | None) -> list[str] | None:
-    """The words before ``word`` on the given side, or None if the name says something else."""
+@lru_cache(maxsize=4096)
+def _words_before(name: str, word: str, side: str | None) -> int | None:
+    """How many words are before ``word``, or None if the name says something else."""
     words = list(words_of(name))
     found_side = None
     for place, candidate in enumerate(words):
@@ -75,4 +76,4 @@ def _prefix_before(name: str, word: str, side: str | None) -> list[str] | None:
     if not words or words[-1] != word or found_side != side:
         return None
     prefix = words[:-1]
-    return None if _NOT_THE_JOINT.intersection(prefix) else prefix
+    return None if _NOT_THE_JOINT.intersection(prefix) else len(prefix)

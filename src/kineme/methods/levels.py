@@ -70,22 +70,25 @@ def clusters_at(
     """
     finer, coarser = _joins(pieces, border_price, cluster_price)
     found = {}
-    for detail in details:
+    of, done = np.arange(len(pieces.parents)), 0
+    for detail in sorted(details, reverse=True):  # each has the joins of the one before, and more
         joins = [(kept, gone) for kept, gone, least in finer if detail < least]
         if detail < 1:
             left = max(1, round(detail * (len(coarser) + 1)))
             joins += [(kept, gone) for kept, gone, _ in coarser[: len(coarser) + 1 - left]]
-        of = np.arange(len(pieces.parents))
-        for kept, gone in joins:
+        for kept, gone in joins[done:]:
             of[of == of[gone]] = of[kept]
+        done = len(joins)
         found[detail] = np.where(pieces.labels < 0, -1, np.append(of, -1)[pieces.labels])
-    return found
+    return {detail: found[detail] for detail in details}
 
 
 def tables_at(
     columns: Columns, borders: Ints, clusters: Mapping[float, Ints], longest: float
 ) -> dict[float, Columns]:
     """The table at each detail; of neighbours that are one and the same, the coarsest.
+
+    Those that are the same as at detail 1 are left out.
 
     Parameters
     ----------
@@ -97,6 +100,10 @@ def tables_at(
         Samples: below 1, neighbours of one cluster are one activity even with a transition
         between them that is no longer than this over the detail.
     """
+    level = columns["level"] == "activity"
+    before, inner = (
+        {name: column[of] for name, column in columns.items()} for of in (level, ~level)
+    )
     found: dict[float, Columns] = {}
     same: dict[tuple[bool, bytes], float] = {}
     for detail in sorted(clusters):
@@ -104,38 +111,39 @@ def tables_at(
         if detail < 1:
             labels = _over_transitions(borders, labels, longest / detail)
         if same.setdefault((detail < 1, labels.tobytes()), detail) == detail:
-            found[detail] = at_detail(columns, borders, labels, finer=detail > 1)
+            begins = np.isin(borders[:-1], before["start_frame"] if detail > 1 else 0)
+            first = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | begins)
+            starts, of = borders[:-1][first], by_first_appearance(labels[first])
+            if not (
+                np.array_equal(starts, before["start_frame"])
+                and np.array_equal(of, by_first_appearance(before["cluster"]))
+            ):
+                found[detail] = at_detail(before, inner, starts, of, int(borders[-1]))
     return found
 
 
-def at_detail(columns: Columns, borders: Ints, labels: Ints, *, finer: bool) -> Columns:
+def at_detail(before: Columns, inner: Columns, starts: Ints, clusters: Ints, end: int) -> Columns:
     """The columns of a table with other activities: pieces joined, repetitions kept.
 
-    Neighbours of one cluster are one activity. Every primitive border stays.
+    Every primitive border stays.
 
     Parameters
     ----------
-    columns : dict of str to array
-        Of detail 1.
-    borders, labels : array of int
-        Of the pieces, as in `Pieces`.
-    finer : bool
-        Whether every border of activities stays, too.
+    before, inner : dict of str to array
+        Activities and primitives of detail 1.
+    starts, clusters : array of int
+        Of the activities, -1 for transitions.
+    end : int
+        Where the last one ends.
 
     Returns
     -------
     dict of str to array
     """
-    level = columns["level"] == "activity"
-    before = {name: column[level] for name, column in columns.items()}
-    inner = {name: column[~level] for name, column in columns.items()}
-    begins = np.isin(borders[:-1], before["start_frame"] if finer else 0)
-    first = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | begins)
-    starts, clusters = borders[:-1][first], by_first_appearance(labels[first])
     cuts = np.unique(np.concatenate([starts, inner["start_frame"]]))
     kinds = np.where(clusters < 0, "transition", "activity")
-    activities = _rows(before, starts, int(borders[-1])) | {"kind": kinds, "cluster": clusters}
-    primitives = _rows(inner, cuts, int(borders[-1]))
+    activities = _rows(before, starts, end) | {"kind": kinds, "cluster": clusters}
+    primitives = _rows(inner, cuts, end)
     parents = np.searchsorted(starts, cuts, side="right") - 1
     own = primitives["kind"] == "activity"
     if _inherited(before, inner):
@@ -145,7 +153,7 @@ def at_detail(columns: Columns, borders: Ints, labels: Ints, *, finer: bool) -> 
         pairs = np.column_stack([primitives["cluster"], clusters[parents]])[parts]
         numbers = np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
         primitives["cluster"][parts] = inner["cluster"].max(initial=-1) + 1 + numbers
-    return {name: np.concatenate([activities[name], primitives[name]]) for name in columns}
+    return {name: np.concatenate([activities[name], primitives[name]]) for name in before}
 
 
 Join = tuple[int, int, float]
@@ -181,17 +189,17 @@ def _weakest(
     What is known of the clusters is joined in place.
     """
 
-    def details(of: int) -> Floats:
-        """The detail below which a cluster and each of the others are one."""
-        own = differences[of, of] / sizes[of]
-        others = np.diagonal(differences)[among]
-        sums = differences[of, of] + others + 2 * differences[of, among]
-        losses = sums / (sizes[of] + sizes[among]) - own - others / sizes[among]
-        found: Floats = (prices[of, among] + cluster_price) / np.maximum(losses, 1e-9)
-        return np.where(alive & (among != of), found, -1.0)
+    def details(of: Ints) -> Floats:
+        """The detail below which each of these clusters and each of all are one."""
+        own, others = np.diagonal(differences)[of][:, None], np.diagonal(differences)[among]
+        sums = own + others + 2 * differences[of[:, None], among]
+        size = sizes[of][:, None]
+        losses = sums / (size + sizes[among]) - own / size - others / sizes[among]
+        found: Floats = (prices[of[:, None], among] + cluster_price) / np.maximum(losses, 1e-9)
+        return np.where(alive & (among != of[:, None]), found, -1.0)
 
     alive = np.full(len(among), True)
-    matrix = np.array([details(int(of)) for of in among]).reshape(len(among), len(among))
+    matrix = details(among)
     found: list[Join] = []
     detail = np.inf
     for _ in range(len(among) - 1):
@@ -205,7 +213,7 @@ def _weakest(
         sizes[kept] += sizes[gone]
         alive[second] = False
         matrix[second] = matrix[:, second] = -1
-        matrix[first] = matrix[:, first] = details(kept)
+        matrix[first] = matrix[:, first] = details(among[[first]])[0]
         found.append((kept, gone, detail))
     return found
 

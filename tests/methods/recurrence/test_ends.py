@@ -34,9 +34,9 @@ def shaken(seed: int) -> np.ndarray:
     return rows + np.random.default_rng(seed).normal(0, 0.02, rows.shape)
 
 
-@given(st.integers(0, 10_000), st.integers(1, 5))
+@given(st.integers(0, 10_000))
 @settings(max_examples=60)
-def test_stretches_are_compared_as_by_the_naive_versions(seed: int, reach: int) -> None:
+def test_stretches_are_compared_as_by_the_naive_versions(seed: int) -> None:
     rng = np.random.default_rng(seed)
     rows = np.cumsum(rng.normal(0, 1, (60, 3)), axis=0).astype(np.float32)
     cuts = np.sort(rng.choice(np.arange(20, 60), 4, replace=False))
@@ -48,15 +48,6 @@ def test_stretches_are_compared_as_by_the_naive_versions(seed: int, reach: int) 
     mean = inner.mean(axis=0)
     assert kernels.best_length(rows, cuts[0], 4, 20, mean) == naive.best_length(
         rows, cuts[0], 4, 20, mean
-    )
-    found = np.empty(10)
-    kernels.distances(rows, 3, 13, 5, 9, mean, reach, found)
-    expected = naive.distances_from_mean(rows, 3, 13, 5, 9, mean, reach)
-    np.testing.assert_allclose(found, expected, rtol=1e-6)
-    np.testing.assert_allclose(
-        kernels.distances_to_others(rows, cuts, inner, reach),
-        naive.distances_to_others(rows, cuts, inner, reach),
-        rtol=1e-6,
     )
 
 
@@ -73,12 +64,6 @@ def test_the_first_and_the_last_repetition_are_as_long_as_the_others(late: int) 
     ):
         assert abs(int(found.firsts[0]) - 60) <= 2
         assert abs(int(found.lasts[0]) - STOP) <= 2
-
-
-def test_what_is_nothing_like_a_repetition_leaves_the_activity() -> None:
-    found = ends(shaken(3), 46, STOP + 14, CUTS)
-    assert abs(int(found.starts[0]) - 60) <= 2
-    assert abs(int(found.stops[0]) - STOP) <= 2
 
 
 def test_a_part_of_a_repetition_stays_in_the_activity_and_is_no_repetition() -> None:

@@ -34,7 +34,8 @@ def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 @seconds
 def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
     samples, costs, begins = walk
-    ends, scores = kernels.local_paths(samples, costs, begins, gap, width, 0.8, -2.0, least)
+    columns = np.ascontiguousarray(samples.T)
+    ends, scores = kernels.local_paths(columns, costs, begins, gap, width, 0.8, -2.0, least)
     found: dict[tuple[int, int], float] = {}
     for (i, j, *_), score in zip(ends.tolist(), scores, strict=True):
         found[i, j] = max(found.get((i, j), 0), score)
@@ -46,9 +47,10 @@ def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
 @seconds
 def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
     samples, costs, begins = walk
-    ends, scores = kernels.local_paths(samples, costs, begins, 1, 30, 0.8, -2.0, 1.0)
+    columns = np.ascontiguousarray(samples.T)
+    ends, scores = kernels.local_paths(columns, costs, begins, 1, 30, 0.8, -2.0, 1.0)
     for each, score in zip(ends, scores, strict=True):
-        partners, sums, other_partners, other_sums = kernels.follow(samples, costs, each, 0.8, -2.0)
+        partners, sums, other_partners, other_sums = kernels.follow(columns, costs, each, 0.8, -2.0)
         expected = naive.followed_score(samples, costs, each.tolist(), 0.8, -2.0)
         assert sums[-1] == pytest.approx(expected)
         assert other_sums[-1] == pytest.approx(expected)

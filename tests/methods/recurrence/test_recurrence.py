@@ -101,19 +101,20 @@ def test_stretches_are_as_alike_as_in_the_naive_version(poses, reaches, gap, dat
     reaches = sorted(reaches, reverse=True)
     some = st.lists(st.integers(0, len(poses) - 1), min_size=1, max_size=6, unique=True)
     frames, others = (np.array(sorted(data.draw(some))) for _ in range(2))
-    nearest = distant.nearest_around(poses, frames, others, np.array(reaches))
+    columns = np.ascontiguousarray(poses.T)
+    nearest = distant.nearest_around(columns, frames, others, np.array(reaches))
     for reach, found in zip(reaches, nearest):
         expected = naive.nearest_around(poses, frames, others, reach)
         np.testing.assert_allclose(found, expected, rtol=1e-6)
     scales = np.linspace(0.5, 2, len(poses)).astype(np.float32)
     given_to_both = reaches, scales[frames], scales[others], 1.5, gap
-    found = distant.mean_similarity(poses, frames, others, np.array(reaches), *given_to_both[1:])
+    found = distant.mean_similarity(columns, frames, others, np.array(reaches), *given_to_both[1:])
     assert found == pytest.approx(
         naive.mean_similarity(poses, frames, others, *given_to_both), abs=1e-5
     )
     span = part(data, len(poses))
     among = frames, scales[frames], span.start, span.stop, 1.5
-    assert distant.mean_recurrence(poses, *among) == pytest.approx(
+    assert distant.mean_recurrence(columns, *among) == pytest.approx(
         naive.mean_recurrence(poses, *among), abs=1e-5
     )
 

@@ -26,18 +26,21 @@ def change_points(similarity, penalty, min_length):
     best = np.full(samples + 1, np.inf)
     best[0] = 0
     before = np.zeros(samples + 1, np.int64)
-    # row_sums[s]: similarities of s with the later samples of the segment so far.
+    # row_sums[s]: similarity of s to itself, and twice those to the later samples of the segment.
     row_sums = np.zeros(samples)
+    inverse = 1 / np.arange(samples + 1)
     for end in range(1, samples + 1):
         last = end - 1
+        first = max(0, end - width)
+        row_sums[last] = similarity[last, 0]
+        for start in range(first, last):
+            row_sums[start] += 2 * similarity[start, last - start]
         inside = 0.0
-        for start in range(last, max(-1, last - width), -1):
-            if start < last:
-                row_sums[start] += similarity[start, last - start]
-            inside += similarity[start, 0] + 2 * row_sums[start]
+        for start in range(last, first - 1, -1):
+            inside += row_sums[start]
             length = end - start
             if length >= min_length or length == samples:
-                cost = best[start] + length - inside / length + penalty
+                cost = best[start] + length - inside * inverse[length] + penalty
                 if cost < best[end]:
                     best[end] = cost
                     before[end] = start
@@ -55,14 +58,24 @@ def class_affinities(similarity, labels, gap, start, stop, affinity):
     """
     samples, width = similarity.shape
     counts = np.empty(affinity.shape[1], np.int64)
+    until = np.full(samples, samples)  # where another class than that of the sample begins
+    for j in range(samples - 2, -1, -1):
+        until[j] = until[j + 1] if labels[j] == labels[j + 1] else j + 1
     for i in range(start, stop):
         affinity[i] = 0
         counts[:] = 0
-        for j in range(max(0, i - width + 1), min(samples, i + width)):
-            lag = abs(j - i)
-            if lag > gap:
-                affinity[i, labels[j]] += similarity[min(i, j), lag]
-                counts[labels[j]] += 1
+        first, end = max(0, i - width + 1), min(samples, i + width)
+        while first < end:
+            last = min(until[first], end)
+            before, after = min(last, i - gap), max(first, i + gap + 1)
+            total = 0.0
+            for j in range(first, before):
+                total += similarity[j, i - j]
+            for j in range(after, last):
+                total += similarity[i, j - i]
+            affinity[i, labels[first]] += total
+            counts[labels[first]] += max(before - first, 0) + max(last - after, 0)
+            first = last
         for c in range(len(counts)):
             affinity[i, c] /= max(counts[c], 1)
 

@@ -11,34 +11,49 @@ from numba import njit
 from kineme._compiled import OPTIONS
 
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
+MINIMA = {**OPTIONS, "fastmath": {"nnan", "nsz"}}
 FAR = np.float32(np.inf)
 
 
+@njit("void(float32[:, ::1], int64, int64, float32[::1])", **SUMS)
+def squares(columns, frame, start, found):
+    """Squared distances of a frame to so many from ``start`` on; a column is a frame."""
+    found[:] = 0
+    for d in range(len(columns)):
+        own, others = columns[d, frame], columns[d, start : start + len(found)]
+        for f in range(len(found)):
+            difference = own - others[f]
+            found[f] += difference * difference
+
+
+@njit("float32(float32[::1], float32)", **MINIMA)
+def least_of(values, value):
+    """The least of the values, and of one more."""
+    for other in values:
+        value = min(value, other)
+    return value
+
+
 @njit("float32[:, :, ::1](float32[:, ::1], int64[::1], int64[::1], int64[::1])", **SUMS)
-def nearest_around(poses, frames, centers, reaches):
+def nearest_around(columns, frames, centers, reaches):
     """Distance from each of the frames to the nearest one within each reach of each center.
 
-    Ascending frames and centers; the widest reach is the first.
+    Ascending frames and centers; the widest reach is the first. A column is a frame.
     """
-    dims = poses.shape[1]
     low = max(0, centers[0] - reaches[0])
-    high = min(len(poses), centers[-1] + reaches[0] + 1)
+    high = min(columns.shape[1], centers[-1] + reaches[0] + 1)
     line = np.empty(high - low, np.float32)
-    nearest = np.full((len(reaches), len(frames), len(centers)), FAR)
+    nearest = np.empty((len(reaches), len(frames), len(centers)), np.float32)
     for r in range(len(frames)):
-        for f in range(len(line)):
-            square = np.float32(0)
-            for d in range(dims):
-                difference = poses[frames[r], d] - poses[low + f, d]
-                square += difference * difference
-            line[f] = square
-        for w in range(len(reaches)):
-            for c in range(len(centers)):
-                first = max(centers[c] - reaches[w], low) - low
-                last = min(centers[c] + reaches[w], high - 1) - low
-                square = FAR
-                for f in range(first, last + 1):
-                    square = min(square, line[f])
+        squares(columns, frames[r], low, line)
+        for c in range(len(centers)):
+            first = last = centers[c] - low
+            square = FAR
+            for w in range(len(reaches) - 1, -1, -1):  # each holds the one before
+                start = max(centers[c] - low - reaches[w], 0)
+                stop = min(centers[c] - low + reaches[w] + 1, len(line))
+                square = least_of(line[last:stop], least_of(line[start:first], square))
+                first, last = start, stop
                 nearest[w, r, c] = np.sqrt(square)
     return nearest
 
@@ -48,10 +63,10 @@ def nearest_around(poses, frames, centers, reaches):
     " float64, int64)",
     **SUMS,
 )
-def mean_similarity(poses, frames, others, reaches, scales, other_scales, softness, gap):
+def mean_similarity(columns, frames, others, reaches, scales, other_scales, softness, gap):
     """Mean similarity of the pairs of frames and others that lie apart by more than the gap."""
-    there = nearest_around(poses, frames, others, reaches)
-    back = nearest_around(poses, others, frames, reaches)
+    there = nearest_around(columns, frames, others, reaches)
+    back = nearest_around(columns, others, frames, reaches)
     total = 0.0
     count = 0
     for r in range(len(frames)):
@@ -67,19 +82,13 @@ def mean_similarity(poses, frames, others, reaches, scales, other_scales, softne
 
 
 @njit("float64(float32[:, ::1], int64[::1], float32[::1], int64, int64, float64)", **SUMS)
-def mean_recurrence(poses, frames, scales, start, stop, softness):
+def mean_recurrence(columns, frames, scales, start, stop, softness):
     """Mean similarity of the frames to the nearest one of ``[start, stop)``, at any distance."""
-    stop = min(stop, len(poses))
+    line = np.empty(min(stop, columns.shape[1]) - start, np.float32)
     total = 0.0
     for r in range(len(frames)):
-        nearest = FAR
-        for f in range(start, stop):
-            square = np.float32(0)
-            for d in range(poses.shape[1]):
-                difference = poses[frames[r], d] - poses[f, d]
-                square += difference * difference
-            nearest = min(nearest, square)
-        total += np.exp(-nearest / (softness * scales[r]) ** 2)
+        squares(columns, frames[r], start, line)
+        total += np.exp(-least_of(line, FAR) / (softness * scales[r]) ** 2)
     return total / len(frames)
 
 

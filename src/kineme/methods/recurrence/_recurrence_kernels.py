@@ -52,26 +52,29 @@ def lesser(one, other, n, found):
 
 @njit("void(float32[:, ::1], int64, int64, int64, float32[:, ::1])", **OPTIONS)
 def blur_rows(near, blur, start, stop, blurred):
-    """Least value of each row within ``blur`` lags, in rows ``[start, stop)``.
+    """Least value of each row within ``blur`` lags, in rows ``[start, stop)``, but beyond the ends.
 
     The least of two values, of four, of eight, ... from each lag on; the window is two
     such stretches that overlap.
     """
-    lags = near.shape[1]
+    samples, lags = near.shape
+    width = lags // 2
     size = 2 * blur + 1
     least = np.full(lags + 2 * blur, FAR)
     other = np.empty_like(least)
     for i in range(start, stop):
+        first, last = max(width - i, 0), min(width + samples - i, lags)
+        inside = last - first
         least[:blur] = FAR
-        for lag in range(lags):
-            least[blur + lag] = near[i, lag]
-        least[blur + lags :] = FAR
+        for lag in range(inside):
+            least[blur + lag] = near[i, first + lag]
+        least[blur + inside : inside + 2 * blur] = FAR
         length = 1  # of the stretch that each value is the least of
         while 2 * length <= size:
-            lesser(least, least[length:], len(least) - 2 * length + 1, other)
+            lesser(least, least[length:], inside + 2 * blur - 2 * length + 1, other)
             least, other = other, least
             length *= 2
-        lesser(least, least[size - length :], lags, blurred[i])
+        lesser(least, least[size - length :], inside, blurred[i, first:])
 
 
 @njit(
@@ -84,13 +87,12 @@ def local_scales(blurred, gap, rank, start, stop, low, high, scales):
     row = np.empty(lags, np.float32)
     for i in range(start, stop):
         count = 0
-        for lag in range(-width, width + 1):
-            j = i + lag
-            if abs(lag) > gap and 0 <= j < samples:
-                distance = max(blurred[i, lag + width], blurred[j, width - lag])
-                if distance < high:
-                    row[count] = distance
-                    count += 1
+        sides = (max(0, i - width), i - gap), (i + gap + 1, min(samples, i + width + 1))
+        for first, last in sides:
+            for j in range(first, last):
+                distance = max(blurred[i, j - i + width], blurred[j, i - j + width])
+                row[count] = distance
+                count += distance < high
         scales[i] = high
         if count > rank:
             scales[i] = max(low, smallest(row, count, rank))

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from kineme._threads import even_slices, map_threads
 from kineme.methods.recurrence import _action_kernels as kernels
 from kineme.methods.recurrence.change_points import Samples
-from kineme.methods.recurrence.recurrence import Recurrence
+from kineme.methods.recurrence.recurrence import SHORT, Recurrence
 from kineme.methods.segments import by_first_appearance
 
 
@@ -79,17 +79,21 @@ def refine(
     if (labels < 0).all():
         return Actions(borders[[0, -1]], np.array([-1]), np.zeros(1))
     per_sample = by_first_appearance(np.repeat(labels, np.diff(borders)))
+    relative, actions = _relative_affinity(recurrence, per_sample, least_own)
     for _ in range(rounds):
-        relative, actions = _relative_affinity(recurrence, per_sample, least_own)
         none = np.full(len(per_sample), no_action_cost)
         costs = np.column_stack([_dissimilarity(relative, least_similarity), none])
         columns = kernels.cheapest_labels(costs, switch_cost)
-        actions = np.column_stack([actions, np.full(len(per_sample), -1)])
-        per_sample = actions[np.arange(len(per_sample)), columns]
-        rare = np.bincount(per_sample + 1)[per_sample + 1] < min_length
-        per_sample = by_first_appearance(np.where(rare, -1, per_sample))
+        choices = np.column_stack([actions, np.full(len(per_sample), -1)])
+        given = choices[np.arange(len(per_sample)), columns]
+        rare = np.bincount(given + 1)[given + 1] < min_length
+        given = by_first_appearance(np.where(rare, -1, given))
+        if (given == per_sample).all():
+            break
+        per_sample = given
+        relative, actions = _relative_affinity(recurrence, per_sample, least_own)
     found = np.concatenate([[0], np.flatnonzero(np.diff(per_sample)) + 1, [len(per_sample)]])
-    confidence = _confidence(recurrence, per_sample, found, least_own)
+    confidence = _confidence(relative, actions, per_sample, found)
     return Actions(found, per_sample[found[:-1]], confidence)
 
 
@@ -101,10 +105,9 @@ def _dissimilarity(affinity: NDArray[np.float64], least: float) -> NDArray[np.fl
 
 
 def _confidence(
-    recurrence: Recurrence, per_sample: Samples, borders: Samples, least: float
+    relative: NDArray[np.float64], actions: Samples, per_sample: Samples, borders: Samples
 ) -> NDArray[np.float64]:
     """How much more similar the samples of each segment are to their own action than to others."""
-    relative, actions = _relative_affinity(recurrence, per_sample, least)
     is_own = (actions == per_sample[:, None]) & (per_sample[:, None] >= 0)
     own = np.where(is_own, relative, 0).sum(axis=1)
     other = np.where(is_own, 0, relative).max(axis=1, initial=0)
@@ -128,7 +131,7 @@ def _relative_affinity(
             recurrence.similarity, columns, recurrence.phase, part.start, part.stop, affinity
         )
 
-    map_threads(fill, even_slices(len(per_sample)))
+    map_threads(fill, even_slices(len(per_sample), SHORT))
     by_action = np.split(
         np.argsort(per_sample, kind="stable"), np.cumsum(np.bincount(per_sample + 1))
     )

@@ -5,13 +5,13 @@ Nothing here knows what a skeleton is: any array of frames × dims will do.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_features
-from kineme.methods.recurrence.evidence import evidence
 from kineme.methods.recurrence.found import RecurrenceFound
 from kineme.methods.recurrence.paces import surest
 from kineme.methods.recurrence.primitives import with_occurrences
@@ -60,9 +60,9 @@ def analyze_actions(
             division.recurring, division.segments, division.sure.counts, division.preset
         )
     with stage("confidence"):
-        shown = division.evidence
         if found is not division.segments:
-            shown = evidence(division.recurring, division.preset, found)
+            division = replace(division, segments=found)
+        sure = division.sure
     return RecurrenceFound(
         rows,
         division.recurring,
@@ -72,7 +72,8 @@ def analyze_actions(
         found.primitives,
         found.clusters,
         found.not_periodic,
-        shown,
+        division.evidence,
+        sure,
         division.narrow,
         timings,
     )

@@ -146,10 +146,6 @@ class RecurrenceConstants(CountingPreset):
         "largest share of an activity that a transition takes from one end", limits=Limits(0, 0.5),
         fine=True,
     )  # fmt: skip
-    end_factor: float = constant(
-        "what lies beyond the first and the last repetition is transition where it is farther from "
-        "the mean repetition than this times the usual distance of repetitions", limits=SOME_FACTOR,
-    )  # fmt: skip
     # Parts: repetitions of one action that are two movements.
     part_gap: float = constant(
         "repetitions are in two clusters where these are so many times as far apart as those in "

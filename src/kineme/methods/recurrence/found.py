@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.base import Columns
-from kineme.methods.confidence import Confidence, confidence
+from kineme.methods.confidence import Confidence
 from kineme.methods.doubts import doubts
 from kineme.methods.evidence import Evidence
 from kineme.methods.recurrence.recurrence import Recurrence
@@ -52,6 +52,8 @@ class RecurrenceFound:
         Actions whose primitives are occurrences.
     evidence : Evidence
         By which it is told how sure all that is.
+    confidence : Confidence
+        How probable it is that each thing found is right.
     narrow : Recurrence
         How similar the samples are for short actions.
     timings : dict of str to float
@@ -67,6 +69,7 @@ class RecurrenceFound:
     clusters: Frames
     not_periodic: Frames
     evidence: Evidence
+    confidence: Confidence
     narrow: Recurrence
     timings: dict[str, float] = field(default_factory=dict)
 
@@ -83,11 +86,6 @@ class RecurrenceFound:
             scores=(sure.links, np.where(self.clusters >= 0, sure.counts[parents], np.nan)),
             border_confidence=(sure.borders, sure.cuts),
         )
-
-    @cached_property
-    def confidence(self) -> Confidence:
-        """How probable it is that each thing found is right."""
-        return confidence(self.evidence, self.preset)
 
     def levels(self, columns: Columns) -> Mapping[float, Columns]:
         """The table at coarser and finer details; see `kineme.methods.recurrence.levels`."""

@@ -89,18 +89,19 @@ def link(
     frames = [step * each for each in chosen]
     gaps = (gap_share * np.diff(borders)).astype(np.int64)
     gaps = np.maximum(np.minimum(gaps, recurrence.phase), narrow) * step
+    columns = np.ascontiguousarray(poses.T)
     mean, shared = np.zeros((k, k)), np.ones((k, k))
 
     def covered(g: int, h: int) -> float:
         share: float = _distance_kernels.mean_recurrence(
-            poses, frames[g], scales[g], step * borders[h], step * borders[h + 1], softness
+            columns, frames[g], scales[g], step * borders[h], step * borders[h + 1], softness
         )
         return share
 
     def compare(g: int) -> None:
         for h in range(g, within_reach[g]):
             mean[g, h] = mean[h, g] = _distance_kernels.mean_similarity(
-                poses, frames[g], frames[h], reaches, scales[g], scales[h],
+                columns, frames[g], frames[h], reaches, scales[g], scales[h],
                 softness, min(gaps[g], gaps[h]),
             )  # fmt: skip
             if g < h:

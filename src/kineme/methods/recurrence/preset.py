@@ -82,7 +82,6 @@ KINEME = RecurrencePreset(
     max_transition=0.4,
     max_transition_share=0.25,
     max_unexplained=0.57,
-    end_factor=4.0,
     part_gap=1.75,
     min_periodic=0.5,
     event_scale=0.45,

@@ -28,6 +28,9 @@ from kineme.methods.recurrence import _recurrence_kernels as kernels
 
 Band = NDArray[np.float32]
 
+SHORT = 1000
+"""Rows of a band that are read or written sooner than threads have shared them."""
+
 
 @dataclass(frozen=True, eq=False)
 class Recurrence:
@@ -143,7 +146,7 @@ def _similar(
     blurred = np.empty_like(near)
     scales = np.empty(n, np.float32)
     similarity = np.zeros((n, width + 1), np.float32)
-    parts = even_slices(n)
+    parts = even_slices(n, SHORT)
 
     def scale(part: slice) -> None:
         kernels.local_scales(blurred, phases[0], rank, part.start, part.stop, low, high, scales)

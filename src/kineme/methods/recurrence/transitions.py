@@ -21,7 +21,7 @@ from kineme._threads import even_slices, map_threads
 from kineme.methods.recurrence import _recurrence_kernels as kernels
 from kineme.methods.recurrence.actions import Actions
 from kineme.methods.recurrence.change_points import Samples
-from kineme.methods.recurrence.recurrence import Recurrence
+from kineme.methods.recurrence.recurrence import SHORT, Recurrence
 
 # So many thresholds vote.
 VOTES = 7
@@ -102,7 +102,7 @@ def _usual_distances(
             nearest,
         )
 
-    map_threads(measure, even_slices(len(per_sample)))
+    map_threads(measure, even_slices(len(per_sample), SHORT))
     usual = np.full(int(per_sample.max()) + 1, np.inf)
     for action in range(len(usual)):
         known = nearest[(per_sample == action) & np.isfinite(nearest)]

@@ -48,26 +48,27 @@ def unexplained(repetitions, centering):
     of a positive correlation.
     """
     count, places, dims = repetitions.shape
-    rows = np.empty((count, places, dims))
-    total = np.zeros((places, dims))
+    rows = np.empty((count, places * dims))
+    total = np.zeros(places * dims)
+    mean = np.empty(dims)
     for k in range(count):
-        for d in range(dims):
-            mean = 0.0
-            for p in range(places):
-                mean += repetitions[k, p, d]
-            mean *= centering / places
-            for p in range(places):
-                rows[k, p, d] = repetitions[k, p, d] - mean
-                total[p, d] += rows[k, p, d]
+        mean[:] = 0
+        for p in range(places):
+            for d in range(dims):
+                mean[d] += repetitions[k, p, d]
+        for p in range(places):
+            for d in range(dims):
+                value = repetitions[k, p, d] - mean[d] * (centering / places)
+                rows[k, p * dims + d] = value
+                total[p * dims + d] += value
     found = np.empty(count)
     for k in range(count):
         product = own = other = 0.0
-        for p in range(places):
-            for d in range(dims):
-                rest = total[p, d] - rows[k, p, d]
-                product += rows[k, p, d] * rest
-                own += rows[k, p, d] * rows[k, p, d]
-                other += rest * rest
+        for each in range(places * dims):
+            rest = total[each] - rows[k, each]
+            product += rows[k, each] * rest
+            own += rows[k, each] * rows[k, each]
+            other += rest * rest
         found[k] = 1 - max(product, 0.0) ** 2 / max(own * other, 1e-24)
     return found
 

@@ -2,7 +2,7 @@
 
 A pair of samples scores ``1 - distance² / scale²`` less what stillness costs, a
 path the sum over its pairs; a step that passes over a sample counts its pair one
-and a half times. Naive twins are in ``tests/naive.py``.
+and a half times. Samples are columns. Naive twins are in ``tests/naive.py``.
 """
 
 from __future__ import annotations
@@ -15,14 +15,21 @@ from kineme._compiled import OPTIONS
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 
 
-@njit("float64(float64[:, ::1], float64[::1], int64, int64, float64, float64)", **SUMS)
-def pair_score(samples, costs, i, j, scale, worst):
-    """1 where two samples are equal, falling with the square of their distance to ``worst``."""
-    square = 0.0
-    for d in range(samples.shape[1]):
-        difference = samples[i, d] - samples[j, d]
-        square += difference * difference
-    return max(1 - square / (scale * scale) - (costs[i] + costs[j]) / 2, worst)
+@njit("void(float64[:, ::1], float64[::1], int64, int64, float64, float64, float64[::1])", **SUMS)
+def pair_scores(samples, costs, i, start, scale, worst, found):
+    """Scores of a sample with so many from ``start`` on.
+
+    1 where two are equal, falling with the square of their distance to ``worst``.
+    """
+    found[:] = 0
+    for d in range(len(samples)):
+        own, others = samples[d, i], samples[d, start : start + len(found)]
+        for j in range(len(found)):
+            difference = own - others[j]
+            found[j] += difference * difference
+    cost, others = costs[i], costs[start : start + len(found)]
+    for j in range(len(found)):
+        found[j] = max(1 - found[j] / (scale * scale) - (cost + others[j]) / 2, worst)
 
 
 @njit(
@@ -38,7 +45,8 @@ def local_paths(samples, costs, begins, gap, width, scale, worst, least):
     stretch, and goes on for as long as its score is above 0. Of those that score
     ``least`` or more, one for each branch of each first pair is kept, at its best.
     """
-    n = len(samples)
+    n = len(costs)
+    line = np.empty(n)
     scores = np.zeros((3, n))
     firsts = np.zeros((3, n), np.int64)
     records = np.full((3, n), -1, np.int64)
@@ -48,8 +56,10 @@ def local_paths(samples, costs, begins, gap, width, scale, worst, least):
         for j in range(max(i + gap - 3, 0), min(i + gap, n)):
             scores[row, j] = 0
         go, skip = i > 0 and not begins[i], i > 1 and not (begins[i] or begins[i - 1])
-        for j in range(i + gap, min(i + width + 1, n)):
-            score = pair_score(samples, costs, i, j, scale, worst)
+        near, far = min(i + gap, n), min(i + width + 1, n)
+        pair_scores(samples, costs, i, near, scale, worst, line[near:far])
+        for j in range(near, far):
+            score = line[j]
             best, first, record = score, i * n + j, np.int64(-1)
             if go and not begins[j]:
                 before = scores[one, j - 1]
@@ -92,12 +102,16 @@ def follow(samples, costs, ends, scale, worst):
     rows, columns = ends[2] - i0 + 1, ends[3] - j0 + 1
     scores = np.full((rows, columns), -np.inf)
     steps = np.zeros((rows, columns), np.int8)
-    scores[0, 0] = pair_score(samples, costs, i0, j0, scale, worst)
+    line = np.empty(columns)
+    pair_scores(samples, costs, i0, j0, scale, worst, line[:1])
+    scores[0, 0] = line[0]
     for i in range(1, rows):
         ahead = rows - 1 - i  # only what can be reached, and from where the end can be
         first = max(1, (i + 1) // 2, columns - 1 - 2 * ahead)
-        for j in range(first, min(columns, 2 * i + 1, columns - (ahead + 1) // 2)):
-            score = pair_score(samples, costs, i0 + i, j0 + j, scale, worst)
+        last = min(columns, 2 * i + 1, columns - (ahead + 1) // 2)
+        pair_scores(samples, costs, i0 + i, j0 + first, scale, worst, line[first:last])
+        for j in range(first, last):
+            score = line[j]
             scores[i, j], steps[i, j] = scores[i - 1, j - 1] + score, 1
             if j > 1 and scores[i - 1, j - 2] + 1.5 * score > scores[i, j]:
                 scores[i, j], steps[i, j] = scores[i - 1, j - 2] + 1.5 * score, 2

@@ -4,9 +4,8 @@ The repetitions between the first cut and the last say, by their mean over time,
 what a repetition is. The first one is the stretch before the first cut that fits
 this mean best, at whatever pace. Where it begins before the activity does, in a
 transition, the activity begins with it. Where it begins later, what lies before it
-is part of no repetition: a transition of the primitive level, and one of activities
-where it is nothing like the mean. The last repetition is found the same way, back
-in time.
+is part of no repetition: a transition of the primitive level. The last repetition is
+found the same way, back in time.
 
 The method is ours. See ``docs/method.md`` for what it contributes.
 """
@@ -34,8 +33,6 @@ Features = NDArray[np.float32]
 # The first and the last repetition last from half to one and a half times as long as the mean:
 # what is shorter is not counted, what is longer is counted twice.
 SHORTEST, LONGEST = 0.5, 1.5
-# A frame is compared with places of the mean this share of a repetition earlier or later at most.
-EITHER_WAY = 1 / 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,21 +113,7 @@ def _begin(
     inner = kernels.evenly_in_time(rows, cuts[:-1], lengths, preset.path_points)
     mean = inner.mean(axis=0)
     first = _first(rows, cuts, mean)
-    if first == start:
-        return start, start
-    low, high = min(first, start), max(first, start)
-    reach = int(EITHER_WAY * len(mean))
-    rest = np.empty(high - low)
-    kernels.distances(rows, low, high, first, int(cuts[0]) - first, mean, reach, rest)
-    usual = np.inf  # where there is no other
-    if len(inner) > 1:
-        others = kernels.distances_to_others(rows, cuts, inner, reach)
-        usual = float(np.quantile(others, preset.usual_quantile))
-    unlike = rest.mean() > preset.end_factor * usual
-    if first < start:
-        return (start, start) if unlike else (first, first)
-    short = high - low <= SHORTEST * float(lengths.mean())
-    return (first, first) if unlike and short and start > 0 else (start, first)
+    return min(first, start), first
 
 
 def _first(rows: Features, cuts: Frames, mean: Floats) -> int:

@@ -83,7 +83,7 @@ class _Samples:
 
     Attributes
     ----------
-    rows : (samples, dims) array
+    columns : (dims, samples) array
         Poses and velocities.
     edges : (samples, 2) array
         First frame of each sample, and one past its last.
@@ -93,10 +93,13 @@ class _Samples:
         Whether it follows something that is not looked at.
     """
 
-    rows: Floats
+    columns: Floats
     edges: Ints
     seconds: Floats
     begins: NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.seconds)
 
 
 def occurrences(
@@ -118,13 +121,13 @@ def occurrences(
     """
     per_second = preset.working_fps / preset.step
     samples = _samples(np.asarray(poses, np.float64), free, preset)
-    if len(samples.rows) < 2:
+    if len(samples) < 2:
         none = np.empty(0, np.int64)
         return Occurrences(none, none, none, np.empty(0))
     costs = preset.event_cost * samples.seconds
     shortest = max(1, preset.samples(preset.min_event))
     ends, _ = kernels.local_paths(
-        samples.rows,
+        samples.columns,
         costs,
         samples.begins,
         shortest,
@@ -138,7 +141,7 @@ def occurrences(
     spans, scores, ranks = set_kernels.best_sets(
         lengths,
         *_flat_paths(samples, costs, ends, preset.event_scale),
-        np.ones(len(samples.rows), np.bool_),
+        np.ones(len(samples), np.bool_),
         preset.event_cover,
     )
     strongest = np.zeros(len(ranks))
@@ -189,7 +192,7 @@ def _samples(poses: Floats, free: NDArray[np.bool_], preset: RecurrenceConstants
     begins = np.diff(kept, prepend=-2) > 1
     rows = np.hstack([poses, preset.event_velocity * velocities])[edges[kept, 0]]
     seconds = np.diff(at, append=n)[kept] / step
-    return _Samples(np.ascontiguousarray(rows), edges[kept], seconds, begins)
+    return _Samples(np.ascontiguousarray(rows.T), edges[kept], seconds, begins)
 
 
 def _flat_paths(
@@ -198,7 +201,9 @@ def _flat_paths(
     """Paths seen from either side: first samples, partners, sums, and the paths of each sample."""
     starts, partners, sums = [], [np.empty(0)], [np.empty(0)]
     for each in ends:
-        forth, forth_sums, back, back_sums = kernels.follow(samples.rows, costs, each, scale, WORST)
+        forth, forth_sums, back, back_sums = kernels.follow(
+            samples.columns, costs, each, scale, WORST
+        )
         starts += [each[0], each[1]]
         partners += [forth, back]
         sums += [forth_sums, back_sums]
@@ -207,5 +212,5 @@ def _flat_paths(
     first = np.array(starts, np.int64)
     rows = np.repeat(first - ptr[:-1], sizes) + np.arange(ptr[-1])
     row_paths = np.repeat(np.arange(len(sizes)), sizes)[np.argsort(rows, kind="stable")]
-    row_ptr = np.append(0, np.cumsum(np.bincount(rows, minlength=len(samples.rows))))
+    row_ptr = np.append(0, np.cumsum(np.bincount(rows, minlength=len(samples))))
     return first, ptr, np.concatenate(partners), np.concatenate(sums), row_ptr, row_paths

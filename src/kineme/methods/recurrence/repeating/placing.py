@@ -8,6 +8,7 @@ between activities that falls into one moves to its nearer end.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,19 +46,19 @@ class Segments:
     clusters: Frames
     not_periodic: Frames
 
-    @property
+    @cached_property
     def parents(self) -> Frames:
         """The activity or transition that each primitive lies in."""
         return _place(self.borders, self.primitives[:-1])
 
-    @property
+    @cached_property
     def repeats(self) -> NDArray[np.bool_]:
         """Which primitives are repetitions."""
         actions = self.labels[self.parents]
         found: NDArray[np.bool_] = (self.clusters >= 0) & (actions >= 0)
         return found & ~np.isin(actions, self.not_periodic)
 
-    @property
+    @cached_property
     def counts(self) -> Frames:
         """Repetitions of each activity."""
         return np.bincount(self.parents[self.repeats], minlength=len(self.labels))

@@ -166,8 +166,8 @@ def repetitions(
     if not divisions:
         count = best.whole
         divisions = [cuts for cuts in [best.cuts(count)] if cuts is not None]
-    even = min(divisions, key=lambda cuts: np.diff([0, *cuts, len(rows)]).std())
-    return Repetitions(start + even)
+    lengths = np.diff(np.array(divisions), axis=1, prepend=0, append=len(rows))
+    return Repetitions(start + divisions[lengths.std(axis=1).argmin()])
 
 
 def movement(rows: NDArray[np.float32], smoothing: int) -> Movement:
