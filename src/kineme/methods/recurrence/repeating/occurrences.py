@@ -1,9 +1,10 @@
 """Occurrences: stretches of movement that recur anywhere, whether or not back to back.
 
 What is looked at is not time but *movement time*: it goes by as fast as the body
-moves, hardly while it stands still, so that standing still twice is no event. A
-sample is a pose and its velocity, which nothing that merely passes the same pose
-shares: played backwards, no recording that was looked at recurs in itself.
+moves, hardly while it stands still, so that standing still twice is no event. Who
+stands for long is between two events. A sample is a pose and its velocity, which
+nothing that merely passes the same pose shares: played backwards, no recording that
+was looked at recurs in itself.
 
 Two stretches match along a warping path, whose score is the time for which they
 are similar, in seconds of usual movement. A set is a stretch with all others that
@@ -32,6 +33,8 @@ Ints = NDArray[np.int64]
 
 # Lengths of stretches that are tried, between the shortest and the longest.
 LENGTHS = 24
+# Share of the usual movement from which on somebody moves.
+MOVING = 0.25
 # What a pair of samples scores at least, however far they are apart.
 WORST = -2.0
 
@@ -185,11 +188,20 @@ def _samples(poses: Floats, free: NDArray[np.bool_], preset: RecurrenceConstants
     at = np.interp(np.arange(0, time[-1], step), time, np.arange(n + 1))
     edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
     edges = np.column_stack([edges[:-1], edges[1:]])
-    kept = np.flatnonzero(free[edges[:, 0]])
+    seconds = np.diff(at, append=n) / step
+    longest = preset.max_stand * preset.working_fps / step
+    kept = np.flatnonzero(free[edges[:, 0]] & ~_stands(seconds, longest))
     begins = np.diff(kept, prepend=-2) > 1
     rows = np.hstack([poses, preset.event_velocity * velocities])[edges[kept, 0]]
-    seconds = np.diff(at, append=n)[kept] / step
-    return _Samples(np.ascontiguousarray(rows), edges[kept], seconds, begins)
+    return _Samples(np.ascontiguousarray(rows), edges[kept], seconds[kept], begins)
+
+
+def _stands(seconds: Floats, longest: float) -> NDArray[np.bool_]:
+    """The samples in which somebody stands still for longer, in steps."""
+    still = seconds >= 1 / MOVING
+    run = np.cumsum(np.diff(still, prepend=False))  # of equal samples
+    stands: NDArray[np.bool_] = still & (np.bincount(run, seconds)[run] >= longest)
+    return stands
 
 
 def _flat_paths(
