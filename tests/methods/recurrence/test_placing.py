@@ -10,6 +10,7 @@ import pytest
 from kineme.methods.recurrence.repeating.occurrences import Occurrences
 from kineme.methods.recurrence.repeating.placing import (
     Segments,
+    interrupted,
     of_actions,
     placed,
     whole_activities,
@@ -108,9 +109,21 @@ def test_an_occurrence_alone_in_an_activity_is_as_long_as_it() -> None:
     assert widened((140, 200)) == [(130, 300)]
     assert widened((105, 120), (120, 200)) == [(105, 120), (120, 300)]
     assert widened((105, 132), (140, 200)) == [(105, 132), (132, 300)]
+    assert widened((10, 20), (105, 120), (140, 200))[2] == (140, 200)  # one of three in its set
     assert widened((140, 180)) == [(140, 180)]  # too little of it
     assert widened((140, 200), (220, 280)) == [(140, 200), (220, 280)]  # not alone
     assert widened((10, 80)) == [(10, 80)]  # that activity repeats, and is not free
+
+
+def test_repetitions_with_a_stand_in_every_other_one_are_not_back_to_back() -> None:
+    standing = np.zeros(400, np.bool_)
+    standing[100:300] = True  # in the activity of one repetition, and before and after it
+    assert interrupted(segments(), standing, 20).tolist() == [False, False, True, False]
+    standing[30:49] = True
+    assert not interrupted(segments(), standing, 20)[0]
+    standing[49] = True  # half of one stand, the other is in the next repetition
+    assert not interrupted(segments(), standing, 21)[0]
+    assert interrupted(segments(), standing, 20)[0]
 
 
 def test_shares_are_those_of_actions() -> None:

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 from kineme._threads import map_threads
 from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.repeating.ends import fitted_ends
-from kineme.methods.recurrence.repeating.occurrences import moved, occurrences
+from kineme.methods.recurrence.repeating.occurrences import moved, occurrences, standing
 from kineme.methods.recurrence.repeating.parts import clusters_of_repetitions
 from kineme.methods.recurrence.repeating.placing import (
     Segments,
     given_up,
+    interrupted,
     of_actions,
     placed,
     whole_activities,
@@ -104,7 +105,8 @@ def with_occurrences(
 ) -> Segments:
     """Occurrences for primitives in transitions, and in actions whose counts are not probable.
 
-    An activity with a single repetition has no count that could be. An action gives its
+    An activity with a single repetition has no count that could be, nor has one in half of
+    whose repetitions somebody stands for long. An action gives its
     repetitions up where occurrences explain more of it than these are probable. Transitions
     that are no more than the ends of two activities are left alone. An action of single
     repetitions in which hardly anything moves has no primitives, nor has, where an action was
@@ -134,7 +136,9 @@ def _occurring(
     borders, labels = segments.borders, segments.labels
     lengths = np.diff(borders)
     ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
-    sure = of_actions(counts * (segments.counts > 1), np.ones_like(labels), labels)
+    long = preset.frames(preset.max_stand) / 2
+    back_to_back = (segments.counts > 1) & ~interrupted(segments, standing(poses, preset), long)
+    sure = of_actions(counts * back_to_back, np.ones_like(labels), labels)
     weak = (sure < preset.min_periodic) & ~ends
     if not weak.any():
         return segments

@@ -162,6 +162,16 @@ def moved(poses: NDArray[np.floating], preset: RecurrenceConstants) -> Floats:
     return _movement_time(velocities, preset) / preset.working_fps
 
 
+def standing(poses: NDArray[np.floating], preset: RecurrenceConstants) -> NDArray[np.bool_]:
+    """Of each frame, whether somebody stands still there for longer than ``max_stand``."""
+    n = len(poses)
+    time = _movement_time(_velocities(np.asarray(poses, np.float64), preset), preset)
+    at = _steps(time, preset)
+    edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
+    stands: NDArray[np.bool_] = np.repeat(_stands(at, n, preset), np.diff(edges))
+    return stands
+
+
 def _velocities(poses: Floats, preset: RecurrenceConstants) -> Floats:
     """Of each frame, body sizes a second."""
     frames = np.arange(len(poses))
@@ -180,27 +190,33 @@ def _movement_time(velocities: Floats, preset: RecurrenceConstants) -> Floats:
 
 def _samples(poses: Floats, free: NDArray[np.bool_], preset: RecurrenceConstants) -> _Samples:
     """The free frames at equal steps of movement time."""
-    n, step = len(poses), preset.step
+    n = len(poses)
     velocities = _velocities(poses, preset)
     if np.linalg.norm(velocities, axis=1).mean() * preset.max_event < preset.event_scale:
         free = np.zeros(n, np.bool_)  # nobody moves: all is one pose
     time = _movement_time(velocities, preset)
-    at = np.interp(np.arange(0, time[-1], step), time, np.arange(n + 1))
+    at = _steps(time, preset)
     edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
     edges = np.column_stack([edges[:-1], edges[1:]])
-    seconds = np.diff(at, append=n) / step
-    longest = preset.max_stand * preset.working_fps / step
-    kept = np.flatnonzero(free[edges[:, 0]] & ~_stands(seconds, longest))
+    kept = np.flatnonzero(free[edges[:, 0]] & ~_stands(at, n, preset))
     begins = np.diff(kept, prepend=-2) > 1
     rows = np.hstack([poses, preset.event_velocity * velocities])[edges[kept, 0]]
-    return _Samples(np.ascontiguousarray(rows), edges[kept], seconds[kept], begins)
+    seconds = np.diff(at, append=n)[kept] / preset.step
+    return _Samples(np.ascontiguousarray(rows), edges[kept], seconds, begins)
 
 
-def _stands(seconds: Floats, longest: float) -> NDArray[np.bool_]:
-    """The samples in which somebody stands still for longer, in steps."""
-    still = seconds >= 1 / MOVING
-    run = np.cumsum(np.diff(still, prepend=False))  # of equal samples
-    stands: NDArray[np.bool_] = still & (np.bincount(run, seconds)[run] >= longest)
+def _steps(time: Floats, preset: RecurrenceConstants) -> Floats:
+    """Where equal steps of movement time begin, in frames."""
+    return np.interp(np.arange(0, time[-1], preset.step), time, np.arange(len(time)))
+
+
+def _stands(at: Floats, n: int, preset: RecurrenceConstants) -> NDArray[np.bool_]:
+    """The steps in which somebody stands still for longer than ``max_stand``."""
+    lasting = np.diff(at, append=n)
+    still = lasting >= preset.step / MOVING
+    run = np.cumsum(np.diff(still, prepend=False))  # of equal steps
+    longer = np.bincount(run, lasting)[run] >= preset.max_stand * preset.working_fps
+    stands: NDArray[np.bool_] = still & longer
     return stands
 
 

@@ -76,6 +76,15 @@ def of_actions(
     return means
 
 
+def interrupted(segments: Segments, standing: NDArray[np.bool_], least: float) -> NDArray[np.bool_]:
+    """The activities of which half of the repetitions or more hold so many frames of standing."""
+    own = segments.repeats
+    before = np.append(0, np.cumsum(standing))
+    held = np.diff(before[segments.primitives])[own] >= least
+    number = np.bincount(segments.parents[own], held, minlength=len(segments.labels))
+    return (number > 0) & (2 * number >= segments.counts)
+
+
 def placed(segments: Segments, found: Occurrences, free: NDArray[np.bool_]) -> Segments:
     """The segments with occurrences for primitives where no activity is periodic.
 
@@ -119,8 +128,9 @@ def whole_activities(
 ) -> Occurrences:
     """The occurrences, those alone in an activity of one repetition as long as it.
 
-    Such an activity began and ended where another movement did. Parameters are those of
-    `placed`; ``share`` of the activity at least must be the occurrence.
+    Such an activity begins and ends where another movement does, if half of the set or more
+    lie so in its action. Parameters are those of `placed`; ``share`` of the activity at least
+    must be the occurrence.
     """
     borders = segments.borders
     place = _place(borders, (found.starts + found.stops) // 2)
@@ -129,6 +139,9 @@ def whole_activities(
     single = free & (segments.labels >= 0) & (segments.counts == 1)
     alone = single & (np.bincount(place, minlength=len(free)) == 1)
     whole = alone[place] & (inside >= share * (stops - starts))
+    together = found.clusters * (segments.labels.max(initial=-1) + 2) + segments.labels[place] + 1
+    number = np.bincount(together, whole)[together]  # of its set and action
+    whole &= 2 * number >= np.bincount(found.clusters)[found.clusters]
     starts = np.where(whole, np.minimum(starts, found.starts), found.starts)
     stops = np.where(whole, np.maximum(stops, found.stops), found.stops)
     starts[1:] = np.maximum(starts[1:], found.stops[:-1])
