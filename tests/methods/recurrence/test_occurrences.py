@@ -12,9 +12,11 @@ from hypothesis import given, settings
 import naive
 from kineme.methods.recurrence.analysis import analyze_actions
 from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.recurrence.primitives import with_occurrences
 from kineme.methods.recurrence.repeating import _occurrence_kernels as kernels
 from kineme.methods.recurrence.repeating import _set_kernels as set_kernels
 from kineme.methods.recurrence.repeating.occurrences import Occurrences, occurrences
+from kineme.methods.recurrence.repeating.placing import Segments
 
 seconds = settings(max_examples=40)
 
@@ -189,6 +191,38 @@ def test_gestures_are_primitives_where_nothing_is_counted() -> None:
     assert (found.clusters[~occurring] < 0).all()
     columns = found.columns()
     assert np.isnan(columns["score"][columns["level"] == "primitive"]).all()
+
+
+def test_who_stands_for_long_is_between_two_events() -> None:
+    places = [100, 310, 555, 790]
+    rows = with_gestures(1, places)
+    for place in places[::-1]:  # somebody makes a step, stands for 2.5 s, and makes the gesture
+        step = 0.2 * np.sin(np.linspace(0, np.pi, 12))[:, None] * np.ones(6)
+        stand = np.zeros((75, 6))
+        rows = np.vstack([rows[:place], rows[place] + step, rows[place] + stand, rows[place:]])
+    everywhere = np.ones(len(rows), np.bool_)
+    lengths = {
+        limit: np.ptp([found.starts, found.stops], axis=0).max()
+        for limit in (2.0, 10.0)
+        for found in [occurrences(rows, everywhere, KINEME.replace(max_stand=limit))]
+    }
+    assert lengths[2.0] <= 46
+    assert lengths[10.0] > 110
+
+
+def test_many_activities_of_which_none_recurs_are_chance() -> None:
+    features = stacked(wandering(np.random.default_rng(0), 900))
+    recurring = analyze_actions(features, KINEME).recurrence
+    borders, labels = np.arange(0, 901, 180), np.array([0, 1, 0, 1, 0])
+    once = Segments(borders, labels, np.ones(5), borders, labels, np.empty(0, np.int64))
+
+    def kept(few: int) -> bool:
+        preset = KINEME.replace(few_activities=few)
+        found = with_occurrences(recurring, once, np.full(5, 0.2), preset)
+        return found.clusters.max() >= 0
+
+    assert not kept(few=4)
+    assert kept(few=5)
 
 
 def test_what_is_counted_for_sure_keeps_its_repetitions() -> None:

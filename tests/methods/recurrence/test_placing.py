@@ -5,9 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from kineme.methods.recurrence.repeating.occurrences import Occurrences
-from kineme.methods.recurrence.repeating.placing import Segments, of_actions, placed, without_lone
+from kineme.methods.recurrence.repeating.placing import (
+    Segments,
+    interrupted,
+    of_actions,
+    placed,
+    whole_activities,
+    without_few,
+)
 
 BORDERS = np.array([0, 100, 130, 300, 400])
 LABELS = np.array([0, -1, 1, 0])
@@ -72,10 +80,50 @@ def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
 
 def test_what_recurs_nowhere_is_no_primitive_beside_what_does() -> None:
     lone = replace(segments(), labels=np.array([0, -1, 1, 2]), clusters=np.array([0, 0, -1, 1, 2]))
-    found = without_lone(placed(lone, occurring((140, 180), (220, 260)), FREE))
+    time = np.arange(401.0)
+    found = without_few(placed(lone, occurring((140, 180), (220, 260)), FREE), time, 1, 0)
     assert found.clusters.tolist() == [0, 0, -1, -1, 3, -1, 3, -1, -1]
     assert found.not_periodic.tolist() == [1, 2]
-    assert without_lone(lone).clusters.tolist() == lone.clusters.tolist()
+    assert without_few(lone, time, 1, 0).clusters.tolist() == lone.clusters.tolist()
+
+
+@pytest.mark.parametrize(("few", "least", "kept"), [(2, 36, False), (2, 34, True), (1, 36, True)])
+def test_few_single_repetitions_that_hardly_move_are_no_set(few, least, kept) -> None:
+    twice = Segments(
+        np.array([0, 30, 100, 140, 300]),
+        np.array([0, -1, 0, 1]),
+        np.array([0.9, np.nan, 0.9, 0.8]),
+        np.array([0, 30, 100, 140, 180, 220, 260, 300]),
+        np.array([0, -1, 0, -1, 2, -1, 2]),
+        np.array([1]),
+    )
+    found = without_few(twice, np.arange(301.0), few, least)  # 30 and 40 long
+    assert (found.clusters >= 0).tolist() == [kept, False, kept, False, True, False, True]
+
+
+def test_an_occurrence_alone_in_an_activity_is_as_long_as_it() -> None:
+    def widened(*spans: tuple[int, int]) -> list[tuple[int, int]]:
+        found = whole_activities(occurring(*spans), segments(), FREE, 0.3)
+        return list(zip(found.starts.tolist(), found.stops.tolist(), strict=True))
+
+    assert widened((140, 200)) == [(130, 300)]
+    assert widened((105, 120), (120, 200)) == [(105, 120), (120, 300)]
+    assert widened((105, 132), (140, 200)) == [(105, 132), (132, 300)]
+    assert widened((10, 20), (105, 120), (140, 200))[2] == (140, 200)  # one of three in its set
+    assert widened((140, 180)) == [(140, 180)]  # too little of it
+    assert widened((140, 200), (220, 280)) == [(140, 200), (220, 280)]  # not alone
+    assert widened((10, 80)) == [(10, 80)]  # that activity repeats, and is not free
+
+
+def test_repetitions_with_a_stand_in_every_other_one_are_not_back_to_back() -> None:
+    standing = np.zeros(400, np.bool_)
+    standing[100:300] = True  # in the activity of one repetition, and before and after it
+    assert interrupted(segments(), standing, 20).tolist() == [False, False, True, False]
+    standing[30:49] = True
+    assert not interrupted(segments(), standing, 20)[0]
+    standing[49] = True  # half of one stand, the other is in the next repetition
+    assert not interrupted(segments(), standing, 21)[0]
+    assert interrupted(segments(), standing, 20)[0]
 
 
 def test_shares_are_those_of_actions() -> None:

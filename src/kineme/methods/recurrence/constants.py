@@ -24,12 +24,12 @@ from kineme.methods.constants import (
     Limits,
     constant,
 )
-from kineme.methods.recurrence.repeating.counting import CountingPreset
+from kineme.methods.recurrence.event_constants import EventConstants
 
 
 @dataclass(frozen=True, kw_only=True)
-class RecurrenceConstants(CountingPreset):
-    """Of recurrence, change points, actions and repetitions."""
+class RecurrenceConstants(EventConstants):
+    """Of recurrence, change points, actions, repetitions and events."""
 
     method: ClassVar[str] = "recurrence"
     units: ClassVar[tuple[Unit, ...]] = ("body sizes",)
@@ -151,48 +151,6 @@ class RecurrenceConstants(CountingPreset):
         "repetitions are in two clusters where these are so many times as far apart as those in "
         "them", limits=Limits(1.0, 1000.0),
     )  # fmt: skip
-    # Occurrences: what recurs anywhere.
-    min_periodic: float = constant(
-        "actions whose counts are less probable than this, in the mean of their activities, may be "
-        "occurrences instead of repetitions", limits=SHARE, fine=True,
-    )  # fmt: skip
-    event_scale: float = constant(
-        "distance from which two moments of an event are not similar", unit="body sizes",
-        limits=SOME_LENGTH, slider=(0.2, 0.8, 0.05),
-    )  # fmt: skip
-    event_velocity: float = constant(
-        "velocities count as much as poses that they change in this time", unit="s", limits=TIME,
-        fine=True,
-    )  # fmt: skip
-    event_rest: float = constant(
-        "share at which movement time goes by while nothing moves", limits=SOME_SHARE, fine=True
-    )
-    event_cost: float = constant(
-        "similarity that an event must gain for each moment that it lasts", limits=FACTOR
-    )
-    event_cover: float = constant(
-        "share of an event that each occurrence must match", limits=SOME_SHARE, fine=True
-    )
-    event_window: float = constant(
-        "occurrences are found no farther apart than this, in movement time", unit="s",
-        limits=SOME_TIME, fine=True,
-    )  # fmt: skip
-    min_event: float = constant(
-        "shortest event, in movement time; a single repetition that is shorter is none", unit="s",
-        limits=SOME_TIME,
-    )  # fmt: skip
-    max_event: float = constant(
-        "longest event, in movement time", unit="s", limits=SOME_TIME, fine=True
-    )
-    min_recurrence: float = constant(
-        "similarity times movement time that is no chance", unit="s", limits=SOME_TIME,
-        slider=(0.2, 2.0, 0.05),
-    )  # fmt: skip
-    event_link: float = constant(
-        "share of that from which an occurrence joins a set in which another reaches it",
-        limits=SOME_SHARE, fine=True,
-    )  # fmt: skip
-    pair_factor: float = constant("sets of two need min_recurrence times this", limits=SOME_FACTOR)
     # Signals, which have no size of their own.
     recurs_at: float = constant(
         "distance at which the median sample of signals recurs: their unit of length", fine=True,

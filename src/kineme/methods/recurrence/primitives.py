@@ -16,13 +16,16 @@ from numpy.typing import NDArray
 from kineme._threads import map_threads
 from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.repeating.ends import fitted_ends
-from kineme.methods.recurrence.repeating.occurrences import moved, occurrences
+from kineme.methods.recurrence.repeating.occurrences import moved, occurrences, standing
 from kineme.methods.recurrence.repeating.parts import clusters_of_repetitions
 from kineme.methods.recurrence.repeating.placing import (
     Segments,
+    given_up,
+    interrupted,
     of_actions,
     placed,
-    without_lone,
+    whole_activities,
+    without_few,
     without_still,
 )
 from kineme.methods.recurrence.repeating.repetitions import Repetitions, repetitions
@@ -102,11 +105,13 @@ def with_occurrences(
 ) -> Segments:
     """Occurrences for primitives in transitions, and in actions whose counts are not probable.
 
-    An activity with a single repetition has no count that could be. An action gives its
+    An activity with a single repetition has no count that could be, nor has one in half of
+    whose repetitions somebody stands for long. An action gives its
     repetitions up where occurrences explain more of it than these are probable. Transitions
     that are no more than the ends of two activities are left alone. An action of single
     repetitions in which hardly anything moves has no primitives, nor has, where an action was
-    given up, one of a single repetition in all.
+    given up, one of few single repetitions that move little, nor any where there are many
+    activities of which none has a probable count or recurs.
 
     Parameters
     ----------
@@ -118,8 +123,10 @@ def with_occurrences(
     preset : RecurrenceConstants
     """
     poses = single_poses(recurring.features, preset.offsets)
-    segments = without_lone(_occurring(poses, segments, counts, preset))
-    return without_still(segments, moved(poses, preset), preset.min_event)
+    segments, time = _occurring(poses, segments, counts, preset), moved(poses, preset)
+    least = preset.pair_factor * preset.min_recurrence
+    segments = without_few(segments, time, preset.few_activities, least)
+    return without_still(segments, time, preset.min_event)
 
 
 def _occurring(
@@ -129,7 +136,9 @@ def _occurring(
     borders, labels = segments.borders, segments.labels
     lengths = np.diff(borders)
     ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
-    sure = of_actions(counts * (segments.counts > 1), np.ones_like(labels), labels)
+    long = preset.frames(preset.max_stand) / 2
+    back_to_back = (segments.counts > 1) & ~interrupted(segments, standing(poses, preset), long)
+    sure = of_actions(counts * back_to_back, np.ones_like(labels), labels)
     weak = (sure < preset.min_periodic) & ~ends
     if not weak.any():
         return segments
@@ -139,7 +148,12 @@ def _occurring(
     explained = of_actions(found.within(borders, weak).explained(borders), lengths, labels)
     free = weak & ((labels < 0) | (explained > sure))
     found = found.within(borders, free)
-    return placed(segments, found, free) if len(found) else segments
+    if len(found):
+        found = whole_activities(found, segments, free, preset.whole_share)
+        return placed(segments, found, free)
+    known = labels >= 0
+    by_chance = known.sum() > preset.few_activities and weak[known].all()
+    return given_up(segments, labels[known]) if by_chance else segments
 
 
 def _tiled(

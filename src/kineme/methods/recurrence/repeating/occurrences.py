@@ -1,9 +1,10 @@
 """Occurrences: stretches of movement that recur anywhere, whether or not back to back.
 
 What is looked at is not time but *movement time*: it goes by as fast as the body
-moves, hardly while it stands still, so that standing still twice is no event. A
-sample is a pose and its velocity, which nothing that merely passes the same pose
-shares: played backwards, no recording that was looked at recurs in itself.
+moves, hardly while it stands still, so that standing still twice is no event. Who
+stands for long is between two events. A sample is a pose and its velocity, which
+nothing that merely passes the same pose shares: played backwards, no recording that
+was looked at recurs in itself.
 
 Two stretches match along a warping path, whose score is the time for which they
 are similar, in seconds of usual movement. A set is a stretch with all others that
@@ -32,6 +33,8 @@ Ints = NDArray[np.int64]
 
 # Lengths of stretches that are tried, between the shortest and the longest.
 LENGTHS = 24
+# Share of the usual movement from which on somebody moves.
+MOVING = 0.25
 # What a pair of samples scores at least, however far they are apart.
 WORST = -2.0
 
@@ -162,6 +165,16 @@ def moved(poses: NDArray[np.floating], preset: RecurrenceConstants) -> Floats:
     return _movement_time(velocities, preset) / preset.working_fps
 
 
+def standing(poses: NDArray[np.floating], preset: RecurrenceConstants) -> NDArray[np.bool_]:
+    """Of each frame, whether somebody stands still there for longer than ``max_stand``."""
+    n = len(poses)
+    time = _movement_time(_velocities(np.asarray(poses, np.float64), preset), preset)
+    at = _steps(time, preset)
+    edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
+    stands: NDArray[np.bool_] = np.repeat(_stands(at, n, preset), np.diff(edges))
+    return stands
+
+
 def _velocities(poses: Floats, preset: RecurrenceConstants) -> Floats:
     """Of each frame, body sizes a second."""
     frames = np.arange(len(poses))
@@ -180,19 +193,34 @@ def _movement_time(velocities: Floats, preset: RecurrenceConstants) -> Floats:
 
 def _samples(poses: Floats, free: NDArray[np.bool_], preset: RecurrenceConstants) -> _Samples:
     """The free frames at equal steps of movement time."""
-    n, step = len(poses), preset.step
+    n = len(poses)
     velocities = _velocities(poses, preset)
     if np.linalg.norm(velocities, axis=1).mean() * preset.max_event < preset.event_scale:
         free = np.zeros(n, np.bool_)  # nobody moves: all is one pose
     time = _movement_time(velocities, preset)
-    at = np.interp(np.arange(0, time[-1], step), time, np.arange(n + 1))
+    at = _steps(time, preset)
     edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
     edges = np.column_stack([edges[:-1], edges[1:]])
-    kept = np.flatnonzero(free[edges[:, 0]])
+    kept = np.flatnonzero(free[edges[:, 0]] & ~_stands(at, n, preset))
     begins = np.diff(kept, prepend=-2) > 1
     rows = np.hstack([poses, preset.event_velocity * velocities])[edges[kept, 0]]
-    seconds = np.diff(at, append=n)[kept] / step
+    seconds = np.diff(at, append=n)[kept] / preset.step
     return _Samples(np.ascontiguousarray(rows.T), edges[kept], seconds, begins)
+
+
+def _steps(time: Floats, preset: RecurrenceConstants) -> Floats:
+    """Where equal steps of movement time begin, in frames."""
+    return np.interp(np.arange(0, time[-1], preset.step), time, np.arange(len(time)))
+
+
+def _stands(at: Floats, n: int, preset: RecurrenceConstants) -> NDArray[np.bool_]:
+    """The steps in which somebody stands still for longer than ``max_stand``."""
+    lasting = np.diff(at, append=n)
+    still = lasting >= preset.step / MOVING
+    run = np.cumsum(np.diff(still, prepend=False))  # of equal steps
+    longer = np.bincount(run, lasting)[run] >= preset.max_stand * preset.working_fps
+    stands: NDArray[np.bool_] = still & longer
+    return stands
 
 
 def _flat_paths(

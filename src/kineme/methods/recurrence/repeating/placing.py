@@ -77,6 +77,15 @@ def of_actions(
     return means
 
 
+def interrupted(segments: Segments, standing: NDArray[np.bool_], least: float) -> NDArray[np.bool_]:
+    """The activities of which half of the repetitions or more hold so many frames of standing."""
+    own = segments.repeats
+    before = np.append(0, np.cumsum(standing))
+    held = np.diff(before[segments.primitives])[own] >= least
+    number = np.bincount(segments.parents[own], held, minlength=len(segments.labels))
+    return (number > 0) & (2 * number >= segments.counts)
+
+
 def placed(segments: Segments, found: Occurrences, free: NDArray[np.bool_]) -> Segments:
     """The segments with occurrences for primitives where no activity is periodic.
 
@@ -115,6 +124,32 @@ def placed(segments: Segments, found: Occurrences, free: NDArray[np.bool_]) -> S
     return Segments(borders, labels, segments.own[old], primitives, clusters, loose)
 
 
+def whole_activities(
+    found: Occurrences, segments: Segments, free: NDArray[np.bool_], share: float
+) -> Occurrences:
+    """The occurrences, those alone in an activity of one repetition as long as it.
+
+    Such an activity begins and ends where another movement does, if half of the set or more
+    lie so in its action. Parameters are those of `placed`; ``share`` of the activity at least
+    must be the occurrence.
+    """
+    borders = segments.borders
+    place = _place(borders, (found.starts + found.stops) // 2)
+    starts, stops = borders[place], borders[place + 1]
+    inside = np.minimum(found.stops, stops) - np.maximum(found.starts, starts)
+    single = free & (segments.labels >= 0) & (segments.counts == 1)
+    alone = single & (np.bincount(place, minlength=len(free)) == 1)
+    whole = alone[place] & (inside >= share * (stops - starts))
+    together = found.clusters * (segments.labels.max(initial=-1) + 2) + segments.labels[place] + 1
+    number = np.bincount(together, whole)[together]  # of its set and action
+    whole &= 2 * number >= np.bincount(found.clusters)[found.clusters]
+    starts = np.where(whole, np.minimum(starts, found.starts), found.starts)
+    stops = np.where(whole, np.maximum(stops, found.stops), found.stops)
+    starts[1:] = np.maximum(starts[1:], found.stops[:-1])
+    stops[:-1] = np.minimum(stops[:-1], starts[1:])
+    return replace(found, starts=starts, stops=stops)
+
+
 def without_still(segments: Segments, time: NDArray[np.float64], least: float) -> Segments:
     """The segments without primitives in actions that neither repeat nor move.
 
@@ -130,18 +165,27 @@ def without_still(segments: Segments, time: NDArray[np.float64], least: float) -
     lasting = np.diff(time[segments.primitives]) >= least
     several = segments.counts[segments.parents] > 1
     still = np.setdiff1d(actions[own], actions[own & (lasting | several)])
-    return _given_up(segments, still)
+    return given_up(segments, still)
 
 
-def without_lone(segments: Segments) -> Segments:
-    """The segments without repetitions that no other is like, where primitives are what recurs."""
+def without_few(segments: Segments, time: NDArray[np.float64], few: int, least: float) -> Segments:
+    """The segments without single repetitions too few to recur, where primitives are what recurs.
+
+    These are one that no other is like, and at most ``few`` that move for less than ``least``
+    seconds in the mean.
+    """
     if not len(segments.not_periodic):
         return segments
-    numbers = np.bincount(segments.labels[segments.parents][segments.repeats])
-    return _given_up(segments, np.flatnonzero(numbers == 1))
+    of_activities, own = segments.parents, segments.repeats
+    actions = segments.labels[of_activities][own]
+    numbers = np.bincount(actions)
+    moved = np.bincount(actions, np.diff(time[segments.primitives])[own])
+    several = np.bincount(actions, segments.counts[of_activities][own] > 1) > 0
+    hardly = (numbers <= few) & ~several & (moved < least * numbers)
+    return given_up(segments, np.flatnonzero((numbers == 1) | hardly))
 
 
-def _given_up(segments: Segments, actions: Frames) -> Segments:
+def given_up(segments: Segments, actions: Frames) -> Segments:
     """The segments without the repetitions of some actions."""
     if not len(actions):
         return segments
