@@ -3,7 +3,7 @@
     python benchmarks/sets_joined.py [SET] [--record]
 
 Each stretch is scored as a recording of its own, so that clusters stand for classes of one person;
-HAPT is three hours of 30 people. docs/method_for_sensors.md quotes what ``--record`` keeps.
+HAPT is three hours of 30 people. docs/experiments_for_sensors.md quotes what ``--record`` keeps.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The constants of the ``kineme`` method: what each does, its unit and its limits.
 
 Lengths are shares of the body's size (see ``kineme.features.body_size``) or of what stands
-for it in signals, times seconds. ``docs/method.md`` says what other values measure.
+for it in signals, times seconds. ``docs/experiments.md`` says what other values measure.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The preset of the ``kineme`` method, one for every recording.
 
-``docs/method.md`` says what other values measure.
+``docs/experiments.md`` says what other values measure.
 """
 
 from __future__ import annotations
