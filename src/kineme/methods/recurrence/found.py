@@ -117,13 +117,20 @@ class RecurrenceFound:
         And one for the activities that are not periodic.
         """
         found = doubts(columns, fps, self.preset)
-        loose = (columns["level"] == "activity") & np.isin(columns["cluster"], self.not_periodic)
+        of_activities = columns["level"] == "activity"
+        loose = of_activities & np.isin(columns["cluster"], self.not_periodic)
         if loose.any():
-            spans = zip(columns["start_frame"][loose], columns["stop_frame"][loose], strict=True)
-            listed = [f"{start / fps:.2f} to {stop / fps:.2f} s" for start, stop in spans]
+            starts, stops = columns["start_frame"][loose], columns["stop_frame"][loose]
+            listed = [
+                f"{start / fps:.2f} to {stop / fps:.2f} s"
+                for start, stop in zip(starts, stops, strict=True)
+            ]
             more = f" and {len(listed) - LISTED} more" if len(listed) > LISTED else ""
-            found.append(
-                f"not periodic: {', '.join(listed[:LISTED])}{more}; "
-                "their primitives are what recurs anywhere"
+            primitives = columns["start_frame"][~of_activities & (columns["cluster"] >= 0)]
+            at = np.searchsorted(starts, primitives, side="right") - 1
+            recurs = ((at >= 0) & (primitives < stops[at])).any()
+            told = (
+                "their primitives are what recurs anywhere" if recurs else "nothing in them recurs"
             )
+            found.append(f"not periodic: {', '.join(listed[:LISTED])}{more}; {told}")
         return found
