@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from kineme.methods.recurrence import _distance_kernels as kernels
 from kineme.methods.recurrence.repeating import _candidate_kernels as candidate_kernels
+from kineme.methods.recurrence.repeating.rests import at_rest
 
 if TYPE_CHECKING:
     from kineme.methods.recurrence.repeating.counting import CountingPreset
@@ -35,6 +36,8 @@ Frames = NDArray[np.int64]
 
 # An end is followed for as long as one and a half repetitions.
 FOLLOWED = 1.5
+# Seconds before and after a frame, over which its speed is the mean.
+REST_AVERAGED = 0.1
 # From this on a part of a repetition is one.
 ROUNDED_UP = 0.35
 
@@ -135,7 +138,7 @@ def repetitions(
 ) -> Repetitions:
     """Where the repetitions of an activity begin, at equal phase.
 
-    The first begins with the activity.
+    The first begins with the activity, the others where somebody rests, if anywhere.
 
     Parameters
     ----------
@@ -167,7 +170,8 @@ def repetitions(
         count = best.whole
         divisions = [cuts for cuts in [best.cuts(count)] if cuts is not None]
     lengths = np.diff(np.array(divisions), axis=1, prepend=0, append=len(rows))
-    return Repetitions(start + divisions[lengths.std(axis=1).argmin()])
+    cuts = divisions[lengths.std(axis=1).argmin()]
+    return Repetitions(start + at_rest(cuts, along.path, preset.frames(REST_AVERAGED)))
 
 
 def movement(rows: NDArray[np.float32], smoothing: int) -> Movement:
