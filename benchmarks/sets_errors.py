@@ -5,7 +5,8 @@
 Scores as they are; with our segments, each of which is told the class that most of it has;
 and with the true segments, each of which has the cluster that most of it got. Then every
 wrong frame is of one kind (`KINDS`). People in a lift stand: recordings with nothing but
-these classes are a row of their own. docs/experiments_for_sensors.md quotes what ``--record`` keeps.
+these classes are a row of their own. docs/experiments_for_sensors.md quotes what ``--record``
+keeps.
 """
 
 from __future__ import annotations

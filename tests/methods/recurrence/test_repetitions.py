@@ -20,6 +20,7 @@ from kineme.methods.recurrence.repeating.repetitions import (
     Repetitions,
     repetitions,
 )
+from kineme.methods.recurrence.repeating.rests import at_rest
 from loops import nod, swing
 
 seconds = settings(max_examples=60)
@@ -81,6 +82,32 @@ def test_repetitions_begin_at_equal_phase(movement) -> None:
     lengths = [b - a for a, b in pairwise([0, *found.cuts.tolist(), 8 * 36])]
     assert max(abs(length - 36) for length in lengths[1:-1]) <= 1
     assert max(lengths) - min(lengths) <= 18
+
+
+@movements
+@pytest.mark.parametrize("rest", [0.5, 1.0, 2.0])
+def test_repetitions_begin_where_somebody_rests_between_them(movement, rest: float) -> None:
+    found = count(movement(6, period=1.2, rest=rest))
+    phases = found.cuts % (36 + round(30 * rest))
+    assert ((phases >= 33) | (phases <= 3)).all()
+
+
+speeds = st.lists(st.sampled_from([0.0, 0.01, 0.5, 1.0, 3.0]), min_size=2, max_size=60)
+
+
+@given(speeds, st.data(), st.integers(0, 4))
+@seconds
+def test_as_many_repetitions_follow_each_other_at_rest(moved, data, averaged: int) -> None:
+    at = st.sets(st.integers(1, len(moved) - 1), max_size=6)
+    cuts = np.array(sorted(data.draw(at)), np.int64)
+    found = at_rest(cuts, np.append(0, np.cumsum(moved)), averaged)
+    assert len(found) == len(cuts)
+    assert (np.diff(found, prepend=0, append=len(moved)) > 0).all()
+
+
+def test_where_nobody_rests_repetitions_begin_where_their_poses_tell() -> None:
+    cuts = np.array([30, 60, 90])
+    assert at_rest(cuts, np.arange(121.0), 3).tolist() == cuts.tolist()
 
 
 @given(st.integers(2, 9), st.integers(0, 2**32 - 1))
