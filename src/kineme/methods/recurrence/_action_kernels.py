@@ -28,7 +28,9 @@ def change_points(similarity, penalty, min_length):
     before = np.zeros(samples + 1, np.int64)
     # row_sums[s]: similarity of s to itself, and twice those to the later samples of the segment.
     row_sums = np.zeros(samples)
-    inverse = 1 / np.arange(samples + 1)
+    inverse = np.empty(samples + 1)
+    for length in range(1, samples + 1):
+        inverse[length] = 1 / length
     for end in range(1, samples + 1):
         last = end - 1
         first = max(0, end - width)
@@ -58,7 +60,8 @@ def class_affinities(similarity, labels, gap, start, stop, affinity):
     """
     samples, width = similarity.shape
     counts = np.empty(affinity.shape[1], np.int64)
-    until = np.full(samples, samples)  # where another class than that of the sample begins
+    until = np.empty(samples, np.int64)  # where another class than that of the sample begins
+    until[samples - 1] = samples
     for j in range(samples - 2, -1, -1):
         until[j] = until[j + 1] if labels[j] == labels[j + 1] else j + 1
     for i in range(start, stop):

@@ -105,8 +105,12 @@ def upper_median(values):
 @njit("float64(float64[::1])", **OPTIONS)
 def unevenness(lengths):
     """Standard deviation of the logarithms of lengths, at most 1."""
-    logs = np.log(np.maximum(lengths, 1e-12))
-    return min(logs.std(), 1.0)
+    mean = square = 0.0
+    for length in lengths:
+        mean += np.log(max(length, 1e-12)) / len(lengths)
+    for length in lengths:
+        square += (np.log(max(length, 1e-12)) - mean) ** 2 / len(lengths)
+    return min(np.sqrt(square), 1.0)
 
 
 @njit("float64[:, ::1](float64[:, :, ::1])", **OPTIONS)
