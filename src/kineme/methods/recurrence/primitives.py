@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from kineme._threads import map_threads
 from kineme.methods.recurrence.recurrence import Recurrence
 from kineme.methods.recurrence.repeating.ends import fitted_ends
-from kineme.methods.recurrence.repeating.occurrences import moved, occurrences, standing
+from kineme.methods.recurrence.repeating.occurrences import movement_time, occurrences, standing
 from kineme.methods.recurrence.repeating.parts import clusters_of_repetitions
 from kineme.methods.recurrence.repeating.placing import (
     Segments,
@@ -123,21 +123,26 @@ def with_occurrences(
     preset : RecurrenceConstants
     """
     poses = single_poses(recurring.features, preset.offsets)
-    segments, time = _occurring(poses, segments, counts, preset), moved(poses, preset)
-    least = preset.pair_factor * preset.min_recurrence
-    segments = without_few(segments, time, preset.few_activities, least)
-    return without_still(segments, time, preset.min_event)
+    time = movement_time(poses, preset)
+    segments = _occurring(poses, time, segments, counts, preset)
+    seconds, least = time / preset.working_fps, preset.pair_factor * preset.min_recurrence
+    segments = without_few(segments, seconds, preset.few_activities, least)
+    return without_still(segments, seconds, preset.min_event)
 
 
 def _occurring(
-    poses: NDArray[np.float32], segments: Segments, counts: Floats, preset: RecurrenceConstants
+    poses: NDArray[np.float32],
+    time: Floats,
+    segments: Segments,
+    counts: Floats,
+    preset: RecurrenceConstants,
 ) -> Segments:
     """Occurrences for primitives where counts are not probable; see `with_occurrences`."""
     borders, labels = segments.borders, segments.labels
     lengths = np.diff(borders)
     ends = (labels < 0) & (lengths <= 2 * preset.frames(preset.max_transition))
     long = preset.frames(preset.max_stand) / 2
-    back_to_back = (segments.counts > 1) & ~interrupted(segments, standing(poses, preset), long)
+    back_to_back = (segments.counts > 1) & ~interrupted(segments, standing(time, preset), long)
     sure = of_actions(counts * back_to_back, np.ones_like(labels), labels)
     weak = (sure < preset.min_periodic) & ~ends
     if not weak.any():

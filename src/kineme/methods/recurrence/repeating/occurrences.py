@@ -159,19 +159,22 @@ def occurrences(
     return Occurrences(starts, stops, by_first_appearance(ranks), similarity)
 
 
-def moved(poses: NDArray[np.floating], preset: RecurrenceConstants) -> Floats:
-    """Seconds of movement time up to each frame, and to the end."""
-    velocities = _velocities(np.asarray(poses, np.float64), preset)
-    return _movement_time(velocities, preset) / preset.working_fps
+def movement_time(poses: NDArray[np.floating], preset: RecurrenceConstants) -> Floats:
+    """Frames of usual movement up to each frame, and to the end."""
+    return _time_of(_velocities(np.asarray(poses, np.float64), preset), preset)
 
 
-def standing(poses: NDArray[np.floating], preset: RecurrenceConstants) -> NDArray[np.bool_]:
-    """Of each frame, whether somebody stands still there for longer than ``max_stand``."""
-    n = len(poses)
-    time = _movement_time(_velocities(np.asarray(poses, np.float64), preset), preset)
-    at = _steps(time, preset)
-    edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
-    stands: NDArray[np.bool_] = np.repeat(_stands(at, n, preset), np.diff(edges))
+def standing(time: Floats, preset: RecurrenceConstants) -> NDArray[np.bool_]:
+    """Of each frame, whether somebody stands still there for longer than ``max_stand``.
+
+    Parameters
+    ----------
+    time : (frames + 1,) array
+        Movement time, see `movement_time`.
+    preset : RecurrenceConstants
+    """
+    lasting, edges = _steps(time, preset)
+    stands: NDArray[np.bool_] = np.repeat(_stands(lasting, preset), np.diff(edges))
     return stands
 
 
@@ -184,8 +187,8 @@ def _velocities(poses: Floats, preset: RecurrenceConstants) -> Floats:
     return velocities
 
 
-def _movement_time(velocities: Floats, preset: RecurrenceConstants) -> Floats:
-    """Frames of usual movement up to each frame, and to the end."""
+def _time_of(velocities: Floats, preset: RecurrenceConstants) -> Floats:
+    """Movement time where poses have these velocities."""
     speeds = np.linalg.norm(velocities, axis=1)
     rates = preset.event_rest + (1 - preset.event_rest) * speeds / max(speeds.mean(), 1e-12)
     return np.append(0, np.cumsum(rates))
@@ -197,25 +200,27 @@ def _samples(poses: Floats, free: NDArray[np.bool_], preset: RecurrenceConstants
     velocities = _velocities(poses, preset)
     if np.linalg.norm(velocities, axis=1).mean() * preset.max_event < preset.event_scale:
         free = np.zeros(n, np.bool_)  # nobody moves: all is one pose
-    time = _movement_time(velocities, preset)
-    at = _steps(time, preset)
-    edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
-    edges = np.column_stack([edges[:-1], edges[1:]])
-    kept = np.flatnonzero(free[edges[:, 0]] & ~_stands(at, n, preset))
+    lasting, edges = _steps(_time_of(velocities, preset), preset)
+    spans = np.column_stack([edges[:-1], edges[1:]])
+    kept = np.flatnonzero(free[spans[:, 0]] & ~_stands(lasting, preset))
     begins = np.diff(kept, prepend=-2) > 1
-    rows = np.hstack([poses, preset.event_velocity * velocities])[edges[kept, 0]]
-    seconds = np.diff(at, append=n)[kept] / preset.step
-    return _Samples(np.ascontiguousarray(rows.T), edges[kept], seconds, begins)
+    rows = np.hstack([poses, preset.event_velocity * velocities])[spans[kept, 0]]
+    seconds = lasting[kept] / preset.step
+    return _Samples(np.ascontiguousarray(rows.T), spans[kept], seconds, begins)
 
 
-def _steps(time: Floats, preset: RecurrenceConstants) -> Floats:
-    """Where equal steps of movement time begin, in frames."""
-    return np.interp(np.arange(0, time[-1], preset.step), time, np.arange(len(time)))
+def _steps(time: Floats, preset: RecurrenceConstants) -> tuple[Floats, Ints]:
+    """How many frames equal steps of movement time last, and the frames at which they begin.
+
+    The last of these is the end.
+    """
+    n = len(time) - 1
+    at = np.interp(np.arange(0, time[-1], preset.step), time, np.arange(n + 1))
+    return np.diff(at, append=n), np.append(np.minimum(at.astype(np.int64), n - 1), n)
 
 
-def _stands(at: Floats, n: int, preset: RecurrenceConstants) -> NDArray[np.bool_]:
+def _stands(lasting: Floats, preset: RecurrenceConstants) -> NDArray[np.bool_]:
     """The steps in which somebody stands still for longer than ``max_stand``."""
-    lasting = np.diff(at, append=n)
     still = lasting >= preset.step / MOVING
     run = np.cumsum(np.diff(still, prepend=False))  # of equal steps
     longer = np.bincount(run, lasting)[run] >= preset.max_stand * preset.working_fps

@@ -40,20 +40,22 @@ def at_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     >>> at_rest(np.array([8, 16]), path, 1).tolist()
     [5, 13]
     """
+    if not len(cuts):
+        return cuts
     n = len(path) - 1
     usual = float(np.median(np.diff(cuts, prepend=0, append=n)))
-    shifts = np.arange(-int(usual / 2), int(usual / 2) + 1)
-    if len(cuts):
-        whole = (cuts[0] + shifts >= usual / 2) & (cuts[-1] + shifts <= n - usual / 2)
-        shifts = shifts[whole]
-    if not len(cuts) or not len(shifts):
+    half = usual / 2
+    shifts = np.arange(-int(half), int(half) + 1)
+    shifts = shifts[(cuts[0] + shifts >= half) & (cuts[-1] + shifts <= n - half)]
+    if not len(shifts):
         return cuts
     speeds = _speeds(path, averaged)
     slowness = speeds[cuts[:, None] + shifts].mean(axis=0)
     if slowness.min() > RESTING * path[-1] / n:
         return cuts
     rests = cuts + shifts[slowness.argmin()]
-    near = np.arange(-int(NEAR * usual), int(NEAR * usual) + 1)
+    reach = int(NEAR * usual)
+    near = np.arange(-reach, reach + 1)
     around = np.clip(rests[:, None] + near, 1, n - 1)
     slowest = np.take_along_axis(around, speeds[around].argmin(axis=1)[:, None], axis=1)[:, 0]
     return slowest if (np.diff(slowest) > 0).all() else rests
