@@ -50,6 +50,12 @@ def is_one_of(value: object, known: Collection[str]) -> bool:
     return isinstance(value, str) and value in known
 
 
+def check_one_of(value: object, known: Collection[str], what: str) -> None:
+    """ParameterError unless it is one of the known texts."""
+    if not is_one_of(value, known):
+        raise ParameterError(f"{what} must be one of {', '.join(known)}, not {value!r:.60}")
+
+
 def check_type(
     value: object,
     kind: type | tuple[type, ...],

@@ -19,7 +19,7 @@ from importlib import import_module
 from types import MappingProxyType
 from typing import Literal, NamedTuple, get_args
 
-from kineme._checks import check_type, is_one_of
+from kineme._checks import check_one_of, check_type
 from kineme._plugins import plugins
 from kineme.errors import ParameterError
 from kineme.evaluation.comparison import Comparison
@@ -78,11 +78,7 @@ class Score:
     function: Callable[[Comparison], float | Ratio]
 
     def __post_init__(self) -> None:
-        if not is_one_of(self.level, get_args(Counted)):
-            raise ParameterError(
-                f"level of {self.name!r:.60} must be one of {', '.join(get_args(Counted))}, not "
-                f"{self.level!r:.60}"
-            )
+        check_one_of(self.level, get_args(Counted), f"level of {self.name!r:.60}")
 
 
 def scores() -> Mapping[str, Score]:

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, get_args
 
-from kineme._checks import check_suffixes, is_one_of
-from kineme.errors import ParameterError
+from kineme._checks import check_one_of, check_suffixes
 from kineme.labels.spans import Labels
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
@@ -71,11 +70,7 @@ class LabelFormat:
 
     def __post_init__(self) -> None:
         check_suffixes(self.suffixes, self.name)
-        if not is_one_of(self.holds, get_args(Holds)):
-            raise ParameterError(
-                f"holds of {self.name!r:.60} must be one of {', '.join(get_args(Holds))}, not "
-                f"{self.holds!r:.60}"
-            )
+        check_one_of(self.holds, get_args(Holds), f"holds of {self.name!r:.60}")
         object.__setattr__(self, "written_suffix", self.written_suffix or self.suffixes[0])
 
     @property
