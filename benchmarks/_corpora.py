@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import kineme
-from _recordings import ACTORS, DATA, subject_86
+from _options import DATA
+from _recordings import ACTORS, subject_86
 from kineme.features.canonical import matching
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample

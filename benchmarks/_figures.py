@@ -15,6 +15,7 @@ import shlex
 import sys
 from pathlib import Path
 
+from _options import is_quick
 from kineme import __version__
 
 FILE = Path(__file__).resolve().parents[1] / "docs" / "figures.json"
@@ -26,8 +27,11 @@ def add_option(parser: argparse.ArgumentParser) -> None:
 
 
 def record(name: str, value: float | str, *, unit: str = "") -> None:
-    """Keep a number, or two as in "3 of 4", in the file if the script runs with ``--record``."""
-    if OPTION not in sys.argv:
+    """Keep a number, or two as in "3 of 4", in the file if the script runs with ``--record``.
+
+    Never one of a quick run, which goes over too little to say anything.
+    """
+    if OPTION not in sys.argv or is_quick():
         return
     figures = json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {}
     options = [_nowhere(word) for word in sys.argv[1:] if word != OPTION]

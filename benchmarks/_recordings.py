@@ -6,7 +6,6 @@ All are `Case`s: a motion, and what people or the maker say of it.
 from __future__ import annotations
 
 import csv
-import os
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -16,13 +15,13 @@ from pathlib import Path
 import numpy as np
 
 import kineme
+from _options import DATA, few, needed
 from kineme.datasets import ACTIONS, Action, Exercise, exercise_sequence, synthesize
 from kineme.evaluation import Annotation, labelling_of
 from kineme.recordings import Motion
 from kineme.reproduction.trials import find_folder, load_trials
 from kineme.segments.segmentation import Segmentation
 
-DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 
 ACTORS = ("bd", "bk", "dg")
@@ -46,16 +45,18 @@ class Case:
 
 
 def subject_86() -> list[Case]:
-    """The five trials of the benchmark."""
-    trials = load_trials(find_folder(DATA), TRIALS)
+    """The five trials of the benchmark; the first, where it shall be quick."""
+    needed("cmu86")
+    trials = load_trials(find_folder(DATA), few(TRIALS, TRIALS[:1]))
     return [Case(trial.name, trial.motion, trial.truth) for trial in trials]
 
 
 def hdm05(
     seeds: int, *, first: int = 0, runs: int = 8, repeats: tuple[int, int] = (3, 6)
 ) -> Iterator[Case]:
-    """Sequences of HDM05 exercises, actors in turn."""
-    for seed in range(first, first + seeds):
+    """Sequences of HDM05 exercises, actors in turn; one short one, where it shall be quick."""
+    runs = few(runs, 4)
+    for seed in range(first, first + few(seeds, 1)):
         actor = ACTORS[seed % len(ACTORS)]
         made = exercise_sequence(exercises(actor), seed, runs=runs, repeats=repeats)
         yield Case(f"{actor} {seed}", made.motion, annotation(made.truth), made.truth)
@@ -64,9 +65,10 @@ def hdm05(
 @cache
 def exercises(actor: str) -> list[Exercise]:
     """The cuts ``HDM_<actor>_<class>_<number>_120.amc`` of one actor."""
-    skeleton = DATA / "hdm05" / "asf" / f"HDM_{actor}.asf"
+    folder = needed("hdm05")
+    skeleton = folder / "asf" / f"HDM_{actor}.asf"
     found = []
-    for path in sorted((DATA / "hdm05" / "amc").glob(f"HDM_{actor}_*_120.amc")):
+    for path in sorted((folder / "amc").glob(f"HDM_{actor}_*_120.amc")):
         kind = path.stem.split("_")[2]
         motion = kineme.read(path, skeleton=skeleton)
         found.append(Exercise(kind, motion, REPETITIONS.get(kind, 1)))
@@ -78,9 +80,10 @@ def synthetic(condition: str, seeds: int) -> Iterator[Case]:
 
     ``speed``: each action at half to twice its speed; ``size``: bodies half to
     twice as large; ``noise``: every joint shakes by up to 2 cm; ``one hand``:
-    waves and punches at half to full size are among the exercises.
+    waves and punches at half to full size are among the exercises. One seed, where it
+    shall be quick.
     """
-    for seed in range(seeds):
+    for seed in range(few(seeds, 1)):
         rng = np.random.default_rng(seed)
         varied = {c: condition in (c, "all") for c in CONDITIONS}
         chosen = rng.permutation(EXERCISES)[:3].tolist()

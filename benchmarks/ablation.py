@@ -1,6 +1,6 @@
 """What each stage of `kineme` contributes: each switched off in turn, scored as in fairness.py.
 
-    python benchmarks/ablation.py [--quick]
+    python benchmarks/ablation.py [--every 5]
 
 A stage is switched off as closely as its constants allow, or by what it would
 hand on if it had found nothing to do.
@@ -8,7 +8,6 @@ hand on if it had found nothing to do.
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,6 +16,7 @@ from unittest.mock import patch
 
 import numpy as np
 
+from _options import command_line
 from _recordings import hdm05, subject_86, synthetic
 from fairness import show
 from kineme.methods.recurrence import activities, change_points, transitions
@@ -70,14 +70,14 @@ def without(patches: list[Any]) -> Iterator[None]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="a fifth of the seeds")
-    few = 5 if parser.parse_args().quick else 1
+    parser = command_line(__doc__)
+    parser.add_argument("--every", type=int, default=1, help="one in so many seeds")
+    every = parser.parse_args().every
     sets = {
         "subject 86": subject_86(),
-        "HDM05": hdm05(50 // few),
-        "synthetic, speed": synthetic("speed", 50 // few),
-        "synthetic, all": synthetic("all", 50 // few),
+        "HDM05": hdm05(50 // every),
+        "synthetic, speed": synthetic("speed", 50 // every),
+        "synthetic, all": synthetic("all", 50 // every),
     }
     for title, recordings in sets.items():
         cases = at_working_rate(recordings)

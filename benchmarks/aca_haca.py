@@ -11,7 +11,6 @@ two shared cores of another machine, so a ratio is an order of magnitude.
 from __future__ import annotations
 
 import json
-import os
 import sys
 import time
 from collections.abc import Callable
@@ -22,6 +21,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 import kineme
+from _options import DATA
 from kineme.evaluation import Labelling
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods import PRESETS
@@ -32,7 +32,6 @@ from kineme.reproduction import read_trials
 from kineme.reproduction.aca_protocol import aca_accuracy
 
 ROOT = Path(__file__).resolve().parents[1]
-DATA = Path(os.environ.get("KINEME_DATA", ROOT.parent / "shared" / "data")) / "cmu86"
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 SEEDS = (1, 2, 3, 4, 5)
 STAGES = ("reduce", "kernel", "aca_ini", "aca", "haca_ini", "haca")

@@ -17,10 +17,8 @@ clusters are one reading of lost functions, so there a difference is no error.
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
-import os
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -32,6 +30,7 @@ from scipy.optimize import linear_sum_assignment
 
 import kineme
 from _figures import add_option, record
+from _options import DATA, command_line
 from kineme.features import mirror_features
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.found import RegionsFound
@@ -146,9 +145,8 @@ def _partition(labels: list[int]) -> NDArray[np.intp]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    default = os.environ.get("KINEME_DATA") or Path(__file__).parents[2] / "shared" / "data"
-    parser.add_argument("--data", type=Path, default=Path(default))
+    parser = command_line(__doc__)
+    parser.add_argument("--data", type=Path, default=DATA)
     add_option(parser)
     data = parser.parse_args().data
     for configuration in CONFIGURATIONS:

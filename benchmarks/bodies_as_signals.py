@@ -1,6 +1,6 @@
 """Bodies whose joints come as channels of a table, told by their bones and not told.
 
-    python benchmarks/bodies_as_signals.py [--quick] [--record]
+    python benchmarks/bodies_as_signals.py [--every 4] [--record]
 
 Subject 86 and sequences of HDM05's exercises as bodies, as channels that are named after joints
 (``hip_x``, ``hip_y``, ``hip_z``), and as channels without names, of which nothing is told.
@@ -8,7 +8,6 @@ Subject 86 and sequences of HDM05's exercises as bodies, as channels that are na
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections.abc import Iterator
 
@@ -16,6 +15,7 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
+from _options import command_line
 from _recordings import Case, hdm05, subject_86
 from kineme.evaluation import evaluate_segmentation
 from kineme.recordings import Motion, Signals
@@ -49,13 +49,13 @@ def show(source: str, cases: list[Case]) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="six sequences in place of 24")
+    parser = command_line(__doc__)
+    parser.add_argument("--every", type=int, default=1, help="one in so many sequences")
     add_option(parser)
     options = parser.parse_args()
     warnings.simplefilter("ignore")
     show("subject_86", subject_86())
-    show("hdm05", list(hdm05(6 if options.quick else 24)))
+    show("hdm05", list(hdm05(24 // options.every)))
 
 
 if __name__ == "__main__":

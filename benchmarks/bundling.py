@@ -10,8 +10,6 @@ features. Exits with 1 if the promise is not kept.
 
 from __future__ import annotations
 
-import argparse
-import os
 import sys
 import time
 from pathlib import Path
@@ -19,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import kineme
+from _options import DATA, command_line
 from agreement import TRIALS
 from kineme.features.bundling import bundle
 from kineme.methods.region_growing.preset import KRUEGER2017
@@ -29,9 +28,8 @@ PROMISED_FRAMES = 2000
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    default = os.environ.get("KINEME_DATA") or Path(__file__).parents[2] / "shared" / "data"
-    parser.add_argument("--data", type=Path, default=Path(default))
+    parser = command_line(__doc__)
+    parser.add_argument("--data", type=Path, default=DATA)
     folder = parser.parse_args().data / "cmu86"
     print(f"{'trial':8}{'frames':>7}{'seconds':>9}{'moved':>8}{'median':>8}{'95 %':>7}{'most':>7}")
     slowest = 0.0

@@ -1,6 +1,6 @@
 """Are probabilities right? On recordings of sources that they were not learnt from.
 
-    python benchmarks/confidence.py [--fit] [--quick] [--record]
+    python benchmarks/confidence.py [--fit] [--every 5] [--record]
 
 A link, a border, a count and a cut between two repetitions are each right or
 wrong, as people or the maker of the recording say. From a few statistics of each
@@ -18,7 +18,6 @@ written into ``kineme/methods/weights.py``.
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections import defaultdict
 from collections.abc import Iterator
@@ -32,6 +31,7 @@ from numpy.typing import NDArray
 
 import kineme
 from _figures import add_option, record
+from _options import command_line
 from _recordings import (
     ACTORS,
     CONDITIONS,
@@ -431,16 +431,15 @@ def write(table: Table) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--fit", action="store_true", help="write the weights into the package")
-    parser.add_argument("--quick", action="store_true", help="a fifth of the recordings")
+    parser.add_argument("--every", type=int, default=1, help="one in so many recordings")
     add_option(parser)
     options = parser.parse_args()
-    few = 5 if options.quick else 1
     table = Table()
-    for source, motion, truth in bodies(few):
+    for source, motion, truth in bodies(options.every):
         judge(table, source, motion, truth, np.arange(motion.n_frames) / motion.fps)
-    for source, signals, times, truth in sensors(few):
+    for source, signals, times, truth in sensors(options.every):
         judge(table, source, signals, truth, times)
     report(table)
     if options.fit:

@@ -11,7 +11,6 @@ left out. Part 8 promised at most 1.5 times what was before it (commit 3ec2366).
 
 from __future__ import annotations
 
-import argparse
 import io
 import os
 import subprocess
@@ -21,7 +20,7 @@ import tempfile
 from pathlib import Path
 
 from _measure import verdict
-from _recordings import DATA
+from _options import DATA, command_line
 
 HERE = Path(__file__).resolve().parents[1]
 PROMISED = 1.5
@@ -84,7 +83,7 @@ def source_of(commit: str, folder: Path) -> Path:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("commit", help="the version to compare with")
     parser.add_argument("--runs", type=int, default=9)
     parser.add_argument("--every", type=int, default=20, help="one in so many exercises")

@@ -14,7 +14,6 @@ what was skipped, exit code 0 as the folder gave something, and no growth.
 
 from __future__ import annotations
 
-import argparse
 import os
 import subprocess
 import sys
@@ -29,6 +28,7 @@ import numpy as np
 
 import kineme
 from _damage import mutated
+from _options import command_line
 from kineme.datasets import bundled_recording
 
 MEMORY_DISK = "/dev/shm" if Path("/dev/shm").is_dir() else None
@@ -191,7 +191,7 @@ def built(folder: Path, out: Path, damaged: list[Path], jobs: int) -> list[str]:
 
 def main() -> int:
     """Make, segment and build; exit code 1 where something is wrong."""
-    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--files", type=int, default=10_000)
     parser.add_argument("--jobs", type=int, default=2)
     given = parser.parse_args()

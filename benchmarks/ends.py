@@ -10,7 +10,6 @@ and the inner ones apart. Exits with 1 if the promise is not kept.
 
 from __future__ import annotations
 
-import argparse
 import sys
 import warnings
 from collections import defaultdict
@@ -20,6 +19,7 @@ from numpy.typing import NDArray
 
 import kineme
 from _figures import add_option, record
+from _options import command_line
 from _recordings import synthetic
 from kineme.segments.segmentation import Segmentation
 
@@ -55,7 +55,7 @@ def excesses(truth: Segmentation, found: Segmentation) -> dict[str, list[float]]
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--seeds", type=int, default=50)
     add_option(parser)
     seeds = parser.parse_args().seeds

@@ -1,6 +1,6 @@
 """Fair scores on recordings nobody tuned for, beside what is promised of `kineme`.
 
-    python benchmarks/fairness.py [--quick] [--record]
+    python benchmarks/fairness.py [--every 10] [--record]
 
 - **subject 86**: five trials, beside uniform cuts and the recorded runs of ACA
   and HACA, which are told the number of classes (mean of their five seeds), and what
@@ -16,7 +16,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import tempfile
 import warnings
@@ -28,7 +27,8 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _recordings import CONDITIONS, DATA, Case, hdm05, subject_86, synthetic
+from _options import DATA, command_line
+from _recordings import CONDITIONS, Case, hdm05, subject_86, synthetic
 from kineme.evaluation import Annotation, Labelling, evaluate, evaluate_segmentation
 from kineme.methods.baselines.uniform import uniform
 from kineme.methods.presets import DEFAULT, PUBLISHED
@@ -167,10 +167,10 @@ def show(title: str, rows: dict[str, Scores], promised: Scores | None = None) ->
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="a tenth of the seeds")
+    parser = command_line(__doc__)
+    parser.add_argument("--every", type=int, default=1, help="one in so many seeds")
     add_option(parser)
-    few = 10 if parser.parse_args().quick else 1
+    every = parser.parse_args().every
     cases = subject_86()
     scores = by_presets(cases)
     scores |= {method: recorded_scores(cases, method) for method in ("aca", "haca")}
@@ -180,11 +180,11 @@ def main() -> None:
     for label, row in scores.items():
         for name, value in row.items():
             record(f"fairness.subject_86.{label.split()[0]}.{name}", value)
-    scores = by_presets(hdm05(50 // few))
+    scores = by_presets(hdm05(50 // every))
     show("HDM05", scores, PROMISED["HDM05"])
     record("fairness.hdm05.kineme.count_exact", scores["kineme"]["count_exact"])
     for condition in CONDITIONS:
-        scores = by_presets(synthetic(condition, 100 // few))
+        scores = by_presets(synthetic(condition, 100 // every))
         show(f"synthetic, {condition}", scores, PROMISED["synthetic"])
         name = f"fairness.synthetic.{condition.replace(' ', '_')}.kineme.count_exact"
         record(name, scores["kineme"]["count_exact"])

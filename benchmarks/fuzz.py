@@ -18,7 +18,6 @@ Promises: no finding.
 
 from __future__ import annotations
 
-import argparse
 import json
 import mmap
 import os
@@ -33,6 +32,8 @@ import warnings
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+
+from _options import command_line
 
 os.environ["KINEME_THREADS"] = os.environ["OMP_NUM_THREADS"] = "1"  # threads outlive no fork
 
@@ -195,7 +196,7 @@ def fuzz(seconds: float, most: int, first: int) -> Counter[str]:
 
 def main() -> int:
     """Fuzz as the command line asks; exit code 1 if anything was found."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser = command_line(__doc__)
     parser.add_argument("--minutes", type=float, default=1.0)
     parser.add_argument("--files", type=int, default=10**6, help="at most")
     parser.add_argument("--seed", type=int, default=0)

@@ -11,7 +11,6 @@ remove. Folders of clips have all their clips. Needs a system that can fork.
 
 from __future__ import annotations
 
-import argparse
 import csv
 import itertools
 import os
@@ -28,6 +27,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import kineme
+from _options import command_line
 from kineme.clips.split import split
 from kineme.datasets import bundled_recording
 from kineme.errors import KinemeError
@@ -131,7 +131,7 @@ def notes_of(table: Segmentation) -> list[str]:
 
 def main() -> None:
     """Kill, look, count; exit code 1 where something is torn."""
-    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--kills", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()

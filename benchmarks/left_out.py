@@ -1,6 +1,6 @@
 """Constants of the method for bodies, chosen with each source of recordings left out.
 
-    python benchmarks/left_out.py [--quick] [--only CONSTANT ...]
+    python benchmarks/left_out.py [--every 4] [--only CONSTANT ...]
 
 Each constant of `VALUES` by itself: mean of one-to-one accuracy and border F1 (and of the share
 of counts that are exact, where counts are known) of each value on subject 86, HDM05 sequences,
@@ -12,7 +12,6 @@ are in the middle of those within 0.005 of the best.
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections.abc import Sequence
 from dataclasses import replace
@@ -20,6 +19,7 @@ from dataclasses import replace
 import numpy as np
 
 import short_exercises
+from _options import command_line
 from _plateau import middle_of_best
 from _recordings import Case, hdm05, subject_86, synthetic
 from _sparse_recordings import SparseCase, sparse_events
@@ -77,21 +77,21 @@ def slowly(case: SparseCase) -> SparseCase:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="a quarter of the seeds")
+    parser = command_line(__doc__)
+    parser.add_argument("--every", type=int, default=1, help="one in so many seeds")
     parser.add_argument("--only", nargs="+", choices=VALUES, default=list(VALUES))
     options = parser.parse_args()
-    few = 4 if options.quick else 1
+    every = options.every
     back_to_back, standing = short_exercises.CONDITIONS
     sources = {
         "subject 86": subject_86(),
-        "HDM05": hdm05(24 // few),
-        "synthetic": synthetic("speed", 24 // few),
-        back_to_back: short_exercises.cases(back_to_back, 24 // few),
-        standing: short_exercises.cases(standing, 24 // few),
+        "HDM05": hdm05(24 // every),
+        "synthetic": synthetic("speed", 24 // every),
+        back_to_back: short_exercises.cases(back_to_back, 24 // every),
+        standing: short_exercises.cases(standing, 24 // every),
     }
     recordings = {name: at_working_rate(cases) for name, cases in sources.items()}
-    sparse = [slowly(case) for case in sparse_events(24 // few)]
+    sparse = [slowly(case) for case in sparse_events(24 // every)]
 
     def judged(preset: RecurrencePreset) -> list[float]:
         """Of each source."""

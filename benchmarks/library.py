@@ -14,7 +14,6 @@ Each line says what was promised.
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -23,7 +22,7 @@ from time import perf_counter, process_time
 from _figures import add_option, record
 from _libraries import simulated
 from _measure import kineme, verdict
-from _recordings import DATA
+from _options import DATA, command_line
 from kineme import Library, read
 
 PARTS = ("build", "again", "search")
@@ -96,7 +95,7 @@ def show_search(home: Path, hours: float) -> None:
 
 
 def main() -> None:
-    options = argparse.ArgumentParser()
+    options = command_line(__doc__)
     options.add_argument("parts", nargs="*", default=PARTS, help=", ".join(PARTS))
     options.add_argument("--copies", type=int, default=40)
     options.add_argument("--files", type=int, default=1000)

@@ -13,7 +13,6 @@ nothing is yet: what is there in the end has the bytes of one on a disk.
 
 from __future__ import annotations
 
-import argparse
 import os
 import random
 import resource
@@ -32,6 +31,7 @@ from typing import Any
 
 import kineme
 from _figures import add_option, record
+from _options import command_line
 from kineme.errors import KinemeError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.index import kept
@@ -245,7 +245,7 @@ def equal_at(url: str, wanted: dict[str, bytes]) -> None:
 
 def main() -> None:
     """Kill, look, count; exit code 1 where something is torn."""
-    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--at", metavar="URL")

@@ -10,10 +10,9 @@ radius that its authors use then. Columns as in ``benchmarks/synthetic.py``.
 
 from __future__ import annotations
 
-import argparse
-
 import numpy as np
 
+from _options import command_line
 from agreement import CONFIGURATIONS
 from kineme.datasets import random_recording
 from kineme.segmentation.segmenter import segment
@@ -27,7 +26,7 @@ PRESETS = {
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--seeds", type=int, default=30)
     seeds = range(parser.parse_args().seeds)
     print(f"{'noise mm':>8}  {'':8}{'counts':>8}{'borders':>9}{'extra':>7}")

@@ -13,7 +13,6 @@
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -23,6 +22,7 @@ from scipy.optimize import linear_sum_assignment
 
 import kineme
 from _figures import add_option, record
+from _options import command_line
 from _recordings import Case, hdm05, subject_86, synthetic
 from kineme.datasets import Action, SyntheticRecording, synthesize
 from kineme.segments.segmentation import Segmentation
@@ -90,7 +90,7 @@ def one_movement(name: str, cases: Iterable[Case]) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--seeds", type=int, default=30)
     add_option(parser)
     seeds = parser.parse_args().seeds

@@ -12,7 +12,6 @@ Promises: the hour in less than 1.5 GB.
 
 from __future__ import annotations
 
-import argparse
 import os
 import subprocess
 import sys
@@ -23,6 +22,7 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter
 
+from _options import command_line
 from kineme.formats import read
 
 HOUR = 120 * 3600
@@ -73,7 +73,7 @@ def hour(folder: Path) -> int:
 
 def main() -> int:
     beside = Path(__file__).resolve().parents[2] / "shared" / "data"
-    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("folder", nargs="?", default=os.environ.get("KINEME_DATA", beside))
     parser.add_argument("--hour", action="store_true")
     given = parser.parse_args()

@@ -13,7 +13,6 @@ confidence.py; borders within 0.25 s.
 
 from __future__ import annotations
 
-import argparse
 import os
 import shutil
 import tempfile
@@ -27,6 +26,7 @@ from playwright.sync_api import Page, sync_playwright
 
 import kineme
 from _figures import add_option, record
+from _options import command_line
 from _recordings import Case, hdm05, subject_86
 from confidence import (
     TOLERANCE,
@@ -148,7 +148,7 @@ def look_through(
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--share", type=float, default=0.2, help="of the queue")
     parser.add_argument("--mend", action="store_true", help="wrong borders, on the way")
     add_option(parser)

@@ -15,7 +15,6 @@ six movements of 0.8 to 4 s searched in it, with the index, exactly, and as a co
 
 from __future__ import annotations
 
-import argparse
 import json
 from collections.abc import Iterator
 from itertools import islice
@@ -33,7 +32,7 @@ from _figures import FILE as FIGURES
 from _figures import add_option, record
 from _libraries import joined
 from _measure import kineme, verdict
-from _recordings import DATA
+from _options import DATA, command_line
 from kineme import Library, bundled_recording, read, segment
 from kineme._interpolation import at_frames
 from kineme.features.canonical import MATCHING_FPS, matching_features
@@ -254,7 +253,7 @@ def shaken(features: Features, rng: np.random.Generator) -> Features:
 
 
 def main() -> None:
-    options = argparse.ArgumentParser()
+    options = command_line(__doc__)
     options.add_argument("parts", nargs="*", default=["costs", "search", "larger"])
     options.add_argument("--hours", type=float, default=1000.0)
     options.add_argument("--examples", type=int, default=len(EXAMPLES_S))

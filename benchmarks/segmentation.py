@@ -11,25 +11,22 @@ seconds beside it under GNU Octave, on two cores of another machine.
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
-import os
 import warnings
 from collections import defaultdict
-from pathlib import Path
 from statistics import median
 
 import numpy as np
 
 import kineme
 from _measure import interleaved, verdict
+from _options import DATA, command_line
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.methods.region_growing.preset import KRUEGER2017
 from kineme.segmentation.bodies import motion_features
 
-DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 PLAIN = KRUEGER2017.replace(bundling=None, radius=0.302 * math.sqrt(5))
 MEASURED = {DEFAULT: PRESETS[DEFAULT], **PUBLISHED, "krueger2017, not bundled": PLAIN}
 REFERENCES = {
@@ -40,7 +37,7 @@ REFERENCES = {
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--runs", type=int, default=21)
     runs = parser.parse_args().runs
     motion = kineme.read(DATA / "cmu86" / "86_10.amc")

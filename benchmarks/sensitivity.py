@@ -1,6 +1,6 @@
 """How much the scores hang on each constant of `kineme`, and on the trials they are judged by.
 
-    python benchmarks/sensitivity.py [--quick] [--record]
+    python benchmarks/sensitivity.py [--every 5] [--record]
 
 First every constant alone is made 15 % smaller and larger: mean scores of the
 five trials of subject 86 and of HDM05 sequences. Then each trial is left out
@@ -15,7 +15,6 @@ so that the middle of a plateau is chosen and not a peak.
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -24,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from _figures import add_option, record
+from _options import command_line
 from _recordings import Case, hdm05, subject_86, synthetic
 from fairness import SHOWN, Scores, mean, show
 from kineme.errors import ParameterError
@@ -129,13 +129,13 @@ def left_out(trials: Sequence[Case], *others: Sequence[Case]) -> Scores:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="a fifth of the other recordings")
+    parser = command_line(__doc__)
+    parser.add_argument("--every", type=int, default=1, help="one in so many other recordings")
     add_option(parser)
-    few = 5 if parser.parse_args().quick else 1
+    every = parser.parse_args().every
     trials = at_working_rate(subject_86())
-    exercises = at_working_rate(hdm05(15 // few))
-    made = at_working_rate(synthetic("speed", 10 // few))
+    exercises = at_working_rate(hdm05(15 // every))
+    made = at_working_rate(synthetic("speed", 10 // every))
     for title, cases in (("subject 86", trials), ("HDM05", exercises)):
         rows = {"as it is": scores(cases, KINEME)}
         rows |= {label: scores(cases, preset) for label, preset in nudged(KINEME)}

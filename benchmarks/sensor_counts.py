@@ -1,6 +1,6 @@
 """Repetitions counted by sensors on the body, where they are known.
 
-    python benchmarks/sensor_counts.py [--quick] [--only SOURCE ...] [--record]
+    python benchmarks/sensor_counts.py [--every 4] [--only SOURCE ...] [--record]
 
 - **barbell**: a sensor on the wrist, five or ten repetitions as planned; nobody watched. Told
   is the cluster with the most repetitions.
@@ -12,7 +12,6 @@
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -22,7 +21,8 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _recordings import DATA, by_recording, hdm05
+from _options import command_line, few, needed
+from _recordings import by_recording, hdm05
 from kineme.evaluation import labelling_of
 from kineme.evaluation.counts import found_counts
 from kineme.segments.segmentation import Segmentation
@@ -33,9 +33,9 @@ Counts = tuple[list[float], list[float]]
 """Repetitions told and true."""
 
 
-def barbell(few: int) -> Iterator[Counts]:
-    folder = DATA / "sets" / "barbell"
-    for name, (row,) in list(by_recording(folder / "counts.csv").items())[::few]:
+def barbell(every: int) -> Iterator[Counts]:
+    folder = needed("sets/barbell")
+    for name, (row,) in list(by_recording(folder / "counts.csv").items())[::every]:
         if row["exercise"] != "rest":
             found = segmented(folder, name)
             clusters = found.primitives.cluster
@@ -43,10 +43,10 @@ def barbell(few: int) -> Iterator[Counts]:
             yield [told], [int(row["nominal_count"])]
 
 
-def strides(few: int) -> Iterator[Counts]:
-    folder = DATA / "sets" / "ipolgait"
+def strides(every: int) -> Iterator[Counts]:
+    folder = needed("sets/ipolgait")
     labels = by_recording(folder / "labels.csv")
-    for name, events in list(by_recording(folder / "events.csv").items())[::few]:
+    for name, events in list(by_recording(folder / "events.csv").items())[::every]:
         walks = [span(row, "") for row in labels[name] if row["label"] == "walking"]
         swings = [sum(span(row, "swing_")) / 2 for row in events]
         found = segmented(folder, name)
@@ -65,8 +65,8 @@ def strides(few: int) -> Iterator[Counts]:
 def made(places: tuple[int, ...]) -> Callable[[int], Iterator[Counts]]:
     """Sequences of HDM05 as sensors at these places see them."""
 
-    def counted(few: int) -> Iterator[Counts]:
-        for case in hdm05(24 // few):
+    def counted(every: int) -> Iterator[Counts]:
+        for case in hdm05(24 // min(every, 24)):
             found = kineme.segment(sensors(case.motion, places))
             parts = labelling_of(found.primitives, fps=found.fps)
             parts = parts.at(frames=case.truth.frames, fps=case.truth.fps)
@@ -92,13 +92,13 @@ def span(row: dict[str, str], prefix: str) -> tuple[float, float]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="every fourth recording")
+    parser = command_line(__doc__)
+    parser.add_argument("--every", type=int, default=few(1, 20), help="one in so many recordings")
     parser.add_argument("--only", nargs="+", choices=SOURCES, default=list(SOURCES))
     add_option(parser)
     options = parser.parse_args()
     for source in options.only:
-        sides = zip(*SOURCES[source](4 if options.quick else 1), strict=True)
+        sides = zip(*SOURCES[source](options.every), strict=True)
         told, true = (np.concatenate(side) for side in sides)
         errors = np.abs(told - true)
         shares = {"exact": np.mean(errors <= 0.5), "within_one": np.mean(errors <= 1)}

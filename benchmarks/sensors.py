@@ -14,8 +14,6 @@ their own.
 
 from __future__ import annotations
 
-import argparse
-import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -23,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from _figures import add_option, record
+from _options import DATA, command_line
 from kineme import Signals, read, segment
 from kineme import _rotations as rot
 from kineme.datasets import random_recording
@@ -104,9 +103,8 @@ def synthetic(make: Callable[[Motion], Signals]) -> list[Recording]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Segments from body-worn sensors.")
-    default = os.environ.get("KINEME_DATA", "../shared/data")
-    parser.add_argument("--data", type=Path, default=default)
+    parser = command_line(__doc__)
+    parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--presets", nargs="+", default=OWN)
     add_option(parser)
     parser.add_argument("--units", action="store_true", help="other values of recurs_at")

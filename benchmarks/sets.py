@@ -12,8 +12,6 @@ recording. docs/sets.md quotes what ``--record`` keeps.
 
 from __future__ import annotations
 
-import argparse
-import os
 import time
 import warnings
 from collections.abc import Mapping, Sequence
@@ -24,6 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from _figures import add_option, record
+from _options import DATA, command_line
 from _rival_presets import register_rivals
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.jobs import Answer, Job, worked_out
@@ -71,11 +70,9 @@ def row(name: str, compared: Sequence[Comparison]) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Scores on sets of labelled recordings.")
+    parser = command_line(__doc__)
     parser.add_argument("sets", nargs="*", default=SETS, help=", ".join(SETS))
-    parser.add_argument(
-        "--data", type=Path, default=os.environ.get("KINEME_DATA", "../shared/data")
-    )
+    parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--methods", nargs="+", default=["kineme"])
     parser.add_argument("--one-mapping", action="store_true", help="for the whole set, too")
     parser.add_argument("--rivals", action="store_true", help="segmenters of other packages, too")

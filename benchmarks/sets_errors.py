@@ -11,8 +11,6 @@ keeps.
 
 from __future__ import annotations
 
-import argparse
-import os
 import warnings
 from collections import Counter, defaultdict
 from concurrent.futures import ProcessPoolExecutor
@@ -23,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from _figures import add_option, record
+from _options import DATA, command_line
 from kineme.evaluation.comparison import Comparison, Run
 from kineme.evaluation.jobs import Answer, Job
 from kineme.evaluation.recordings import recordings_below
@@ -116,11 +115,9 @@ def parts_of(name: str, answers: list[Answer]) -> dict[str, list[Comparison]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Where the points are lost on labelled sets.")
+    parser = command_line(__doc__)
     parser.add_argument("sets", nargs="*", default=SETS, help=", ".join(SETS))
-    parser.add_argument(
-        "--data", type=Path, default=os.environ.get("KINEME_DATA", "../shared/data")
-    )
+    parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--processes", type=int, default=2)
     add_option(parser)
     options = parser.parse_args()

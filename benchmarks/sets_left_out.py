@@ -11,8 +11,6 @@ recording of HuGaDB.
 
 from __future__ import annotations
 
-import argparse
-import os
 import warnings
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -24,6 +22,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from _options import DATA, command_line
 from _plateau import middle_of_best
 from kineme.evaluation.comparison import Comparison, compare
 from kineme.evaluation.recordings import recordings_below
@@ -84,14 +83,12 @@ def show(tried: Sequence[Changed], figures: Floats) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--only", nargs="+", choices=VALUES, default=list(VALUES))
     parser.add_argument("--together", action="store_true", help="all values of all of them")
     parser.add_argument("--every", type=int, default=1, help="recordings of HuGaDB")
     parser.add_argument("--processes", type=int, default=2)
-    parser.add_argument(
-        "--data", type=Path, default=os.environ.get("KINEME_DATA", "../shared/data")
-    )
+    parser.add_argument("--data", type=Path, default=DATA)
     options = parser.parse_args()
     sources = []
     for name in SETS:

@@ -1,6 +1,6 @@
 """Twelve short exercises in one recording, two or three repetitions each: are they told apart?
 
-    python benchmarks/short_exercises.py [--quick]
+    python benchmarks/short_exercises.py [--every 4]
 
 Cuts of HDM05 at their own pace, 0.7 to 3.7 s for a repetition, half of them mirrored, so that
 most exercises last 2 to 6 s: close to what one repetition of a long exercise lasts. They
@@ -10,7 +10,6 @@ them. Means over actors in turn, 24 seeds.
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections.abc import Iterator
 from dataclasses import replace
@@ -19,6 +18,7 @@ from functools import cache
 import numpy as np
 
 import kineme
+from _options import command_line
 from _recordings import ACTORS, Case, annotation, exercises
 from fairness import mean, show
 from kineme.datasets import Exercise, join_exercises
@@ -89,9 +89,9 @@ def _standing(motion: Motion, seconds: float) -> Exercise:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="a quarter of the seeds")
-    seeds = 6 if parser.parse_args().quick else 24
+    parser = command_line(__doc__)
+    parser.add_argument("--every", type=int, default=1, help="one in so many seeds")
+    seeds = 24 // parser.parse_args().every
     for condition in CONDITIONS:
         rows = [
             evaluate_segmentation(case.truth, kineme.segment(case.motion))

@@ -9,7 +9,6 @@ segments of the five trials are summed.
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections.abc import Iterator
 
@@ -17,6 +16,7 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
+from _options import command_line
 from _recordings import subject_86
 from kineme.evaluation import Comparison, Labelling, labelling_of, scores
 from kineme.evaluation.labelling import TRANSITION
@@ -55,7 +55,7 @@ def comparisons() -> Iterator[Comparison]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     add_option(parser)
     parser.parse_args()
     compared = list(comparisons())

@@ -15,7 +15,6 @@ that holds most of its events at an overlap (intersection over union) of a half.
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections import Counter
 
@@ -24,6 +23,7 @@ from scipy.optimize import linear_sum_assignment
 
 import kineme
 from _figures import add_option, record
+from _options import command_line
 from _sparse_recordings import SparseCase, shuffled, sparse_events
 from kineme.methods.presets import PRESETS
 from kineme.segments.segmentation import Segmentation
@@ -65,7 +65,7 @@ def false_sets(found: Segmentation) -> int:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--seeds", type=int, default=50)
     add_option(parser)
     variants = {name: PRESETS[name] for name in ("kineme", "voegele2014", "krueger2017")}

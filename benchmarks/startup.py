@@ -8,22 +8,20 @@ Each figure is a process of its own. The first run ever compiles into an empty
 
 from __future__ import annotations
 
-import argparse
 import os
 import resource
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterable
-from pathlib import Path
 from statistics import median
 from time import perf_counter
 from typing import NamedTuple
 
 from _measure import verdict
+from _options import DATA, command_line
 from kineme.methods.presets import DEFAULT, PUBLISHED
 
-DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 RECORDING = str(DATA / "cmu86" / "86_10.amc")
 
 
@@ -54,7 +52,7 @@ def middle(runs: Iterable[Took]) -> Took:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--runs", type=int, default=7)
     runs = range(parser.parse_args().runs)
     for name in (DEFAULT, *PUBLISHED):

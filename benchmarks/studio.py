@@ -11,7 +11,6 @@ Compiled code is cached, as after the first run ever.
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import re
@@ -30,11 +29,11 @@ import numpy as np
 
 import kineme
 from _measure import verdict
+from _options import DATA, command_line
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.recordings.operations import cut
 from reading import FILES, write_hour
 
-DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 TRIALS = ("86_10", "86_14", "86_11")
 WARM = 25.0  # seconds after which everything compiled is loaded
 
@@ -160,7 +159,7 @@ def hour(folder: Path) -> Took:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--runs", type=int, default=7)
     runs = parser.parse_args().runs
     with tempfile.TemporaryDirectory() as place:

@@ -13,7 +13,6 @@ server's processor time.
 
 from __future__ import annotations
 
-import argparse
 import os
 import shutil
 import tempfile
@@ -25,6 +24,7 @@ from playwright.sync_api import sync_playwright
 
 from _figures import add_option, record
 from _measure import verdict
+from _options import command_line
 from kineme.datasets import bundled_recording
 from kineme.studio.folder import file_id
 from report_in_browser import (
@@ -43,7 +43,7 @@ PROMISED = {2: FIRST_PICTURE, 60: 5.0}  # seconds until the first picture
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--minutes", type=int, nargs="+", default=MINUTES)
     add_option(parser)
     lengths = parser.parse_args().minutes

@@ -10,7 +10,6 @@ nothing may be said of damage. Needs a system that can fork.
 
 from __future__ import annotations
 
-import argparse
 import os
 import random
 import shutil
@@ -27,6 +26,7 @@ from typing import Any
 import httpx2 as httpx
 
 import kineme
+from _options import command_line
 from kineme.datasets import bundled_recording
 from kineme.studio.app import create_app  # noqa: F401 (loaded before the fork)
 from kineme.studio.folder import file_id
@@ -132,7 +132,7 @@ def wrong(shown: dict[str, Any], last: dict[str, Any], path: Path) -> list[str]:
 
 def main() -> None:
     """Edit, kill, look, count; exit code 1 where something is lost."""
-    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--kills", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()

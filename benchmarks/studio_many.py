@@ -11,7 +11,6 @@ other work on the machine spares.
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import shutil
@@ -26,6 +25,7 @@ from playwright.sync_api import sync_playwright
 import kineme
 from _figures import add_option, record
 from _measure import verdict
+from _options import command_line
 from kineme.datasets import bundled_recording
 from kineme.studio.folder import file_id
 from report_in_browser import FLAGS, SIZE, wait
@@ -48,7 +48,7 @@ SCROLL = """(async () => {
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     add_option(parser)
     parser.parse_args()
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")

@@ -11,7 +11,6 @@ no table depends on it: without ``--figure`` the browser has none, which halves 
 
 from __future__ import annotations
 
-import argparse
 import collections
 import os
 import shutil
@@ -22,6 +21,7 @@ from time import perf_counter
 
 from playwright.sync_api import sync_playwright
 
+from _options import command_line
 from kineme.datasets import bundled_recording
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "browser"))
@@ -38,7 +38,7 @@ PATIENCE = 300.0  # seconds; a busy machine loses nothing, either
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser()
+    parser = command_line(__doc__)
     parser.add_argument("--edits", type=int, default=500)
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2, 3, 4])
     parser.add_argument("--figure", action="store_true", help="draw it, in software")

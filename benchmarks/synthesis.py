@@ -18,7 +18,8 @@ import time
 import numpy as np
 
 import kineme
-from _recordings import DATA, TRIALS
+from _options import DATA
+from _recordings import TRIALS
 from kineme.features import end_effectors
 from kineme.recordings import Motion
 from kineme.synthesis import (

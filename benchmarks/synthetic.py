@@ -14,12 +14,12 @@ one walking, three to eight repetitions each.
 
 from __future__ import annotations
 
-import argparse
 from collections import Counter, defaultdict
 
 import numpy as np
 
 from _figures import add_option, record
+from _options import command_line
 from kineme.datasets import random_recording
 from kineme.methods.presets import DEFAULT, PUBLISHED
 from kineme.segmentation.segmenter import segment
@@ -54,7 +54,7 @@ def border_hits(found: Segmentation, truth: Segmentation) -> tuple[int, int, int
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--seeds", type=int, default=50)
     parser.add_argument("--noise", type=float, default=0.0, help="metres")
     add_option(parser)

@@ -23,7 +23,8 @@ from time import perf_counter
 import numpy as np
 
 import kineme
-from _recordings import ACTORS, DATA, subject_86
+from _options import DATA
+from _recordings import ACTORS, subject_86
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer import (

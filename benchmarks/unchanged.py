@@ -11,7 +11,6 @@ two cores.
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import warnings
@@ -19,7 +18,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from _recordings import DATA
+from _options import DATA, command_line
 
 os.environ.setdefault("KINEME_THREADS", "1")  # before the workers start: two of them share cores
 
@@ -37,7 +36,7 @@ RATES = {".txt": 100.0}  # of files that do not tell
 
 def main() -> None:
     """Write the tables, or compare them."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--write", type=Path, help="file to keep the tables in")
     parser.add_argument("--against", type=Path, help="file that they were kept in")
     parser.add_argument("--only", default="", help="recordings whose path holds this")

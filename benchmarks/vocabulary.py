@@ -18,7 +18,6 @@ which find the same.
 
 from __future__ import annotations
 
-import argparse
 import os
 import pickle
 from collections.abc import Callable, Iterator, Sequence
@@ -34,6 +33,7 @@ import numpy as np
 import kineme.library.compiling
 from _figures import add_option, record
 from _libraries import SHAKEN, library_of
+from _options import command_line
 from _recordings import Case, hdm05, subject_86
 from kineme import Library
 from kineme.evaluation import Annotation, Labelling
@@ -198,7 +198,7 @@ def many(library: Library, size: int, home: Path) -> list[tuple[str, Path, str]]
 
 
 def main() -> None:
-    options = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    options = command_line(__doc__)
     options.add_argument("--most", type=int, default=VOCABULARY.most)
     options.add_argument("--keep", type=Path)
     options.add_argument("--growth", type=int, nargs="+", default=[])

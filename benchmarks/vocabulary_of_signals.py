@@ -14,7 +14,6 @@ found. docs/library.md quotes what ``--record`` keeps.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -24,7 +23,7 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _recordings import DATA
+from _options import DATA, command_line
 from kineme.evaluation.comparison import best_mapping, compare
 from kineme.evaluation.recordings import recordings_below
 from kineme.evaluation.score import over_all, scores
@@ -130,7 +129,7 @@ def found_in(
 
 
 def main() -> None:
-    options = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    options = command_line(__doc__)
     options.add_argument("sets", nargs="*", default=list(SETS))
     add_option(options)
     for name in options.parse_args().sets:
