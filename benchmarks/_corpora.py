@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import kineme
-from _options import DATA
+from _options import few, needed
 from _recordings import ACTORS, subject_86
 from kineme.features.canonical import matching
 from kineme.recordings import Motion
@@ -43,28 +43,29 @@ class Take:
 
 @cache
 def corpora() -> dict[str, list[Take]]:
-    """Every take of every corpus."""
+    """Every take of every corpus; some of each, where it shall be quick."""
     found = {"hdm05": hdm05(), "utkinect": utkinect(), "cmu86": cmu86(), "others": others()}
     return {name: list(takes) for name, takes in found.items()}
 
 
 def hdm05() -> Iterator[Take]:
+    folder = needed("hdm05")
     for actor in ACTORS:
-        skeleton = DATA / "hdm05" / "asf" / f"HDM_{actor}.asf"
-        for path in sorted((DATA / "hdm05" / "amc").glob(f"HDM_{actor}_*_120.amc")):
+        skeleton = folder / "asf" / f"HDM_{actor}.asf"
+        for path in sorted((folder / "amc").glob(f"HDM_{actor}_*_120.amc"))[:: few(1, 6)]:
             motion = kineme.read(path, skeleton=skeleton)
             label = path.stem.split("_")[2]
             yield Take(path.name, actor, motion, ((0.0, motion.duration, label),))
 
 
 def utkinect() -> Iterator[Take]:
-    folder = DATA / "sets" / "utkinect"
+    folder = needed("sets/utkinect")
     spans: dict[str, list[tuple[float, float, str]]] = {}
     with (folder / "labels.csv").open(encoding="utf-8") as file:
         for row in csv.DictReader(file):
             span = float(row["start_s"]), float(row["stop_s"]), row["label"]
             spans.setdefault(row["recording"], []).append(span)
-    for name in sorted(spans):
+    for name in sorted(spans)[:: few(1, 5)]:
         motion = kineme.read(folder / "recordings" / f"{name}.parquet")
         yield Take(name, name.split("_")[0], motion, tuple(spans[name]))
 
@@ -80,7 +81,7 @@ def cmu86() -> Iterator[Take]:
 def others() -> Iterator[Take]:
     for path in OTHERS:
         name = path.rpartition("/")[2]
-        yield Take(name, name.partition(".")[0], kineme.read(DATA / path))
+        yield Take(name, name.partition(".")[0], kineme.read(needed(path)))
 
 
 def poses_of(take: Take) -> NDArray[np.float64]:

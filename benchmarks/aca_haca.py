@@ -11,7 +11,6 @@ two shared cores of another machine, so a ratio is an order of magnitude.
 from __future__ import annotations
 
 import json
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -21,7 +20,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 import kineme
-from _options import DATA
+from _options import DATA, command_line, few, needed
 from kineme.evaluation import Labelling
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods import PRESETS
@@ -122,7 +121,14 @@ def compare(trial: str) -> None:
     )
 
 
-if __name__ == "__main__":
+def main() -> None:
+    parser = command_line(__doc__)
+    parser.add_argument("trials", nargs="*", default=few(TRIALS, TRIALS[:1]))
+    needed("cmu86")
     with threadpool_limits(1):
-        for name in sys.argv[1:] or TRIALS:
+        for name in parser.parse_args().trials:
             compare(name)
+
+
+if __name__ == "__main__":
+    main()

@@ -10,11 +10,11 @@ Exits with 1 if a promise is not kept.
 
 from __future__ import annotations
 
-import os
 import sys
 import warnings
 from pathlib import Path
 
+from _options import DATA, command_line, few, is_quick, needed
 from agreement import CONFIGURATIONS
 from kineme.reproduction.benchmark import mean_scores, run
 from kineme.reproduction.methods import METHODS, preset_method
@@ -29,11 +29,13 @@ PROMISED = {
 
 
 def main() -> int:
-    beside = Path(__file__).resolve().parents[2] / "shared" / "data"
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else os.environ.get("KINEME_DATA", beside))
+    parser = command_line(__doc__)
+    parser.add_argument("folder", nargs="?", type=Path, default=DATA, help="of the recordings")
+    folder = parser.parse_args().folder
+    needed("cmu86", folder)
     plain = {"2017_plain": preset_method(CONFIGURATIONS["2017_plain"][1])}
     methods = {name: (plain | METHODS)[name] for name in (*PROMISED, "uniform")}
-    results = run(load_trials(find_folder(folder), TRIALS), methods)
+    results = run(load_trials(find_folder(folder), few(TRIALS, TRIALS[:1])), methods)
     print(f"{'trial':8} {'method':12} {'strict':>7} {'tolerant':>9}")
     for result in results:
         scores = result.scores
@@ -50,7 +52,7 @@ def main() -> int:
             kept &= good
             line += f"   promised {strict:.3f} {tolerant:.3f}   {'kept' if good else 'NOT KEPT'}"
         print(line)
-    return 0 if kept else 1
+    return 0 if kept or is_quick() else 1
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ from scipy.optimize import linear_sum_assignment
 
 import kineme
 from _figures import add_option, record
-from _options import DATA, command_line
+from _options import DATA, command_line, few, needed
 from kineme.features import mirror_features
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.found import RegionsFound
@@ -149,11 +149,12 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=DATA)
     add_option(parser)
     data = parser.parse_args().data
+    needed("cmu86", data)
     for configuration in CONFIGURATIONS:
         print(f"{configuration:24}" + "".join(f"{level:>14}" for level in LEVELS))
         sums = dict.fromkeys(LEVELS, (0, 0))
         notes = []
-        for trial in TRIALS:
+        for trial in few(TRIALS, TRIALS[:1]):
             found = compare(data, configuration, trial)
             line = f"  {trial:22}"
             for level, agreement in found.items():

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import kineme
-from _options import DATA, command_line
+from _options import DATA, command_line, few, is_quick, needed
 from agreement import TRIALS
 from kineme.features.bundling import bundle
 from kineme.methods.region_growing.preset import KRUEGER2017
@@ -30,13 +30,13 @@ PROMISED_FRAMES = 2000
 def main() -> int:
     parser = command_line(__doc__)
     parser.add_argument("--data", type=Path, default=DATA)
-    folder = parser.parse_args().data / "cmu86"
+    folder = needed("cmu86", parser.parse_args().data)
     print(f"{'trial':8}{'frames':>7}{'seconds':>9}{'moved':>8}{'median':>8}{'95 %':>7}{'most':>7}")
     slowest = 0.0
-    for trial in TRIALS:
+    for trial in few(TRIALS, TRIALS[:1]):
         features = 100 * motion_features(kineme.read(folder / f"{trial}.amc"), KRUEGER2017)
         seconds = []
-        for _ in range(20):
+        for _ in range(few(20, 2)):
             start = time.perf_counter()
             bundled = bundle(features)
             seconds.append(time.perf_counter() - start)
@@ -54,7 +54,7 @@ def main() -> int:
         f"{PROMISED_FRAMES} frames: {slowest:.3f} s at most, promised {PROMISED_S:g} s, "
         f"{'kept' if kept else 'NOT KEPT'}"
     )
-    return 0 if kept else 1
+    return 0 if kept or is_quick() else 1
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ and prints the figures of ``benchmarks/likeness.py`` for each.
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -18,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from _corpora import corpora, poses_of
+from _options import command_line
 from kineme.features.canonical import matching
 
 Floats = NDArray[np.float64]
@@ -37,17 +37,21 @@ def make_basis(parts: Sequence[Floats]) -> tuple[Floats, Floats]:
 
 
 def main() -> None:
+    parser = command_line(__doc__)
+    parser.add_argument("--write", action="store_true", help="into the package")
+    parser.add_argument("--leave-out", action="store_true", help="each corpus in turn")
+    options = parser.parse_args()
     parts = {
         name: np.concatenate([poses_of(take) for take in takes])
         for name, takes in corpora().items()
     }
     print("seconds:", {name: round(len(part) / 15) for name, part in parts.items()})
     mean, axes = make_basis(list(parts.values()))
-    if "--write" in sys.argv:
+    if options.write and not options.quick:
         path = Path(matching.__file__).with_name("basis.npz")
         np.savez(path, mean=mean.astype(np.float32), axes=axes.astype(np.float32))
         print(path.name, path.stat().st_size, "bytes")
-    if "--leave-out" in sys.argv:
+    if options.leave_out:
         from likeness import show
 
         works = ("exercises", "strides")

@@ -31,11 +31,10 @@ from numpy.typing import NDArray
 
 import kineme
 from _figures import add_option, record
-from _options import command_line
+from _options import command_line, few, needed
 from _recordings import (
     ACTORS,
     CONDITIONS,
-    DATA,
     Case,
     by_recording,
     exercises,
@@ -142,17 +141,17 @@ class Table:
 # --- recordings whose truth is known ----------------------------------------------------------
 
 
-def bodies(few: int) -> Iterator[tuple[str, Motion, Truth]]:
+def bodies(every: int) -> Iterator[tuple[str, Motion, Truth]]:
     for case in subject_86():
         yield "subject 86", case.motion, truth_of(case)
-    for case in (*hdm05(60 // few), *hdm05(45 // few, runs=10, repeats=(2, 3))):
+    for case in (*hdm05(60 // every), *hdm05(45 // every, runs=10, repeats=(2, 3))):
         yield f"HDM05 {case.name[:2]}", case.motion, truth_of(case)
     for actor in ACTORS:
-        for one in exercises(actor)[::few]:
+        for one in exercises(actor)[:: every * few(1, 20)]:
             whole = [(0.0, one.motion.n_frames / one.motion.fps, one.name)]
             yield f"HDM05 {actor}", one.motion, Truth(whole, [one.repetitions])
     for condition in CONDITIONS:
-        for case in synthetic(condition, 10 // few):
+        for case in synthetic(condition, 10 // every):
             yield "synthetic", case.motion, truth_of(case)
 
 
@@ -167,14 +166,14 @@ def truth_of(case: Case) -> Truth:
     )
 
 
-def sensors(few: int) -> Iterator[tuple[str, Signals, Floats, Truth]]:
+def sensors(every: int) -> Iterator[tuple[str, Signals, Floats, Truth]]:
     """Sets, signals, the time of each frame, and the truth; recordings evenly chosen."""
     for name, most in SETS.items():
-        folder = DATA / "sets" / name
+        folder = needed(f"sets/{name}")
         tables = {table: by_recording(folder / f"{table}.csv") for table in ("labels", "events")}
         counts = by_recording(folder / "counts.csv")
         paths = sorted((folder / "recordings").glob("*.parquet"))
-        for at in np.unique(np.linspace(0, len(paths) - 1, most // few).astype(int)):
+        for at in np.unique(np.linspace(0, len(paths) - 1, few(most // every, 2)).astype(int)):
             signals, times = channels(paths[at])
             labels, events = (tables[table][paths[at].stem] for table in ("labels", "events"))
             if name == "barbell":

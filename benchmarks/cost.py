@@ -1,6 +1,6 @@
 """What segmenting bodies costs, against another version of kineme.
 
-    python benchmarks/cost.py COMMIT [--runs 9] [--every 20]
+    python benchmarks/cost.py [COMMIT] [--runs 9] [--every 20]
 
 The source of that commit is laid beside this one, and both segment the same
 recordings in turn, each in a process of its own with its code loaded: the five
@@ -20,7 +20,7 @@ import tempfile
 from pathlib import Path
 
 from _measure import verdict
-from _options import DATA, command_line
+from _options import command_line, few, needed, skip
 
 HERE = Path(__file__).resolve().parents[1]
 PROMISED = 1.5
@@ -74,6 +74,8 @@ class Worker:
 
 def source_of(commit: str, folder: Path) -> Path:
     """The source as it was at a commit, in a folder."""
+    if not (HERE / ".git").exists():
+        skip("needs the history of the project: run it in a git checkout")
     packed = subprocess.run(
         ["git", "archive", commit, "src"], cwd=HERE, check=True, capture_output=True
     ).stdout
@@ -84,13 +86,13 @@ def source_of(commit: str, folder: Path) -> Path:
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("commit", help="the version to compare with")
-    parser.add_argument("--runs", type=int, default=9)
-    parser.add_argument("--every", type=int, default=20, help="one in so many exercises")
+    parser.add_argument("commit", nargs="?", default="HEAD", help="the version to compare with")
+    parser.add_argument("--runs", type=int, default=few(9, 1))
+    parser.add_argument("--every", type=int, default=few(20, 100), help="one in so many exercises")
     options = parser.parse_args()
     groups = {
-        "subject 86": sorted((DATA / "cmu86").glob("86_*.amc")),
-        "HDM05": sorted((DATA / "hdm05" / "amc").glob("*.amc"))[:: options.every],
+        "subject 86": sorted(needed("cmu86").glob("86_*.amc"))[: few(None, 1)],
+        "HDM05": sorted(needed("hdm05/amc").glob("*.amc"))[:: options.every],
     }
     paths = [path for group in groups.values() for path in group]
     with tempfile.TemporaryDirectory() as folder:

@@ -28,7 +28,7 @@ import numpy as np
 
 import kineme
 from _damage import mutated
-from _options import command_line
+from _options import command_line, few
 from kineme.datasets import bundled_recording
 
 MEMORY_DISK = "/dev/shm" if Path("/dev/shm").is_dir() else None
@@ -192,7 +192,7 @@ def built(folder: Path, out: Path, damaged: list[Path], jobs: int) -> list[str]:
 def main() -> int:
     """Make, segment and build; exit code 1 where something is wrong."""
     parser = command_line(__doc__)
-    parser.add_argument("--files", type=int, default=10_000)
+    parser.add_argument("--files", type=int, default=few(10_000, 40))
     parser.add_argument("--jobs", type=int, default=2)
     given = parser.parse_args()
     wrong = []

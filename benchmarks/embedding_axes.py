@@ -11,7 +11,6 @@ the figures of ``benchmarks/likeness.py segments`` for each.
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -21,6 +20,7 @@ from numpy.typing import NDArray
 
 import kineme.matching
 from _corpora import corpora
+from _options import command_line, few
 from kineme._interpolation import at_frames
 from kineme.features.canonical import MATCHING_FPS, matching_poses, mirror_poses
 from kineme.matching.whole_segments import DIMS, course
@@ -49,7 +49,7 @@ def courses(corpus: Mapping[str, Sequence[Floats]], seed: int = 0) -> Floats:
     for takes in corpus.values():
         long = [poses for poses in takes if len(poses) >= MATCHING_FPS]
         share = np.array([len(poses) for poses in long], float)
-        for _ in range(SPANS // len(corpus)):
+        for _ in range(few(SPANS, 80) // len(corpus)):
             poses = long[rng.choice(len(long), p=share / share.sum())]
             n = round(MATCHING_FPS * np.exp(rng.uniform(*np.log(SECONDS))))
             n = min(len(poses), n)
@@ -96,13 +96,17 @@ def poses_of(names: Iterable[str]) -> dict[str, list[Floats]]:
 
 
 def main() -> None:
+    parser = command_line(__doc__)
+    parser.add_argument("--write", action="store_true", help="into the package")
+    parser.add_argument("--leave-out", action="store_true", help="each corpus in turn")
+    options = parser.parse_args()
     corpus = poses_of(corpora())
     mean, axes = make_axes(courses(corpus))
-    if "--write" in sys.argv:
+    if options.write and not options.quick:
         path = Path(kineme.matching.__file__).with_name("axes.npz")
         np.savez(path, mean=mean.astype(np.float32), axes=axes.astype(np.float32))
         print(path.name, path.stat().st_size, "bytes")
-    if "--leave-out" in sys.argv:
+    if options.leave_out:
         from likeness import show
 
         show("all", ["segments"], (mean, axes))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 import kineme
 from _figures import add_option, record
-from _options import command_line
+from _options import command_line, few, is_quick
 from _recordings import synthetic
 from kineme.segments.segmentation import Segmentation
 
@@ -56,7 +56,7 @@ def excesses(truth: Segmentation, found: Segmentation) -> dict[str, list[float]]
 
 def main() -> int:
     parser = command_line(__doc__)
-    parser.add_argument("--seeds", type=int, default=50)
+    parser.add_argument("--seeds", type=int, default=few(50, 2))
     add_option(parser)
     seeds = parser.parse_args().seeds
     kept = True
@@ -78,7 +78,7 @@ def main() -> int:
                 record(f"{name}.deviation", float(deviation), unit="%")
     promise = f"{-PROMISED[0]} to {PROMISED[0]} ± {PROMISED[1]} %"
     print(f"promised of the ends: {promise}: {'kept' if kept else 'NOT KEPT'}")
-    return 0 if kept else 1
+    return 0 if kept or is_quick() else 1
 
 
 if __name__ == "__main__":

@@ -27,7 +27,7 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _options import DATA, command_line
+from _options import command_line, needed
 from _recordings import CONDITIONS, Case, hdm05, subject_86, synthetic
 from kineme.evaluation import Annotation, Labelling, evaluate, evaluate_segmentation
 from kineme.methods.baselines.uniform import uniform
@@ -105,7 +105,7 @@ def recorded_scores(cases: Iterable[Case], method: str) -> Scores:
 
     rows = []
     for case in cases:
-        path = DATA / "cmu86" / "reference" / f"aca_haca_{case.name}.json"
+        path = needed("cmu86/reference") / f"aca_haca_{case.name}.json"
         runs = json.loads(path.read_text())["runs"]
         rows += [score(case.truth, run[method]) for run in runs]
     return mean(rows)

@@ -33,7 +33,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from _options import command_line
+from _options import command_line, few
 
 os.environ["KINEME_THREADS"] = os.environ["OMP_NUM_THREADS"] = "1"  # threads outlive no fork
 
@@ -197,7 +197,7 @@ def fuzz(seconds: float, most: int, first: int) -> Counter[str]:
 def main() -> int:
     """Fuzz as the command line asks; exit code 1 if anything was found."""
     parser = command_line(__doc__)
-    parser.add_argument("--minutes", type=float, default=1.0)
+    parser.add_argument("--minutes", type=float, default=few(1.0, 0.05))
     parser.add_argument("--files", type=int, default=10**6, help="at most")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--structure", action="store_true", help="other meanings, sound syntax")

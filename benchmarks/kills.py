@@ -27,7 +27,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import kineme
-from _options import command_line
+from _options import command_line, few
 from kineme.clips.split import split
 from kineme.datasets import bundled_recording
 from kineme.errors import KinemeError
@@ -132,7 +132,7 @@ def notes_of(table: Segmentation) -> list[str]:
 def main() -> None:
     """Kill, look, count; exit code 1 where something is torn."""
     parser = command_line(__doc__)
-    parser.add_argument("--kills", type=int, default=1000)
+    parser.add_argument("--kills", type=int, default=few(1000, 5))
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     os.environ["KINEME_THREADS"] = "1"  # threads do not outlive a fork

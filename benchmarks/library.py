@@ -22,7 +22,7 @@ from time import perf_counter, process_time
 from _figures import add_option, record
 from _libraries import simulated
 from _measure import kineme, verdict
-from _options import DATA, command_line
+from _options import DATA, command_line, few, needed
 from kineme import Library, read
 
 PARTS = ("build", "again", "search")
@@ -41,8 +41,9 @@ def copies(folder: Path, n: int, *, frames: int | None = None, equal: bool = Fal
 
 
 def show_build(home: Path, n: int) -> None:
-    copies(home / "copies", n)
-    copies(home / "equal", n, equal=True)
+    frames = few(None, 600)
+    copies(home / "copies", n, frames=frames)
+    copies(home / "equal", n, frames=frames, equal=True)
     alone, alone_used, _ = kineme("segment", home / "copies", "--quiet")
     print(f"{n} copies of 86_10: segment FOLDER {alone:.1f} s, processors {alone_used:.1f} s")
     record("library.segment_folder.processors", round(alone_used, 1), unit="s")
@@ -97,11 +98,12 @@ def show_search(home: Path, hours: float) -> None:
 def main() -> None:
     options = command_line(__doc__)
     options.add_argument("parts", nargs="*", default=PARTS, help=", ".join(PARTS))
-    options.add_argument("--copies", type=int, default=40)
-    options.add_argument("--files", type=int, default=1000)
-    options.add_argument("--hours", type=float, default=10.0)
+    options.add_argument("--copies", type=int, default=few(40, 2))
+    options.add_argument("--files", type=int, default=few(1000, 5))
+    options.add_argument("--hours", type=float, default=few(10.0, 0.3))
     add_option(options)
     given = options.parse_args()
+    needed("cmu86")
     with TemporaryDirectory() as folder:
         home = Path(folder)
         if "build" in given.parts:

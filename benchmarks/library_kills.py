@@ -31,7 +31,7 @@ from typing import Any
 
 import kineme
 from _figures import add_option, record
-from _options import command_line
+from _options import command_line, few
 from kineme.errors import KinemeError, WriteError
 from kineme.library import Example, Library, build
 from kineme.library.index import kept
@@ -246,7 +246,7 @@ def equal_at(url: str, wanted: dict[str, bytes]) -> None:
 def main() -> None:
     """Kill, look, count; exit code 1 where something is torn."""
     parser = command_line(__doc__)
-    parser.add_argument("--kills", type=int, default=200)
+    parser.add_argument("--kills", type=int, default=few(200, 3))
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--at", metavar="URL")
     add_option(parser)

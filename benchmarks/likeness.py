@@ -15,7 +15,6 @@ the other or the other way. ``time``: a stride of 1.3 s searched in an hour.
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -29,6 +28,7 @@ from scipy.spatial.distance import cdist
 import kineme
 from _corpora import WALKS, Take, corpora, poses_of
 from _measure import interleaved
+from _options import command_line
 from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
 from kineme.features.canonical.matching import OFFSETS_S, basis, directions
 from kineme.matching import THRESHOLD, search
@@ -249,7 +249,9 @@ def verdict(value: float, promised: float | None) -> str:
 
 
 def main() -> None:
-    for name in sys.argv[1:] or WORKS:
+    parser = command_line(__doc__)
+    parser.add_argument("works", nargs="*", default=list(WORKS), help=", ".join(WORKS))
+    for name in parser.parse_args().works:
         print(f"\n{name}")
         of = axes_of_embeddings() if name == "segments" else basis()
         for what, value in WORKS[name](of).items():

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from _options import command_line
+from _options import command_line, few
 from agreement import CONFIGURATIONS
 from kineme.datasets import random_recording
 from kineme.segmentation.segmenter import segment
@@ -27,7 +27,7 @@ PRESETS = {
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--seeds", type=int, default=30)
+    parser.add_argument("--seeds", type=int, default=few(30, 1))
     seeds = range(parser.parse_args().seeds)
     print(f"{'noise mm':>8}  {'':8}{'counts':>8}{'borders':>9}{'extra':>7}")
     for noise in NOISE_MM:

@@ -22,7 +22,7 @@ from scipy.optimize import linear_sum_assignment
 
 import kineme
 from _figures import add_option, record
-from _options import command_line
+from _options import command_line, few
 from _recordings import Case, hdm05, subject_86, synthetic
 from kineme.datasets import Action, SyntheticRecording, synthesize
 from kineme.segments.segmentation import Segmentation
@@ -91,7 +91,7 @@ def one_movement(name: str, cases: Iterable[Case]) -> None:
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--seeds", type=int, default=30)
+    parser.add_argument("--seeds", type=int, default=few(30, 1))
     add_option(parser)
     seeds = parser.parse_args().seeds
     two_depths(seeds)

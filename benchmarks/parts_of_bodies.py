@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 import kineme
+from _options import command_line, few
 from _recordings import Case, annotation, hdm05, subject_86
 from kineme.datasets import Action, synthesize
 from kineme.evaluation import evaluate_segmentation
@@ -79,11 +80,12 @@ def show(title: str, cases: list[Case], segment: Segment) -> None:
 
 
 def main() -> None:
+    command_line(__doc__).parse_args()
     warnings.simplefilter("ignore")
     sets = {
         "subject 86": subject_86(),
         "HDM05": list(hdm05(12)),
-        "synthetic, what legs do": list(leg_exercises(20)),
+        "synthetic, what legs do": list(leg_exercises(few(20, 1))),
     }
     for name, cases in sets.items():
         print(f"{name:36}" + "".join(f"{score:>13}" for score in SHOWN))

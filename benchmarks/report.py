@@ -11,7 +11,6 @@ what compresses worst. Memory is what writing takes at most, beside the motion.
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import tracemalloc
 import warnings
@@ -24,6 +23,7 @@ import numpy as np
 
 import kineme
 from _measure import verdict
+from _options import command_line, few
 from kineme.datasets import bundled_recording
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.operations import turn
@@ -33,7 +33,7 @@ from kineme.web.display import display_motion
 from kineme.web.similarity import matrix_of_motion
 
 MOST_MB = 30.0
-MINUTES = (1, 10, 60, 180)
+MINUTES = few((1, 10, 60, 180), (1,))
 COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "score")
 
 
@@ -71,11 +71,14 @@ def cases(path: Path) -> Iterator[tuple[str, Motion, Segmentation]]:
     segments = kineme.segment(motion)
     for minutes in MINUTES:
         yield f"{path.name}, {minutes} min", *repeated(motion, segments, minutes)
-    yield "noise, 60 min", *noise(60)
+    minutes = few(60, 1)
+    yield f"noise, {minutes} min", *noise(minutes)
 
 
 def main() -> None:
-    path = Path(sys.argv[1]) if len(sys.argv) > 1 else bundled_recording()
+    parser = command_line(__doc__)
+    parser.add_argument("recording", nargs="?", type=Path, default=bundled_recording())
+    path = parser.parse_args().recording
     print(
         f"{'recording':28} {'seconds':>8} {'of processor':>12} {'MB':>6} {'motion':>7} "
         f"{'tiles':>6} {'number':>7} {'poses/s':>8} {'memory, MB':>11}"

@@ -12,42 +12,37 @@ does falls on both.
 from __future__ import annotations
 
 import os
-import shutil
-import sys
 import tempfile
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from playwright.sync_api import sync_playwright
-
 import kineme
+from _browser import FLAGS, chromium
 from _measure import verdict
+from _options import command_line, few
 from kineme.datasets import bundled_recording
 from kineme.report.page import write_report
 from report import repeated
 
-FLAGS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 SIZE = {"width": 1280, "height": 720}
-SECONDS = 8
+SECONDS = few(8, 1)
 FIRST_PICTURE, LEAST_RATE = 1.5, 30
 DRAWN = "window.kineme?.hasMotion && window.kineme.drawn > 0"
 
 
 def main() -> None:
-    path = Path(sys.argv[1]) if len(sys.argv) > 1 else bundled_recording()
+    parser = command_line(__doc__)
+    parser.add_argument("recording", nargs="?", type=Path, default=bundled_recording())
+    path = parser.parse_args().recording
     motion = kineme.read(path)
     segments = kineme.segment(motion)
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
-    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
-        sandbox = [] if os.geteuid() else ["--no-sandbox"]
-        program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
-        browser = playwright.chromium.launch(executable_path=program, args=[*FLAGS, *sandbox])
-        for minutes in (2, 60):
+    with tempfile.TemporaryDirectory() as folder, chromium(*FLAGS) as browser:
+        for minutes in few((2, 60), (1,)):
             file = Path(folder) / f"{minutes}.html"
             write_report(*repeated(motion, segments, minutes), file)
             show(browser, minutes, file)
-        browser.close()
 
 
 def show(browser: Any, minutes: float, file: Path) -> None:

@@ -13,8 +13,6 @@ confidence.py; borders within 0.25 s.
 
 from __future__ import annotations
 
-import os
-import shutil
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
@@ -22,9 +20,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from playwright.sync_api import Page, sync_playwright
 
 import kineme
+from _browser import FLAGS, chromium
 from _figures import add_option, record
 from _options import command_line
 from _recordings import Case, hdm05, subject_86
@@ -40,7 +38,7 @@ from confidence import (
     truth_of,
 )
 from kineme.studio.folder import file_id
-from report_in_browser import FLAGS, SIZE, wait
+from report_in_browser import SIZE, wait
 from studio import start
 
 PROMISED = 0.6  # of wrong borders and counts
@@ -52,7 +50,7 @@ KINDS = ("border", "count", "cluster", "cut")
 class Review:
     """A page whose recordings are looked through by keys."""
 
-    def __init__(self, page: Page):
+    def __init__(self, page: Any):
         self.page, self.pressed = page, 0
 
     def press(self, key: str) -> None:
@@ -154,10 +152,7 @@ def main() -> None:
     add_option(parser)
     options = parser.parse_args()
     totals: Counter[str] = Counter()
-    with tempfile.TemporaryDirectory() as name, sync_playwright() as playwright:
-        sandbox = [] if os.geteuid() else ["--no-sandbox"]
-        program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
-        browser = playwright.chromium.launch(executable_path=program, args=[*FLAGS, *sandbox])
+    with tempfile.TemporaryDirectory() as name, chromium(*FLAGS) as browser:
         paths, known = [], list(cases())
         for i, case in enumerate(known):
             paths.append(Path(name) / f"{i:02d}.bvh")
@@ -169,7 +164,6 @@ def main() -> None:
             wait(review.page, f"window.kineme?.name === '{path.name}' && window.kineme.hasMotion")
             look_through(review, case, options.share, totals, mend=options.mend)
             review.press("PageDown")
-        browser.close()
         studio.end()
     report(totals, review.pressed, options.share)
 

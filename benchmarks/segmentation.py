@@ -21,7 +21,7 @@ import numpy as np
 
 import kineme
 from _measure import interleaved, verdict
-from _options import DATA, command_line
+from _options import DATA, command_line, few, needed
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.methods.region_growing.preset import KRUEGER2017
@@ -38,9 +38,9 @@ REFERENCES = {
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--runs", type=int, default=21)
+    parser.add_argument("--runs", type=int, default=few(21, 1))
     runs = parser.parse_args().runs
-    motion = kineme.read(DATA / "cmu86" / "86_10.amc")
+    motion = kineme.read(needed("cmu86/86_10.amc"))
     stages: dict[str, dict[str, list[float]]] = {name: defaultdict(list) for name in MEASURED}
     works = {}
     for name, preset in MEASURED.items():

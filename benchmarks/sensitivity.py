@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from _figures import add_option, record
-from _options import command_line
+from _options import command_line, few
 from _recordings import Case, hdm05, subject_86, synthetic
 from fairness import SHOWN, Scores, mean, show
 from kineme.errors import ParameterError
@@ -43,7 +43,7 @@ CONSTANTS = [
     if known.name not in KEPT
     and not known.name.startswith("unsure_")
     and isinstance(known.value, int | float)
-]
+][: few(None, 2)]
 
 
 def at_working_rate(cases: Iterable[Case]) -> list[Case]:

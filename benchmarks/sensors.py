@@ -21,7 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from _figures import add_option, record
-from _options import DATA, command_line
+from _options import DATA, command_line, few, needed
+from _recordings import TRIALS
 from kineme import Signals, read, segment
 from kineme import _rotations as rot
 from kineme.datasets import random_recording
@@ -36,7 +37,7 @@ from kineme.reproduction.trials import find_folder, load_trials
 Floats = NDArray[np.float64]
 Recording = tuple[Annotation, Signals]
 UNITS = (0.13, 0.16, 0.2, 0.25, 0.3)
-SYNTHETIC = range(100, 108)  # seeds
+SYNTHETIC = range(100, few(108, 101))  # seeds
 FPS = 100.0
 GRAVITY = np.array([0.0, 9.81, 0.0])
 EVERYWHERE, RIGHT = (0, 1, 2, 3, 4), (1, 4)  # ankles, head, wrists: of features.PARTS
@@ -109,7 +110,8 @@ def main() -> None:
     add_option(parser)
     parser.add_argument("--units", action="store_true", help="other values of recurs_at")
     options = parser.parse_args()
-    trials = load_trials(find_folder(options.data))
+    needed("cmu86", options.data)
+    trials = load_trials(find_folder(options.data), few(TRIALS, TRIALS[:1]))
     for title, sets in (
         (
             "subject 86",

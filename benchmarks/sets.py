@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from _figures import add_option, record
-from _options import DATA, command_line
+from _options import DATA, command_line, few, needed
 from _rival_presets import register_rivals
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.jobs import Answer, Job, worked_out
@@ -77,7 +77,7 @@ def main() -> None:
     parser.add_argument("--one-mapping", action="store_true", help="for the whole set, too")
     parser.add_argument("--rivals", action="store_true", help="segmenters of other packages, too")
     parser.add_argument("--every", type=int, default=1, help="every so manieth recording only")
-    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--processes", type=int, default=few(2, 1))
     add_option(parser)
     options = parser.parse_args()
     here, missing = register_rivals()
@@ -87,9 +87,9 @@ def main() -> None:
     part = "" if options.every == 1 else f".every_{options.every}"
     rows = []
     for name in options.sets:
-        folder = options.data / "sets" / name
+        folder = needed(f"sets/{name}", options.data)
         labels = labels_of(recordings_below(folder / "recordings"), folder / "labels.csv")
-        chosen = list(labels.items())[:: options.every]
+        chosen = list(labels.items())[:: options.every][: few(None, 2)]
         with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
             for method in methods:
                 jobs = [Job(*one, method, READING, options.one_mapping) for one in chosen]

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from _figures import add_option, record
-from _options import DATA, command_line
+from _options import DATA, command_line, few, needed
 from kineme.evaluation.comparison import Comparison, Run
 from kineme.evaluation.jobs import Answer, Job
 from kineme.evaluation.recordings import recordings_below
@@ -118,14 +118,14 @@ def main() -> None:
     parser = command_line(__doc__)
     parser.add_argument("sets", nargs="*", default=SETS, help=", ".join(SETS))
     parser.add_argument("--data", type=Path, default=DATA)
-    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--processes", type=int, default=few(2, 1))
     add_option(parser)
     options = parser.parse_args()
     rows = []
     for name in options.sets:
-        folder = options.data / "sets" / name
+        folder = needed(f"sets/{name}", options.data)
         labels = labels_of(recordings_below(folder / "recordings"), folder / "labels.csv")
-        jobs = [Job(*one, "kineme", READING) for one in labels.items()]
+        jobs = [Job(*one, "kineme", READING) for one in list(labels.items())[: few(None, 2)]]
         with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
             answers = list(pool.map(scored, jobs))
         rows += [row(part, compared) for part, compared in parts_of(name, answers).items()]

@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from _options import DATA, command_line
+from _options import DATA, command_line, few, needed
 from _plateau import middle_of_best
 from kineme.evaluation.comparison import Comparison, compare
 from kineme.evaluation.recordings import recordings_below
@@ -39,6 +39,7 @@ VALUES: dict[str, tuple[float, ...]] = {
     "spread_share": (0.25, 0.4, 0.5, 0.6, 0.75),
     "border_shift": (0.0, 0.3, 0.4, 0.5, 0.7),
 }
+TRIED = few(list(VALUES), ["segment_cost"])
 JUDGED = ("mof", "edit", "f1@50")
 PLATEAU = 0.3
 
@@ -84,17 +85,20 @@ def show(tried: Sequence[Changed], figures: Floats) -> None:
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--only", nargs="+", choices=VALUES, default=list(VALUES))
+    parser.add_argument(
+        "--only", nargs="+", choices=VALUES, default=few(list(VALUES), list(VALUES)[:1])
+    )
     parser.add_argument("--together", action="store_true", help="all values of all of them")
     parser.add_argument("--every", type=int, default=1, help="recordings of HuGaDB")
-    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--processes", type=int, default=few(2, 1))
     parser.add_argument("--data", type=Path, default=DATA)
     options = parser.parse_args()
     sources = []
     for name in SETS:
-        folder = options.data / "sets" / name
+        folder = needed(f"sets/{name}", options.data)
         labels = labels_of(recordings_below(folder / "recordings"), folder / "labels.csv")
-        sources.append(list(labels.items())[:: options.every if name == "hugadb" else 1])
+        every = options.every if name == "hugadb" else 1
+        sources.append(list(labels.items())[::every][: few(None, 1)])
     groups = [options.only] if options.together else [[name] for name in options.only]
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
         for group in groups:

@@ -18,7 +18,7 @@ from functools import cache
 import numpy as np
 
 import kineme
-from _options import command_line
+from _options import command_line, few
 from _recordings import ACTORS, Case, annotation, exercises
 from fairness import mean, show
 from kineme.datasets import Exercise, join_exercises
@@ -35,7 +35,7 @@ LONGEST = 4.0
 
 def cases(condition: str, seeds: int) -> Iterator[Case]:
     """Recordings of a condition, actors in turn."""
-    for seed in range(seeds):
+    for seed in range(few(seeds, 1)):
         actor = ACTORS[seed % len(ACTORS)]
         rng = np.random.default_rng(seed)
         by_name = _both_sides(actor)

@@ -23,7 +23,7 @@ from scipy.optimize import linear_sum_assignment
 
 import kineme
 from _figures import add_option, record
-from _options import command_line
+from _options import command_line, few
 from _sparse_recordings import SparseCase, shuffled, sparse_events
 from kineme.methods.presets import PRESETS
 from kineme.segments.segmentation import Segmentation
@@ -66,7 +66,7 @@ def false_sets(found: Segmentation) -> int:
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--seeds", type=int, default=50)
+    parser.add_argument("--seeds", type=int, default=few(50, 1))
     add_option(parser)
     variants = {name: PRESETS[name] for name in ("kineme", "voegele2014", "krueger2017")}
     sums = {name: Counter[str]() for name in variants}

@@ -19,7 +19,7 @@ from time import perf_counter
 from typing import NamedTuple
 
 from _measure import verdict
-from _options import DATA, command_line
+from _options import DATA, command_line, few, needed
 from kineme.methods.presets import DEFAULT, PUBLISHED
 
 RECORDING = str(DATA / "cmu86" / "86_10.amc")
@@ -53,9 +53,10 @@ def middle(runs: Iterable[Took]) -> Took:
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--runs", type=int, default=7)
+    parser.add_argument("--runs", type=int, default=few(7, 1))
+    needed("cmu86/86_10.amc")
     runs = range(parser.parse_args().runs)
-    for name in (DEFAULT, *PUBLISHED):
+    for name in few((DEFAULT, *PUBLISHED), (DEFAULT,)):
         segment = ("-m", "kineme", "segment", "--preset", name, RECORDING)
         with tempfile.TemporaryDirectory() as cache:
             first = process(*segment, cache=cache)

@@ -29,7 +29,7 @@ import numpy as np
 
 import kineme
 from _measure import verdict
-from _options import DATA, command_line
+from _options import DATA, command_line, few, needed
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.recordings.operations import cut
 from reading import FILES, write_hour
@@ -148,7 +148,7 @@ def hour(folder: Path) -> Took:
     """What the first poses of an hour take, of a studio that has loaded its code."""
     studio = start(folder)
     sleep(WARM)
-    write_hour(DATA / FILES[1], folder / "hour.bvh")  # now, so that it is not opened before
+    write_hour(needed(FILES[1]), folder / "hour.bvh")  # now, so that it is not opened before
     listed = json.loads(studio.ask("/api/state"))["recordings"]
     (one,) = (f"/api/recordings/{each['id']}" for each in listed if each["name"] == "hour.bvh")
     message, answer = timed(studio, one)
@@ -160,8 +160,9 @@ def hour(folder: Path) -> Took:
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--runs", type=int, default=7)
+    parser.add_argument("--runs", type=int, default=few(7, 1))
     runs = parser.parse_args().runs
+    needed("cmu86")
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         kineme.write(joined(120), folder / "take.bvh")

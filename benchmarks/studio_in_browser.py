@@ -14,22 +14,19 @@ server's processor time.
 from __future__ import annotations
 
 import os
-import shutil
 import tempfile
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from playwright.sync_api import sync_playwright
-
+from _browser import FLAGS, chromium
 from _figures import add_option, record
 from _measure import verdict
-from _options import command_line
+from _options import command_line, few
 from kineme.datasets import bundled_recording
 from kineme.studio.folder import file_id
 from report_in_browser import (
     FIRST_PICTURE,
-    FLAGS,
     SIZE,
     drawing_rate,
     first_picture,
@@ -44,15 +41,12 @@ PROMISED = {2: FIRST_PICTURE, 60: 5.0}  # seconds until the first picture
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--minutes", type=int, nargs="+", default=MINUTES)
+    parser.add_argument("--minutes", type=int, nargs="+", default=few(MINUTES, (1,)))
     add_option(parser)
     lengths = parser.parse_args().minutes
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
-    with tempfile.TemporaryDirectory() as name, sync_playwright() as playwright:
+    with tempfile.TemporaryDirectory() as name, chromium(*FLAGS) as browser:
         folder = Path(name)
-        sandbox = [] if os.geteuid() else ["--no-sandbox"]
-        program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
-        browser = playwright.chromium.launch(executable_path=program, args=[*FLAGS, *sandbox])
         for minutes in lengths:
             path = folder / f"{minutes}_minutes.bvh"
             path.write_text(repeated(bundled_recording().read_text(), minutes * 60 * 60))
@@ -62,7 +56,6 @@ def main() -> None:
         for minutes in lengths:
             recording = file_id(folder / f"{minutes}_minutes.bvh")
             show(tab, minutes, studio, recording)
-        browser.close()
         studio.end()
 
 

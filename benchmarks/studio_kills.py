@@ -26,7 +26,7 @@ from typing import Any
 import httpx2 as httpx
 
 import kineme
-from _options import command_line
+from _options import command_line, few
 from kineme.datasets import bundled_recording
 from kineme.studio.app import create_app  # noqa: F401 (loaded before the fork)
 from kineme.studio.folder import file_id
@@ -133,7 +133,7 @@ def wrong(shown: dict[str, Any], last: dict[str, Any], path: Path) -> list[str]:
 def main() -> None:
     """Edit, kill, look, count; exit code 1 where something is lost."""
     parser = command_line(__doc__)
-    parser.add_argument("--kills", type=int, default=1000)
+    parser.add_argument("--kills", type=int, default=few(1000, 3))
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     os.environ["KINEME_THREADS"] = "1"  # threads do not outlive a fork

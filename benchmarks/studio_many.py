@@ -13,27 +13,27 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 import tempfile
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
 import numpy as np
-from playwright.sync_api import sync_playwright
 
 import kineme
+from _browser import FLAGS, chromium
 from _figures import add_option, record
 from _measure import verdict
-from _options import command_line
+from _options import command_line, few
 from kineme.datasets import bundled_recording
 from kineme.studio.folder import file_id
-from report_in_browser import FLAGS, SIZE, wait
+from report_in_browser import SIZE, wait
 from studio import WARM, Studio, processor_time, start
 
-RECORDINGS, TABLED = 500, 5  # one in so many has a table
+MEASURING = ("--enable-precise-memory-info", "--js-flags=--expose-gc")
+RECORDINGS, TABLED = few(500, 15), 5  # one in so many has a table
 ROWS = 10_000
-OPENED, ASKED, FIRST = 40, 120, 10
+OPENED, ASKED, FIRST = few((40, 120, 10), (6, 6, 2))
 LISTED_S, LEAST_RATE, MOST_MB = 1.0, 50, 0.1
 SCROLL = """(async () => {
     const rows = document.querySelector(".table-rows");
@@ -52,11 +52,7 @@ def main() -> None:
     add_option(parser)
     parser.parse_args()
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
-    with tempfile.TemporaryDirectory() as name, sync_playwright() as playwright:
-        sandbox = [] if os.geteuid() else ["--no-sandbox"]
-        flags = [*FLAGS, *sandbox, "--enable-precise-memory-info", "--js-flags=--expose-gc"]
-        program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
-        browser = playwright.chromium.launch(executable_path=program, args=flags)
+    with tempfile.TemporaryDirectory() as name, chromium(*FLAGS, *MEASURING) as browser:
         tab = browser.new_page(viewport=SIZE)
         folder = many(Path(name))
         studio = start(folder)
@@ -68,7 +64,6 @@ def main() -> None:
         studio = start(folder)
         scrolling(tab, studio, folder)
         studio.end()
-        browser.close()
 
 
 def many(place: Path) -> Path:

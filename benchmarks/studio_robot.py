@@ -12,16 +12,14 @@ no table depends on it: without ``--figure`` the browser has none, which halves 
 from __future__ import annotations
 
 import collections
-import os
 import shutil
 import sys
 import tempfile
 from pathlib import Path
 from time import perf_counter
 
-from playwright.sync_api import sync_playwright
-
-from _options import command_line
+from _browser import FLAGS, chromium
+from _options import command_line, few
 from kineme.datasets import bundled_recording
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "browser"))
@@ -29,25 +27,20 @@ import screen
 from robot import Robot
 from studio_server import StudioServer
 
-from conftest import ARGUMENTS
-
 RECORDINGS = 3
 SIZE = {"width": 640, "height": 480}  # what is drawn in software takes most of the time
-NO_FIGURE = ["--no-sandbox", "--disable-gpu", "--disable-3d-apis"]
+NO_FIGURE = ("--disable-gpu", "--disable-3d-apis")
 PATIENCE = 300.0  # seconds; a busy machine loses nothing, either
 
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--edits", type=int, default=500)
-    parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2, 3, 4])
+    parser.add_argument("--edits", type=int, default=few(500, 5))
+    parser.add_argument("--seeds", type=int, nargs="+", default=few([0, 1, 2, 3, 4], [0]))
     parser.add_argument("--figure", action="store_true", help="draw it, in software")
     options = parser.parse_args()
     screen.PATIENCE = PATIENCE
-    program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
-    with sync_playwright() as playwright:
-        flags = ARGUMENTS if options.figure else NO_FIGURE
-        browser = playwright.chromium.launch(executable_path=program, args=flags)
+    with chromium(*(FLAGS if options.figure else NO_FIGURE)) as browser:
         for seed in options.seeds:
             began, steps = perf_counter(), collections.Counter[str]()
             context = browser.new_context(viewport=SIZE, reduced_motion="reduce")

@@ -18,7 +18,7 @@ import time
 import numpy as np
 
 import kineme
-from _options import DATA
+from _options import DATA, command_line, few, needed
 from _recordings import TRIALS
 from kineme.features import end_effectors
 from kineme.recordings import Motion
@@ -34,7 +34,7 @@ from kineme.synthesis.blending import jump_frames, spans_of
 from kineme.synthesis.feet import foot_contacts, slides
 
 FOLDER = DATA / "cmu86"
-SEEDS = range(3)
+SEEDS = range(few(3, 1))
 
 
 def named(found: kineme.Segmentation, trial: str) -> kineme.Segmentation:
@@ -105,7 +105,7 @@ def show_walks(graph: MotionGraph, motion: Motion) -> None:
     half = round(graph.window * graph.fps / 2)
     for seed in SEEDS:
         began = time.perf_counter()
-        route = random_route(graph, 60, seed)
+        route = random_route(graph, few(60, 10), seed)
         new = synthesize(graph, [motion], route)
         seconds = time.perf_counter() - began
         near = np.zeros(new.n_frames - 1, bool)
@@ -138,8 +138,10 @@ def show_corner(graph: MotionGraph, motion: Motion) -> None:
 
 
 def main() -> None:
+    command_line(__doc__).parse_args()
+    needed("cmu86")
     print("The paper, 86_03, run only: 9 run nodes and 2 transfers of ours, 4 run nodes of HACA")
-    for trial in TRIALS:
+    for trial in few(TRIALS, TRIALS[:1]):
         motion = kineme.read(FOLDER / f"{trial}.amc")
         print(trial)
         began = time.perf_counter()

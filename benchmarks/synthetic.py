@@ -19,7 +19,7 @@ from collections import Counter, defaultdict
 import numpy as np
 
 from _figures import add_option, record
-from _options import command_line
+from _options import command_line, few
 from kineme.datasets import random_recording
 from kineme.methods.presets import DEFAULT, PUBLISHED
 from kineme.segmentation.segmenter import segment
@@ -55,7 +55,7 @@ def border_hits(found: Segmentation, truth: Segmentation) -> tuple[int, int, int
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--seeds", type=int, default=50)
+    parser.add_argument("--seeds", type=int, default=few(50, 1))
     parser.add_argument("--noise", type=float, default=0.0, help="metres")
     add_option(parser)
     options = parser.parse_args()

@@ -12,7 +12,6 @@ for a recording of 30 primitives.
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections import Counter
 from dataclasses import replace
@@ -23,7 +22,7 @@ from time import perf_counter
 import numpy as np
 
 import kineme
-from _options import DATA
+from _options import command_line, few, needed
 from _recordings import ACTORS, subject_86
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
@@ -115,11 +114,12 @@ def show_point(threshold: float, pairs: list[tuple[str, str]], classes: set[str]
 
 
 def actors() -> None:
+    folder = needed("hdm05")
     bases: dict[str, list[KnowledgeBase]] = {}
     queries: dict[str, list] = {}
     for actor in ACTORS:
-        skeleton = DATA / "hdm05" / "asf" / f"HDM_{actor}.asf"
-        for path in sorted((DATA / "hdm05" / "amc").glob(f"HDM_{actor}_*_120.amc")):
+        skeleton = folder / "asf" / f"HDM_{actor}.asf"
+        for path in sorted((folder / "amc").glob(f"HDM_{actor}_*_120.amc"))[:: few(1, 6)]:
             motion = kineme.read(path, skeleton=skeleton)
             whole = np.array([0, motion.n_frames])
             truth = spans(motion, whole, [path.stem.split("_")[2]])
@@ -186,13 +186,22 @@ def time() -> None:
 def growth() -> None:
     real = real_primitives()
     print("\nlabelled  seconds  ms per labelled  peak GB, for 30 unlabelled primitives")
-    for n in (100, 1000, 10_000, 100_000):
+    for n in few((100, 1000, 10_000, 100_000), (100,)):
         seconds = measure(real, 30, n, 1)
         peak = getrusage(RUSAGE_SELF).ru_maxrss / 1e6
         print(f"{n:8d} {seconds:8.2f} {1000 * seconds / n:16.3f} {peak:8.2f}", flush=True)
 
 
+WORKS = {"table": table, "actors": actors, "time": time, "growth": growth}
+
+
+def main() -> None:
+    parser = command_line(__doc__)
+    parser.add_argument("works", nargs="*", default=list(WORKS), help=", ".join(WORKS))
+    for name in parser.parse_args().works:
+        WORKS[name]()
+
+
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
-    for name in sys.argv[1:] or ("table", "actors", "time", "growth"):
-        {"table": table, "actors": actors, "time": time, "growth": growth}[name]()
+    main()

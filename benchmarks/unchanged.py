@@ -18,7 +18,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from _options import DATA, command_line
+from _options import DATA, command_line, few, skip
 
 os.environ.setdefault("KINEME_THREADS", "1")  # before the workers start: two of them share cores
 
@@ -42,7 +42,9 @@ def main() -> None:
     parser.add_argument("--only", default="", help="recordings whose path holds this")
     given = parser.parse_args()
     found: dict[str, Any] = {}
-    paths = [path for path in recordings() if given.only in str(path)]
+    paths = [path for path in recordings() if given.only in str(path)][:: few(1, 60)]
+    if not paths:
+        skip(f"no recordings in {DATA}: set KINEME_DATA to the folder that holds them")
     with ProcessPoolExecutor(2) as pool:
         for tables in pool.map(tables_of, paths):
             found |= tables

@@ -33,7 +33,7 @@ import numpy as np
 import kineme.library.compiling
 from _figures import add_option, record
 from _libraries import SHAKEN, library_of
-from _options import command_line
+from _options import command_line, few
 from _recordings import Case, hdm05, subject_86
 from kineme import Library
 from kineme.evaluation import Annotation, Labelling
@@ -47,7 +47,7 @@ from kineme.library.storage.layout import PIECES
 from kineme.library.storage.pieces import read_features, read_piece, write_piece
 from kineme.library.vocabulary.words import places_in
 
-SEQUENCES, MORE = 6, 5
+SEQUENCES, MORE = 6, few(5, 1)
 
 
 def said_in(case: Case) -> np.ndarray:
@@ -215,6 +215,8 @@ def main() -> None:
         show("hdm05", home, sequences)
         show("both", home, [*trials, *sequences])
         show_others(home)
+        if given.quick:
+            show_growth(home, [20], given.most)
 
 
 if __name__ == "__main__":

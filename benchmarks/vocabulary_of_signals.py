@@ -23,7 +23,7 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _options import DATA, command_line
+from _options import command_line, few, needed
 from kineme.evaluation.comparison import best_mapping, compare
 from kineme.evaluation.recordings import recordings_below
 from kineme.evaluation.score import over_all, scores
@@ -36,14 +36,14 @@ SETS = {"hugadb": 4, "hapt": 1, "ipolgait": 1, "utkinect": 1}
 """Every so manieth recording is taken."""
 KEPT = ("level", "kind", "start_frame", "stop_frame")
 SHARES = ("mof", "edit", "f1@50")
-EXAMPLES, LONGEST = 40, 3.0
+EXAMPLES, LONGEST = few(40, 5), 3.0
 
 
 def show(name: str, home: Path) -> None:
     """The scores of one library."""
-    folder = DATA / "sets" / name
+    folder = needed(f"sets/{name}")
     labels = labels_of(recordings_below(folder / "recordings"), folder / "labels.csv")
-    chosen = dict(list(labels.items())[:: SETS[name]])
+    chosen = dict(list(labels.items())[:: SETS[name]][: few(None, 3)])
     recordings = [READING.read(path) for path in chosen]
     settings = Settings(reading={"columns": list(recordings[0].names)})
     build(list(chosen), home, settings=settings)

@@ -1,0 +1,29 @@
+"""Chromium for the benchmarks of the pages; drawn by the processor, as where nobody has a card."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from _options import need_packages, skip
+
+FLAGS = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+
+
+@contextmanager
+def chromium(*flags: str) -> Iterator[Any]:
+    """A browser with these flags; ends the script as skipped where there is none."""
+    need_packages("playwright")
+    from playwright.sync_api import sync_playwright
+
+    program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
+    if program is None:
+        skip("needs Chromium: install it, or set KINEME_CHROMIUM to its program")
+    sandbox = [] if os.geteuid() else ["--no-sandbox"]
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=program, args=[*flags, *sandbox])
+        yield browser
+        browser.close()
