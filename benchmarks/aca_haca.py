@@ -13,7 +13,6 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -30,7 +29,7 @@ from kineme.methods.baselines.reduction import block_starts, frame_kernel
 from kineme.reproduction import read_trials
 from kineme.reproduction.aca_protocol import aca_accuracy
 
-ROOT = Path(__file__).resolve().parents[1]
+FOLDER = DATA / "cmu86"
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 SEEDS = (1, 2, 3, 4, 5)
 STAGES = ("reduce", "kernel", "aca_ini", "aca", "haca_ini", "haca")
@@ -83,9 +82,9 @@ def stage_seconds(
 
 
 def compare(trial: str) -> None:
-    reference = json.loads((DATA / "reference" / f"aca_haca_{trial}.json").read_text())
-    truth = read_trials(DATA / "annotations.json", fps=120.0)[trial]
-    features = log_maps(joint_quaternions(kineme.read(DATA / f"{trial}.amc")))
+    reference = json.loads((FOLDER / "reference" / f"aca_haca_{trial}.json").read_text())
+    truth = read_trials(FOLDER / "annotations.json", fps=120.0)[trial]
+    features = log_maps(joint_quaternions(kineme.read(FOLDER / f"{trial}.amc")))
     known = presets(reference)
     for preset in known:
         method = preset.name

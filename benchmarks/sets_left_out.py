@@ -85,9 +85,7 @@ def show(tried: Sequence[Changed], figures: Floats) -> None:
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument(
-        "--only", nargs="+", choices=VALUES, default=few(list(VALUES), list(VALUES)[:1])
-    )
+    parser.add_argument("--only", nargs="+", choices=VALUES, default=TRIED)
     parser.add_argument("--together", action="store_true", help="all values of all of them")
     parser.add_argument("--every", type=int, default=1, help="recordings of HuGaDB")
     parser.add_argument("--processes", type=int, default=few(2, 1))
