@@ -1,6 +1,6 @@
 """The recordings of a set one after the other, as one: are long recordings cut as short ones are?
 
-    python benchmarks/sets_joined.py [SET] [--by-person] [--record]
+    python benchmarks/sets_joined.py [SET] [--by-person] [--part SECONDS] [--record]
 
 Each stretch is scored as a recording of its own, so that clusters stand for classes of one person;
 HAPT is three hours of 30 people. ``--by-person`` makes a recording of each person instead: of
@@ -88,11 +88,11 @@ def pieces(folder: Path) -> Iterator[Piece]:
             yield Piece(path.stem, one, classes_of(truth))
 
 
-def measured(parts: Sequence[Piece]) -> Measured:
+def measured(parts: Sequence[Piece], **constants: float) -> Measured:
     """These recordings as one, each scored as one of its own."""
     whole = joined([part.recording for part in parts])
     start, clock = time.process_time(), time.perf_counter()
-    found = kineme.segment(whole)
+    found = kineme.segment(whole, **constants)
     seconds, clock = time.process_time() - start, time.perf_counter() - clock
     ends = np.cumsum([len(part.truth) for part in parts])[:-1]
     compared = []
@@ -129,6 +129,7 @@ def main() -> None:
     parser = command_line(__doc__)
     parser.add_argument("set", nargs="?", default="hapt", choices=SETS)
     parser.add_argument("--by-person", action="store_true", help="a recording for each person")
+    parser.add_argument("--part", type=float, help="of a longer recording, in seconds")
     parser.add_argument("--data", type=Path, default=DATA)
     add_option(parser)
     options = parser.parse_args()
@@ -136,8 +137,11 @@ def main() -> None:
     for piece in pieces(needed(f"sets/{options.set}", options.data)):
         person = person_of(piece.name) if options.by_person else ""
         groups.setdefault(person, []).append(piece)
+    constants = {} if options.part is None else {"part": options.part}
+    runs = [measured(parts, **constants) for parts in groups.values()]
     name = f"sets_joined.{options.set}" + ".by_person" * options.by_person
-    for key, value in figures_of([measured(parts) for parts in groups.values()]).items():
+    name += "".join(f".{key}_{value:g}" for key, value in constants.items())
+    for key, value in figures_of(runs).items():
         record(f"{name}.{key}", round(float(value), 3))
         print(f"{key:22s}{value:9.2f}")
 
