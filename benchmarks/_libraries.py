@@ -24,7 +24,7 @@ from kineme.recordings import Motion, Signals
 
 SHAKEN = 0.05
 """Deviation of what is added to each feature of a copy."""
-LASTS_S = 360.0
+LASTS_S = few(360.0, 60.0)
 """Of a simulated recording, seconds."""
 
 

@@ -59,7 +59,12 @@ def in_the_bodys_frame(motion: Motion, joints: list[int]) -> Segmentation:
     seen = body_frame(looked, tuple(joints), effectors=ends).reshape(looked.n_frames, -1)
     unit = body_size(motion, ends) / np.sqrt(seen.shape[1])
     return kineme.segment(
-        motion, features=seen, feature_fps=KINEME.working_fps, unit=unit, any_pace=True
+        motion,
+        preset=KINEME,  # by its name, features would go to the method for sensors
+        features=seen,
+        feature_fps=KINEME.working_fps,
+        unit=unit,
+        any_pace=True,
     )
 
 

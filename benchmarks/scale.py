@@ -44,7 +44,7 @@ from kineme.library.storage.pieces import Piece, has_piece, write_piece
 from kineme.library.vocabulary.words import places_in
 from kineme.segments.table import SegmentTable
 
-LASTS_S = 1200.0
+LASTS_S = few(1200.0, 120.0)
 """Of a simulated recording, seconds."""
 FASTEST, NOISE = 1.4, (0.01, 0.05)
 TOP = 50
