@@ -1,6 +1,6 @@
 """Movements of different people found by example: the figures of the matching features.
 
-    python benchmarks/likeness.py [exercises] [strides] [segments] [time]
+    python benchmarks/likeness.py [exercises] [strides] [segments] [time] [--record]
 
 ``exercises``: each of the 188 exercises of HDM05 against those of other actors, by the larger of
 the distances of each one's best match in the other; named as the nearest one within the
@@ -27,6 +27,7 @@ from scipy.spatial.distance import cdist
 
 import kineme
 from _corpora import WALKS, Take, corpora, poses_of
+from _figures import add_option, record
 from _measure import interleaved
 from _options import command_line
 from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
@@ -251,10 +252,12 @@ def verdict(value: float, promised: float | None) -> str:
 def main() -> None:
     parser = command_line(__doc__)
     parser.add_argument("works", nargs="*", default=list(WORKS), help=", ".join(WORKS))
+    add_option(parser)
     for name in parser.parse_args().works:
         print(f"\n{name}")
         of = axes_of_embeddings() if name == "segments" else basis()
         for what, value in WORKS[name](of).items():
+            record(f"likeness.{name}.{what.replace(',', '').replace(' ', '_')}", round(value, 3))
             print(f"{what:45} {value:6.3f}  {verdict(value, PROMISED[name].get(what))}", flush=True)
 
 

@@ -23,7 +23,7 @@ from typing import NamedTuple
 from _options import QUICK, SKIPPED
 
 HERE = Path(__file__).resolve().parent
-LIMIT_S = 240.0
+LIMIT_S = 600.0
 QUICK_FORM = re.compile(r"^from _options import .*\bcommand_line\b", re.MULTILINE)
 """What a script has in it that knows ``--quick``; to ask it would take a second each."""
 

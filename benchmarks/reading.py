@@ -1,6 +1,6 @@
 """How long reading takes, kinematics included, beside the bare split into words.
 
-    python benchmarks/reading.py [FOLDER OF RECORDINGS] [--hour]
+    python benchmarks/reading.py [FOLDER OF RECORDINGS] [--hour] [--record]
 
 Prints the median of nine runs per file. The last column is the ratio to
 ``bytes.split`` on the same data in the same run, which does not depend on the
@@ -21,6 +21,8 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter
 
+from _figures import add_option, record
+from _measure import verdict
 from _options import DATA, command_line, few, needed
 from kineme.formats import read
 
@@ -30,12 +32,11 @@ import resource, sys, time, kineme
 motion = kineme.read(sys.argv[1])
 size = motion.positions.nbytes + motion.rotations.nbytes
 held = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-print(f"{motion!r}: {size / 1e9:.2f} GB, {held / 1e9:.2f} GB held at most, "
-      f"{time.process_time():.1f} s of processor time")
-sys.exit(held > 1.5e9)
+print(size / 1e9, held / 1e9, time.process_time())
 """
 
 FILES = ("cmu86/86_10.amc", "cmu_formats/49_02.bvh", "formats/aitviewer_sample.bvh")
+MOST_GB = 1.5
 RUNS = few(9, 1)
 
 
@@ -65,15 +66,23 @@ def hour(folder: Path) -> int:
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / "hour.bvh"
         write_hour(folder / FILES[1], path)
-        print(f"an hour of BVH, {path.stat().st_size / 1e6:.0f} MB of text")
+        text = path.stat().st_size / 1e6
         command = [sys.executable, "-W", "ignore", "-c", HELD, str(path)]
-        return subprocess.run(command, check=False).returncode
+        done = subprocess.run(command, check=True, capture_output=True, text=True)
+    size, held, spent = map(float, done.stdout.split())
+    print(f"an hour of BVH, {text:.0f} MB of text and {size:.2f} GB of positions and rotations")
+    print(f"{spent:.1f} s of processor time; GB held {verdict(held, MOST_GB)}: {held:.2f}")
+    record("reading.hour.text", round(text), unit="MB")
+    record("reading.hour.arrays", round(size, 2), unit="GB")
+    record("reading.hour.held", round(held, 2), unit="GB")
+    return int(held > MOST_GB)
 
 
 def main() -> int:
     parser = command_line(__doc__)
     parser.add_argument("folder", nargs="?", type=Path, default=DATA)
     parser.add_argument("--hour", action="store_true")
+    add_option(parser)
     given = parser.parse_args()
     folder = given.folder
     if given.hour:
@@ -88,6 +97,11 @@ def main() -> int:
         print(
             f"{name:30} {size:5.1f} {frames:7d} {took:8.3f} {size / took:6.1f} {took / bare:8.1f}"
         )
+        key = f"reading.{path.stem}"
+        record(f"{key}.megabytes", round(size, 1), unit="MB")
+        record(f"{key}.frames", frames)
+        record(f"{key}.seconds", round(took, 3), unit="s")
+        record(f"{key}.times_split", round(took / bare, 1), unit="times")
     return hour(folder) if given.quick else 0
 
 

@@ -1,6 +1,6 @@
 """How large a report is, and what writing it takes, from a minute to an hour and more.
 
-    python benchmarks/report.py [RECORDING]
+    python benchmarks/report.py [RECORDING] [--record]
 
 The recording, by default the bundled one, is repeated until it is long enough,
 each time in another direction and with a millimetre of noise, as no two
@@ -22,6 +22,7 @@ from time import perf_counter, process_time
 import numpy as np
 
 import kineme
+from _figures import add_option, record
 from _measure import verdict
 from _options import command_line, few
 from kineme.datasets import bundled_recording
@@ -72,12 +73,13 @@ def cases(path: Path) -> Iterator[tuple[str, Motion, Segmentation]]:
     for minutes in MINUTES:
         yield f"{path.name}, {minutes} min", *repeated(motion, segments, minutes)
     minutes = few(60, 1)
-    yield f"noise, {minutes} min", *noise(minutes)
+    yield f"noise, noise {minutes} min", *noise(minutes)
 
 
 def main() -> None:
     parser = command_line(__doc__)
     parser.add_argument("recording", nargs="?", type=Path, default=bundled_recording())
+    add_option(parser)
     path = parser.parse_args().recording
     print(
         f"{'recording':28} {'seconds':>8} {'of processor':>12} {'MB':>6} {'motion':>7} "
@@ -102,6 +104,10 @@ def main() -> None:
             f"{name:28} {took:8.1f} {busy:12.1f} {size:6.1f} {len(binary) / 1e6:7.1f} "
             f"{stored:6.1f} {len(tiles):7} {head.sample_fps:8.1f} {peak:11.0f}"
         )
+        key = f"report.{name.rpartition(', ')[2].replace(' ', '_')}"
+        record(f"{key}.megabytes", round(size, 1), unit="MB")
+        record(f"{key}.processor", round(busy, 1), unit="s")
+        record(f"{key}.memory", round(peak), unit="MB")
         hour = max(hour, size)
     print(f"the largest: {hour:.1f} MB, {verdict(hour, MOST_MB)}")
 

@@ -1,6 +1,6 @@
 """How long segmenting 86_10 takes, features to clusters, warm, beside a bare matrix product.
 
-    python benchmarks/segmentation.py [--runs 21]
+    python benchmarks/segmentation.py [--runs 21] [--record]
 
 The yardstick is the float32 product X Y' of the search vectors with a copy of
 themselves (1896 × 45 and up), as a naive self-similarity matrix needs it. Of
@@ -20,6 +20,7 @@ from statistics import median
 import numpy as np
 
 import kineme
+from _figures import add_option, record
 from _measure import interleaved, verdict
 from _options import DATA, command_line, few, needed
 from kineme.methods.base import Preset
@@ -39,6 +40,7 @@ REFERENCES = {
 def main() -> None:
     parser = command_line(__doc__)
     parser.add_argument("--runs", type=int, default=few(21, 1))
+    add_option(parser)
     runs = parser.parse_args().runs
     motion = kineme.read(needed("cmu86/86_10.amc"))
     stages: dict[str, dict[str, list[float]]] = {name: defaultdict(list) for name in MEASURED}
@@ -58,6 +60,12 @@ def main() -> None:
     for name in MEASURED:
         took, product, half = (seconds[f"{name}{what}"] for what in ("", " X Y'", " X X'"))
         print(f"{name}: {1000 * took:.1f} ms")
+        key = f"segmentation.{name.replace(', ', '_').replace(' ', '_')}"
+        record(f"{key}.milliseconds", round(1000 * took, 1), unit="ms")
+        record(f"{key}.products", f"{took / product:.0f}", unit="times")
+        record(f"{key}.product", f"{1000 * product:.1f}", unit="ms")
+        for stage, times in stages[name].items():
+            record(f"{key}.{stage}", round(1000 * median(times), 1), unit="ms")
         parts = (f"{stage} {1000 * median(times):.1f}" for stage, times in stages[name].items())
         print("  of which " + ", ".join(parts))
         print(f"  X Y' {1000 * product:.1f} ms: {took / product:.1f} times", end="")
@@ -66,6 +74,7 @@ def main() -> None:
             print(f"  seconds: {verdict(took, 0.1)}; times X Y': {verdict(took / product, 8)}")
             path = DATA / "cmu86" / "reference" / f"{REFERENCES[name]}_86_10.json"
             octave = sum(json.loads(path.read_text())["seconds_in_octave"].values())
+            record(f"{key}.octave", round(octave, 1), unit="s")
             print(f"  the authors' program in Octave: {octave:.1f} s, {octave / took:.0f} times")
     ratio = seconds["kineme"] / seconds["voegele2014"]
     print(f"kineme: {ratio:.2f} times voegele2014; {verdict(ratio, 2)}")

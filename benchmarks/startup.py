@@ -1,6 +1,6 @@
 """How long until the first result: the import, one file as one process, the first run ever.
 
-    python benchmarks/startup.py [--runs 7]
+    python benchmarks/startup.py [--runs 7] [--record]
 
 Each figure is a process of its own. The first run ever compiles into an empty
 ``NUMBA_CACHE_DIR``; the others find what it left there.
@@ -18,6 +18,7 @@ from statistics import median
 from time import perf_counter
 from typing import NamedTuple
 
+from _figures import add_option, record
 from _measure import verdict
 from _options import DATA, command_line, few, needed
 from kineme.methods.presets import DEFAULT, PUBLISHED
@@ -54,6 +55,7 @@ def middle(runs: Iterable[Took]) -> Took:
 def main() -> None:
     parser = command_line(__doc__)
     parser.add_argument("--runs", type=int, default=few(7, 1))
+    add_option(parser)
     needed("cmu86/86_10.amc")
     runs = range(parser.parse_args().runs)
     for name in few((DEFAULT, *PUBLISHED), (DEFAULT,)):
@@ -62,9 +64,12 @@ def main() -> None:
             first = process(*segment, cache=cache)
             again = middle(process(*segment, cache=cache) for _ in runs)
         print(f"{name}, first run ever: {first}; {verdict(first.clock, 15)}")
+        record(f"startup.{name}.first", round(first.clock, 1), unit="s")
+        record(f"startup.{name}.cached", round(again.clock, 2), unit="s")
         print(f"{name}, compiled code cached: {again}; {verdict(again.clock, 2)}")
     bare = middle(process("-c", "pass", cache="") for _ in runs).clock
     whole = middle(process("-c", "import kineme", cache="") for _ in runs).clock
+    record("startup.import", round(whole - bare, 3), unit="s")
     print(f"import kineme: {whole - bare:.3f} s; {verdict(whole - bare, 0.2)}")
 
 

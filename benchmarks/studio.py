@@ -1,6 +1,6 @@
 """How long the studio keeps people waiting, asked over HTTP as the page does.
 
-    python benchmarks/studio.py [--runs 7]
+    python benchmarks/studio.py [--runs 7] [--record]
 
 First of a recording of two minutes all that a page shows at first: the segments,
 the figure, a tile of the matrix. Then a minute, segmented again by each preset.
@@ -28,6 +28,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import kineme
+from _figures import add_option, record
 from _measure import verdict
 from _options import DATA, command_line, few, needed
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
@@ -161,6 +162,7 @@ def hour(folder: Path) -> Took:
 def main() -> None:
     parser = command_line(__doc__)
     parser.add_argument("--runs", type=int, default=few(7, 1))
+    add_option(parser)
     runs = parser.parse_args().runs
     needed("cmu86")
     with tempfile.TemporaryDirectory() as place:
@@ -173,6 +175,7 @@ def main() -> None:
         print(f"two minutes, all three: {verdict(sum(took.clock for took in parts), 1.5)}")
         kineme.write(joined(60), folder / "take.bvh")
         for preset, took in again(folder, runs).items():
+            record(f"studio.again.{preset}.processor", round(took.processor, 2), unit="s")
             print(f"a minute again by {preset}: {took}; {verdict(took.clock, 0.5)}")
         took = hour(folder)
         print(f"an hour, first poses: {took}; {verdict(took.clock, 5)}")

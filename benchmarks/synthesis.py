@@ -1,6 +1,6 @@
 """Motion graphs of subject 86, and what is played from them, beside figure 8 of the paper.
 
-    python benchmarks/synthesis.py
+    python benchmarks/synthesis.py [--record]
 
 First each take's graph, not pruned, with nodes from the ``kineme`` preset and
 from the published cuts of ACA and HACA; nodes are named by the annotation at
@@ -18,6 +18,7 @@ import time
 import numpy as np
 
 import kineme
+from _figures import add_option, record
 from _options import DATA, command_line, few, needed
 from _recordings import TRIALS
 from kineme.features import end_effectors
@@ -100,7 +101,9 @@ def sliding(motion: Motion) -> np.ndarray:
     return 100 * np.concatenate(far)
 
 
-def show_walks(graph: MotionGraph, motion: Motion) -> None:
+def show_walks(graph: MotionGraph, motion: Motion) -> list[float]:
+    """Seconds that each walk took."""
+    took = []
     own_moves, own_turns = (values.max() for values in steps(motion))
     half = round(graph.window * graph.fps / 2)
     for seed in SEEDS:
@@ -119,9 +122,12 @@ def show_walks(graph: MotionGraph, motion: Motion) -> None:
             f"feet slide {slid.mean():.2f} cm per contact ({len(slid)}), "
             f"unplanted {bare.mean():.2f} cm ({len(bare)})"
         )
+        took.append(seconds)
+    return took
 
 
-def show_corner(graph: MotionGraph, motion: Motion) -> None:
+def show_corner(graph: MotionGraph, motion: Motion) -> float:
+    """Seconds until the route was found."""
     began = time.perf_counter()
     line = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0)]
     route, start = line_route(graph, [motion], line, tolerance=10)
@@ -135,11 +141,16 @@ def show_corner(graph: MotionGraph, motion: Motion) -> None:
         f"  corner: {new.duration:.0f} s found in {seconds:.2f} s; off the line "
         f"{off.mean():.2f} m in the mean, {off.max():.2f} m at most"
     )
+    return seconds
 
 
 def main() -> None:
-    command_line(__doc__).parse_args()
+    parser = command_line(__doc__)
+    add_option(parser)
+    parser.parse_args()
     needed("cmu86")
+    walks: list[float] = []
+    corners: list[float] = []
     print("The paper, 86_03, run only: 9 run nodes and 2 transfers of ours, 4 run nodes of HACA")
     for trial in few(TRIALS, TRIALS[:1]):
         motion = kineme.read(FOLDER / f"{trial}.amc")
@@ -152,8 +163,10 @@ def main() -> None:
             found = named(published(trial, method, motion), trial)
             show_graph(method, motion_graph([motion], [found], prune=False))
         print(f"  segmented and built in {seconds:.2f} s")
-        show_walks(graph, motion)
-        show_corner(graph, motion)
+        walks += show_walks(graph, motion)
+        corners.append(show_corner(graph, motion))
+    record("synthesis.walks.seconds", f"{min(walks):.1f} to {max(walks):.1f}", unit="s")
+    record("synthesis.corner.seconds", f"{min(corners):.0f} to {max(corners):.0f}", unit="s")
 
 
 if __name__ == "__main__":

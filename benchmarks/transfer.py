@@ -17,11 +17,12 @@ from collections import Counter
 from dataclasses import replace
 from resource import RUSAGE_SELF, getrusage
 from statistics import median
-from time import perf_counter
+from time import process_time
 
 import numpy as np
 
 import kineme
+from _figures import add_option, record
 from _options import command_line, few, needed
 from _recordings import ACTORS, subject_86
 from kineme.recordings import Motion
@@ -172,14 +173,15 @@ def measure(real: Primitives, n_unknown: int, n_known: int, runs: int) -> float:
     codes = np.arange(n_known) % 10
     took = []
     for _ in range(runs):
-        start = perf_counter()
+        start = process_time()
         label_costs(unknown, known, codes, 10, radius=REACH * THRESHOLD)
-        took.append(perf_counter() - start)
+        took.append(process_time() - start)
     return median(took)
 
 
 def time() -> None:
     seconds = measure(real_primitives(), 480, 126, 5)
+    record("transfer.time.processor", round(seconds, 2), unit="s")
     print(f"\n126 labelled, 480 unlabelled: {seconds:.2f} s (paper: 35.3 s)")
 
 
@@ -190,6 +192,8 @@ def growth() -> None:
         seconds = measure(real, 30, n, 1)
         peak = getrusage(RUSAGE_SELF).ru_maxrss / 1e6
         print(f"{n:8d} {seconds:8.2f} {1000 * seconds / n:16.3f} {peak:8.2f}", flush=True)
+        record(f"transfer.growth.{n}.processor", round(seconds, 1), unit="s")
+        record(f"transfer.growth.{n}.memory", round(peak, 1), unit="GB")
 
 
 WORKS = {"table": table, "actors": actors, "time": time, "growth": growth}
@@ -198,6 +202,7 @@ WORKS = {"table": table, "actors": actors, "time": time, "growth": growth}
 def main() -> None:
     parser = command_line(__doc__)
     parser.add_argument("works", nargs="*", default=list(WORKS), help=", ".join(WORKS))
+    add_option(parser)
     for name in parser.parse_args().works:
         WORKS[name]()
 

@@ -129,6 +129,7 @@ def show_growth(folder: Path, sizes: list[int], most: int) -> None:
     for size in sizes:
         with TemporaryDirectory() as home:
             entries = many(library, size, Path(home))
+            kept = sum(path.stat().st_size for path in (Path(home) / PIECES).glob("*.npy"))
             clocks, made = {}, []
             for jobs in (1, 2):
                 with processes(jobs) as executor:
@@ -150,6 +151,7 @@ def show_growth(folder: Path, sizes: list[int], most: int) -> None:
         )
         record(f"vocabulary.growth.{size}.seconds", round(work, 1), unit="s")
         record(f"vocabulary.growth.{size}.rest", round(rest, 2), unit="s")
+        record(f"vocabulary.growth.{size}.features", round(kept / 1e6), unit="MB")
         record(f"vocabulary.growth.{size}.travels", round(travelled / 1e6, 1), unit="MB")
 
 

@@ -9,7 +9,15 @@ first names the figure and its format::
 
 It may stand in a table, but not at the beginning of a line, where Markdown
 takes a comment for a block of its own. Benchmarks measure the figures anew
-(``--record``, see ``benchmarks/_figures.py``).
+(``--record``, see ``benchmarks/_figures.py``); one that is still to be measured
+is null there, and a dash here.
+
+What is not measured by a benchmark of ours says why, and is left as it is: a
+limit, a promise, what a paper says, what was seen once while something was made::
+
+    <!-- stated: the 2014 paper -->35.3 s<!-- / -->
+
+A test finds speed and memory that bear neither mark.
 """
 
 from __future__ import annotations
@@ -28,7 +36,12 @@ MARK = re.compile(r"(<!-- figure: (\S+) (\S+) -->)(.*?)(<!-- / -->)")
 
 def filled(text: str, figures: Mapping[str, Mapping[str, Any]]) -> str:
     """The text with every marked number as the figures have it; KeyError for a name not there."""
-    return MARK.sub(lambda m: m[1] + format(figures[m[2]]["value"], m[3]) + m[5], text)
+
+    def figure(mark: re.Match[str]) -> str:
+        value = figures[mark[2]]["value"]
+        return mark[1] + ("–" if value is None else format(value, mark[3])) + mark[5]
+
+    return MARK.sub(figure, text)
 
 
 def main() -> None:
