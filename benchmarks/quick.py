@@ -77,6 +77,8 @@ def main() -> int:
     chosen = list(scripts(options.folder, options.names))
     if unknown := set(options.names) - {path.stem for path in chosen}:
         parser.error(f"no such benchmark: {', '.join(sorted(unknown))}")
+    if not options.names and options.folder == HERE:
+        print("rivals: skipped, they make an environment of their own: rivals/run.py")
     start, wrong = perf_counter(), []
     with ThreadPoolExecutor(options.jobs) as pool:
         for ended in pool.map(tried, chosen):

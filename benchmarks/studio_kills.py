@@ -33,7 +33,7 @@ from kineme.studio.folder import file_id
 from kineme.studio.reading import ReadingOptions
 from kineme.studio.server import serve
 
-MOST_EDITS = 12
+MOST_EDITS = few(12, 5)
 """Before a server is killed, in the midst of the next."""
 
 

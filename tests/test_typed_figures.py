@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import runpy
 from pathlib import Path
@@ -51,19 +50,6 @@ def test_a_typed_figure_is_found(typed: str) -> None:
 )
 def test_what_is_measured_or_no_cost_is_fine(fine: str) -> None:
     assert list(typed_figures(fine)) == []
-
-
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_no_line_begins_with_a_mark(page: Path) -> None:
-    """Markdown would take the rest of the line for a block of its own."""
-    assert not re.findall(r"^<!-- (?:figure|stated):.*", page.read_text(encoding="utf-8"), re.M)
-
-
-def test_every_figure_that_a_page_marks_is_recorded() -> None:
-    figures = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))
-    for page in PAGES:
-        for mark in FILL["MARK"].finditer(page.read_text(encoding="utf-8")):
-            assert mark[2] in figures
 
 
 def test_a_figure_still_to_be_measured_is_a_dash() -> None:
