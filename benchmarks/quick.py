@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -49,21 +50,24 @@ def tried(script: Path) -> Ended:
     if not QUICK_FORM.search(script.read_text(encoding="utf-8")):
         return Ended(script.stem, "wrong", 0.0, f"has no {QUICK}: see _options.command_line")
     start = perf_counter()
+    process = subprocess.Popen(
+        [sys.executable, str(script), QUICK],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,  # so that all that it started can be ended with it
+    )
     try:
-        done = subprocess.run(
-            [sys.executable, str(script), QUICK],
-            capture_output=True,
-            text=True,
-            timeout=LIMIT_S,
-            check=False,
-        )
+        out, err = process.communicate(timeout=LIMIT_S)
     except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
         return Ended(script.stem, "wrong", LIMIT_S, f"not done after {LIMIT_S:g} s")
     seconds = perf_counter() - start
-    if done.returncode == SKIPPED:
-        return Ended(script.stem, "skipped", seconds, done.stderr.strip().splitlines()[-1])
-    if done.returncode:
-        said = f"ended with {done.returncode}\n{done.stdout[-1000:]}{done.stderr[-3000:]}"
+    if process.returncode == SKIPPED:
+        return Ended(script.stem, "skipped", seconds, err.strip().splitlines()[-1])
+    if process.returncode:
+        said = f"ended with {process.returncode}\n{out[-1000:]}{err[-3000:]}"
         return Ended(script.stem, "wrong", seconds, said)
     return Ended(script.stem, "well", seconds, "")
 
