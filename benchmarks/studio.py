@@ -123,12 +123,20 @@ def first_answers(folder: Path) -> tuple[Took, ...]:
     return tuple(took)
 
 
+def revision_found(studio: Studio, one: str) -> int:
+    """The revision of a recording, once its segments are found: before, no edit is taken."""
+    while (message := json.loads(studio.ask(one))).get("finding"):
+        sleep(0.2)
+    revision: int = message["revision"]
+    return revision
+
+
 def again(folder: Path, runs: int) -> dict[str, Took]:
     """Medians of segmenting again by each preset, another value of a constant each time."""
     studio = start(folder)
     one = f"/api/recordings/{json.loads(studio.ask('/api/state'))['recordings'][0]['id']}"
-    revision = json.loads(studio.ask(one))["revision"]
     sleep(WARM)
+    revision = revision_found(studio, one)
     found = {}
     for preset in (DEFAULT, *PUBLISHED):
         constant = "border_cost" if preset == "kineme" else "radius"
