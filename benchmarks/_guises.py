@@ -69,7 +69,7 @@ def _at(recording: Motion | Signals, rate: float) -> Motion | Signals:
 
 
 def agreement(here: Segmentation, there: Segmentation, guise: Guise) -> float:
-    """The share of moments in the same cluster, clusters of the one standing for one of the other."""
+    """The share of moments in the same cluster, each of the one standing for one of the other."""
     length = there.n_frames / there.fps * guise.speed
     times = np.arange(0, length, 1 / COMPARED)
     own = _clusters_at(here, times + guise.start_s)
