@@ -100,7 +100,9 @@ def _answer(job: Job) -> Answer:
 def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
     """What comes out of a job; raises what its method raises, and times it by this clock."""
     recording = job.reading.read(job.path)
-    truth = job.source.of(n_frames=recording.n_frames, fps=recording.fps)
+    truth = job.source.of(
+        n_frames=recording.n_frames, fps=recording.fps, clock=recording.provenance.clock
+    )
     classes: dict[str, int] = {}
     compare(truth, truth, classes=classes)
     start = clock()

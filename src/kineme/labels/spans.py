@@ -122,7 +122,8 @@ def as_segmentation(
         No spans, an unknown frame rate, or spans that overlap or lie outside.
     """
     if not labels.spans:
-        raise ReadError(path, "has no labels")
+        said = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
+        raise ReadError(path, f"has no labels{said}")
     rate = fps or labels.fps
     if rate is None:
         raise ReadError(
