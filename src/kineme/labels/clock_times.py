@@ -61,9 +61,10 @@ def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
         for span, a, b in zip(labels.spans, begin, end, strict=True)
     ]
     lost = [span for span, kept in zip(labels.spans, meets, strict=True) if not kept]
-    notes = (*labels.notes, *said, *lost_labels(lost, "s"))
+    notes = (*labels.notes, *lost_labels(lost, "s"))
     spans = [span for span, kept in zip(met, meets, strict=True) if kept]
-    return replace(labels, spans=spans, length=None, notes=notes)
+    remarks = (*labels.remarks, *said)
+    return replace(labels, spans=spans, length=None, notes=notes, remarks=remarks)
 
 
 def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:

@@ -191,7 +191,7 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     }
     notes = [f"{what}: {counted(count, 'label')}" for what, count in told.items() if count]
     notes += lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
-    return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes))
+    return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
 
 
 def _cut(old: Span, new: Span) -> list[Span]:
