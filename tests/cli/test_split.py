@@ -177,6 +177,10 @@ def test_signals_are_converted_as_they_are(kineme, tmp_path: Path, imu: Path) ->
     lines = [line.split("\t") for line in (tmp_path / "out.tsv").read_text().splitlines()]
     before = [line.split(",") for line in imu.read_text().splitlines()[1:]]
     assert lines == [[row[1], row[4], row[2]] for row in before]
+    done = kineme("convert", imu, "some.csv", "--columns", "acc_[xy],ACC_Z*")
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = [line.split(",") for line in (tmp_path / "some.csv").read_text().splitlines()]
+    assert lines == [[row[1], row[2], row[3], row[4]] for row in before]
     done = kineme("convert", imu, "out.bvh")
     assert done.returncode == 1
     assert "no writer of signals for the suffix '.bvh': use one of .csv" in done.stderr

@@ -122,4 +122,4 @@ def _convert_recording(request: Request, path: Path, target: Path) -> None:
     if isinstance(recording, Motion) or columns is None:
         write(recording, target)
     else:
-        write_signals(recording, target, columns=columns)
+        write_signals(recording, target, columns=recording.names)
