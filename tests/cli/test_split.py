@@ -170,7 +170,8 @@ def test_clips_of_signals_are_rows_of_their_file(kineme, tmp_path: Path, imu: Pa
 
 def test_signals_are_converted_as_they_are(kineme, tmp_path: Path, imu: Path) -> None:
     done = kineme("convert", imu, "out.csv")
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert (done.returncode, done.stdout, done.stderr) == (0, f"{imu} written as out.csv\n", "")
+    assert kineme("convert", imu, "quiet.csv", "-q").stdout == ""
     assert (tmp_path / "out.csv").read_bytes() == imu.read_bytes()
     done = kineme("convert", imu, "out.tsv", "--columns", "acc_z,acc_x")
     assert (done.returncode, done.stderr) == (0, "")

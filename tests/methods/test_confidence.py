@@ -156,8 +156,10 @@ def test_activities_that_repeat_nothing_are_told_in_one_note() -> None:
         "border_confidence": np.full(7, 0.9),
     }
     assert doubts(known, 10.0, KINEME) == [
-        "perhaps repeats at 1.00 to 4.00 s and in 1 other activity, but no repetitions were found "
-        "that are sure"
+        (
+            "perhaps repeats at 1.00 to 4.00 s and in 1 other activity, but no repetitions were found "
+            "that are sure"
+        )
     ]
 
 

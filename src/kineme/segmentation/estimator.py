@@ -13,6 +13,7 @@ import numpy as np
 from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.utils.validation import validate_data
 
+from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.recordings import Signals
@@ -110,9 +111,22 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         return {**super().get_params(deep=deep), **self._constants}
 
     def set_params(self, **params: Any) -> Self:
-        """Change parameters or constants of the preset; ``fit`` says which it cannot take."""
+        """Change parameters or constants of the preset; ``fit`` says which values it cannot take.
+
+        Raises
+        ------
+        ParameterError
+            The preset has no constant of a name.
+        """
         own = set(self._get_param_names())
         constants = {name: value for name, value in params.items() if name not in own}
+        known = resolve_preset(params.get("preset", self.preset), signals=True).parameters()
+        for name in constants:
+            if name not in known:
+                raise ParameterError(
+                    f"there is no parameter or constant {name!r:.60}; there are "
+                    f"{', '.join((*sorted(own), *known))}"
+                )
         self._constants = {**self._constants, **constants}
         super().set_params(**{name: value for name, value in params.items() if name in own})
         return self
