@@ -155,12 +155,11 @@ def test_activities_that_repeat_nothing_are_told_in_one_note() -> None:
         "score": np.array([0.9] * 3 + [0.1, 0.1, 0.9, 0.9]),
         "border_confidence": np.full(7, 0.9),
     }
-    assert doubts(known, 10.0, KINEME) == [
-        (
-            "perhaps repeats at 1.00 to 4.00 s and in 1 other activity, but no repetitions were found "
-            "that are sure"
-        )
-    ]
+    (said,) = doubts(known, 10.0, KINEME)
+    assert said == (
+        "perhaps repeats at 1.00 to 4.00 s and in 1 other activity, but no repetitions were "
+        "found that are sure"
+    )
 
 
 def test_what_happens_once_is_in_the_notes() -> None:

@@ -7,6 +7,7 @@ recording.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Self
 
 import numpy as np
@@ -120,9 +121,9 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         """
         own = set(self._get_param_names())
         constants = {name: value for name, value in params.items() if name not in own}
-        known = resolve_preset(params.get("preset", self.preset), signals=True).parameters()
+        known = _constants_of(params.get("preset", self.preset)) if constants else {}
         for name in constants:
-            if name not in known:
+            if known and name not in known and name not in self._constants:
                 raise ParameterError(
                     f"there is no parameter or constant {name!r:.60}; there are "
                     f"{', '.join((*sorted(own), *known))}"
@@ -130,6 +131,14 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         self._constants = {**self._constants, **constants}
         super().set_params(**{name: value for name, value in params.items() if name in own})
         return self
+
+
+def _constants_of(preset: str | Preset) -> Mapping[str, Any]:
+    """The constants of a preset by name; none of what is no preset, which ``fit`` says."""
+    try:
+        return resolve_preset(preset, signals=True).parameters()
+    except ParameterError:
+        return {}
 
 
 def _rate_of(rows: Any) -> float | None:
