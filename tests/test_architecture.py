@@ -111,6 +111,7 @@ ROOMS = {
 HELPERS = {
     "_cache": set(),
     "_checks": {"errors"},
+    "_clock": {"_checks", "errors"},
     "_colors": set(),
     "_counts": set(),
     "_compiled": set(),

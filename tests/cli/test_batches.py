@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import shutil
 from pathlib import Path
 
@@ -10,6 +12,7 @@ import numpy as np
 import pytest
 
 import kineme as package
+from kineme import _files
 from kineme.cli.options.targets import files_for
 from kineme.datasets import bundled_recording
 from kineme.recordings.operations import cut
@@ -139,3 +142,32 @@ def test_commands_for_motions_refuse_signals(kineme, tmp_path: Path) -> None:
     assert done.stderr == (
         "error: imu.csv: holds signals without a skeleton, where a motion is needed\n"
     )
+
+
+@pytest.mark.parametrize(
+    "option", [("-o", "out/{name}.json"), ("--plot", "out"), ("--report", "out")]
+)
+def test_a_result_that_cannot_be_written_is_an_error_whatever_else_was(
+    kineme, takes, monkeypatch, option
+) -> None:
+    """On a disk with room for one of two files."""
+    whole, room = _files._synchronise, [None, None]  # of a file, and of its name in the folder
+
+    def full(place: Path) -> None:
+        if not room:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        room.pop()
+        whole(place)
+
+    home = takes / "a"
+    motion = cut(package.read(bundled_recording()), 0, 400)
+    for name in ("one", "other"):
+        package.write(motion, home / f"{name}.bvh")
+    (home / "take.bvh").unlink()
+    monkeypatch.setattr(_files, "_synchronise", full)
+    done = kineme("segment", "takes/a", "-q", *option)
+    assert done.returncode == 1, done.stderr
+    assert len(list(Path("out").iterdir())) == 1
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("error: takes/a/other.bvh: ")
+    assert line.endswith("cannot be written: No space left on device")

@@ -57,6 +57,15 @@ def test_json_goes_to_standard_output_alone(kineme, corpus) -> None:
     assert set(content["methods"]["uniform"]["scores"]) >= set(scores())
 
 
+def test_a_pattern_that_no_column_fits_is_said(kineme, corpus) -> None:
+    ran = kineme(
+        *("evaluate", corpus, "--labels", corpus / "labels.csv", "--method", "uniform"),
+        *("--without-columns", "emgg*"),
+    )
+    assert "a.csv: has no column like 'emgg*'" in ran.stderr
+    assert "b.csv: has no column like 'emgg*'; overlapping" in ran.stderr
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -11,6 +11,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import kineme
@@ -186,6 +187,75 @@ def test_channels_have_clusters_in_common_that_keep_number_and_name(
     monkeypatch.setattr(moments, "AT_ONCE", 1)
     build(own, tmp_path / "backwards", client=Backwards())
     assert contents(tmp_path / "backwards") == contents(tmp_path / "once")
+
+
+def write_moves(path: Path, seed: int) -> None:
+    """A minute of four movements, between all of which there is no clear line."""
+    random = np.random.default_rng(seed)
+    parts = []
+    for _ in range(4):
+        size, lean = random.uniform(0.02, 1.5, 6), random.uniform(-0.2, 0.2, 6)
+        wave = np.sin(2 * np.pi * random.uniform(0.4, 3) * np.arange(450) / 30)
+        parts.append(lean + size * wave[:, None])
+    values = np.concatenate(parts) + 0.05 * random.normal(size=(1800, 6))
+    lines = [",".join(f"{x:.5f}" for x in (i / 30, *row)) for i, row in enumerate(values.tolist())]
+    path.write_text("\n".join(["time_s,a,b,c,d,e,f", *lines]))
+
+
+def test_clusters_of_channels_do_not_depend_on_names_of_files(tmp_path: Path) -> None:
+    found = []
+    for order in ("012345678", "876543210", "402857136"):
+        called = dict(zip("abcdefghi", order, strict=True))
+        home = tmp_path / order
+        home.mkdir()
+        for name, seed in called.items():
+            write_moves(home / f"{name}.csv", int(seed))
+        build(home, home / "library")
+        rows = Library(home / "library").table("segments").to_pylist()
+        held = ("level", "start_frame", "cluster")
+        found.append(sorted((called[r["recording"][0]], *(r[name] for name in held)) for r in rows))
+    assert len({cluster for *_, cluster in found[0]}) > 5
+    assert found[1] == found[0]
+    assert found[2] == found[0]
+
+
+def test_clusters_whose_recordings_leave_and_come_back_keep_number_and_name(
+    takes: Path, tmp_path: Path
+) -> None:
+    own, folder = tmp_path / "takes", tmp_path / "library"
+    own.mkdir()
+    write_channels(own / "wrist.csv")
+    shutil.copy(takes / "walk.bvh", own)
+    build(own, folder)
+
+    def clusters() -> dict[str, list[tuple[int, float, int]]]:
+        rows = Library(folder).table("segments").to_pylist()
+        return {
+            suffix: [
+                (row["segment"], row["start_s"], row["cluster"])
+                for row in rows
+                if row["recording"].endswith(suffix)
+            ]
+            for suffix in (".csv", ".bvh")
+        }
+
+    before = clusters()
+    number = next(cluster for *_, cluster in before[".csv"] if cluster >= 0)
+    Library(folder).name(number, "slow")
+    (own / "wrist.csv").rename(tmp_path / "aside.csv")
+    build((), folder)
+    assert clusters() == {".csv": [], ".bvh": before[".bvh"]}
+    write_channels(own / "other.csv", seed=8)
+    build((), folder)  # takes numbers that nothing had
+    (own / "other.csv").unlink()
+    (tmp_path / "aside.csv").rename(own / "left_arm.csv")
+    build((), folder)
+    assert clusters() == before
+    assert "slow" in {each.label for each in Library(folder).clusters()}
+    (folder / "left.json").write_text('{"a": [[1], [2]]}')
+    (own / "walk.bvh").unlink()
+    with pytest.raises(ReadError, match=r"left.json: is damaged: remove it"):
+        build((), folder)
 
 
 def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:

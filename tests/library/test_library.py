@@ -24,6 +24,7 @@ from kineme.library.storage.layout import as_column
 from kineme.library.storage.tables import DESCRIBED
 from kineme.matching import THRESHOLD
 from kineme.segments.table import COLUMNS
+from library_folders import write_channels
 
 
 def test_columns_are_those_described(library: Library) -> None:
@@ -182,12 +183,13 @@ def test_names_merges_and_splits_outlast_a_build(folder: Path, takes: Path, tmp_
     assert {"label": "walk", "action_label": "walk"} in labels
 
 
-def test_a_number_is_never_given_twice(folder: Path, takes: Path) -> None:
+def test_a_number_is_never_given_twice(folder: Path, takes: Path, tmp_path: Path) -> None:
     used = {each.cluster for each in Library(folder).clusters()}
     build((), folder, remove=[takes])
     assert len(Library(folder)) == 0
     assert Library(folder).table().num_rows == len(Library(folder).clusters()) == 0
-    build(takes / "wrist.csv", folder)
+    write_channels(tmp_path / "other.csv", seed=3)
+    build(tmp_path / "other.csv", folder)
     assert not used & {each.cluster for each in Library(folder).clusters()}
 
 

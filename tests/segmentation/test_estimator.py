@@ -113,3 +113,10 @@ def test_a_data_frame_that_knows_its_times_tells_the_rate(zone: str | None) -> N
     assert "frame rate 50 Hz, as the times in the index" in told.provenance["notes"][0]
     counted = Segmenter().fit(frame.reset_index(drop=True)).segmentation_
     assert counted.fps == 30
+
+
+def test_a_name_that_is_no_parameter_is_refused_when_it_is_set() -> None:
+    with pytest.raises(ParameterError, match="no parameter or constant 'nonsense'"):
+        Segmenter().set_params(nonsense=3)
+    changed = Segmenter().set_params(preset="krueger2017", radius=0.4)
+    assert changed.get_params()["radius"] == 0.4

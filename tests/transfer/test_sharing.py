@@ -13,6 +13,8 @@ from kineme.datasets import bundled_recording
 from kineme.errors import ParameterError
 from kineme.recordings.operations import cut, scale, turn
 from kineme.transfer import share_clusters
+from kineme.transfer.moments import moments_of
+from kineme.transfer.vocabulary import share_by_moments
 
 
 def shuffled(found: kineme.Segmentation) -> kineme.Segmentation:
@@ -106,3 +108,19 @@ def test_signals_of_other_channels_share_nothing() -> None:
     other = kineme.Signals(one.values, one.fps, ["a", "b"])
     with pytest.raises(ParameterError, match="of the same channels, not of 1, 2 and of a, b"):
         share_clusters([one, other], [found, found])
+
+
+def test_clusters_of_signals_do_not_depend_on_the_order_of_recordings() -> None:
+    random = np.random.default_rng(4)
+    recordings = []
+    for _ in range(6):
+        kinds = random.uniform(0.02, 1.5, (4, 6))
+        wave = np.sin(2 * np.pi * np.outer(np.arange(300) / 30, random.uniform(0.4, 3, 4)))
+        values = np.concatenate([size * wave[:, [k]] for k, size in enumerate(kinds)])
+        recordings.append(kineme.Signals(values + 0.05 * random.normal(size=values.shape), 30.0))
+    found = [kineme.segment(recording, preset="uniform") for recording in recordings]
+    moments = [moments_of(recording) for recording in recordings]
+    shared = share_by_moments(moments, found)
+    for order in ([5, 4, 3, 2, 1, 0], [3, 0, 4, 1, 5, 2]):
+        again = share_by_moments([moments[i] for i in order], [found[i] for i in order])
+        assert [shared[i] for i in order] == again

@@ -9,7 +9,7 @@ import typer
 
 from kineme.cli.help import LABELS
 from kineme.cli.options.inputs import Batch, Recursive
-from kineme.cli.options.reading import with_reading_options
+from kineme.cli.options.reading import Quiet, with_reading_options
 from kineme.cli.options.request import Request
 from kineme.cli.options.targets import make_folder_of
 from kineme.errors import WriteError
@@ -76,6 +76,7 @@ def convert(
         int | None, typer.Option(help="Length of the recording, where labels end before it.")
     ] = None,
     recursive: Recursive = False,
+    quiet: Quiet = False,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Turn segments into labels of another program and back, or a recording into another format.
@@ -109,6 +110,8 @@ def convert(
                     path, format=from_format, fps=request.reading.get("fps"), n_frames=frames
                 )
                 write_segments(segments, place, format=to_format, level=level)
+            if not quiet:
+                typer.echo(f"{path} written as {place}")
     batch.exit()
 
 
@@ -122,4 +125,4 @@ def _convert_recording(request: Request, path: Path, target: Path) -> None:
     if isinstance(recording, Motion) or columns is None:
         write(recording, target)
     else:
-        write_signals(recording, target, columns=columns)
+        write_signals(recording, target, columns=recording.names)

@@ -101,7 +101,9 @@ def new_table(*names: str) -> Table:
     """A table with these columns: words to the left, numbers to the right."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for name in names:
-        table.add_column(name, justify="left" if name in WORDS else "right")
+        words = name in WORDS
+        # Names that end in dots could be those of several recordings.
+        table.add_column(name, justify="left" if words else "right", overflow="fold")
     return table
 
 

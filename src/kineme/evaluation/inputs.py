@@ -6,15 +6,17 @@ at the result's rate if that is lower.
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from math import floor, isfinite
 from pathlib import Path
 from typing import Any
 
-from kineme.errors import ParameterError, ReadError
+from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.annotated_scores import evaluate_segmentation, labelling_of
 from kineme.evaluation.annotation import Annotation
 from kineme.evaluation.labelling import TRANSITION
+from kineme.labels.clock_times import by_clock
 from kineme.labels.files import read_content
 from kineme.labels.spans import Labels, as_segmentation
 from kineme.recordings import Motion
@@ -70,13 +72,21 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
     ------
     ReadError
         It cannot be read or understood, or is of another length than the result.
+
+    Warns
+    -----
+    KinemeWarning
+        Labels were joined or left out, such as those that meet no frame.
     """
     n_frames, rate = comparison(found)
     known, content = read_content(path)
     try:
         if isinstance(content, Labels):
             told = content.fps or (rate if content.unit == "seconds" else fps or found.fps)
-            content, _ = as_segmentation(content, path, known.name, fps=told)
+            content = by_clock(content, found.clock, length_s=found.n_frames / found.fps)
+            content, unusual = as_segmentation(content, path, known.name, fps=told)
+            if unusual:
+                warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
         return annotation_of(content, n_frames=n_frames, fps=rate)
     except ParameterError as error:
         raise ReadError(path, str(error)) from error

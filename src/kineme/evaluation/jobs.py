@@ -13,7 +13,7 @@ from kineme._processes import interrupted_later, pool_of
 from kineme.errors import KinemeError, KinemeWarning
 from kineme.evaluation.comparison import Comparison, compare
 from kineme.evaluation.methods import segment_by
-from kineme.evaluation.recordings import Reading
+from kineme.evaluation.recordings import UNMET, Reading
 from kineme.labels.collections import LabelSource
 from kineme.recordings.motion import Motion
 from kineme.recordings.signals import Signals
@@ -100,7 +100,9 @@ def _answer(job: Job) -> Answer:
 def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
     """What comes out of a job; raises what its method raises, and times it by this clock."""
     recording = job.reading.read(job.path)
-    truth = job.source.of(n_frames=recording.n_frames, fps=recording.fps)
+    truth = job.source.of(
+        n_frames=recording.n_frames, fps=recording.fps, clock=recording.provenance.clock
+    )
     classes: dict[str, int] = {}
     compare(truth, truth, classes=classes)
     start = clock()
@@ -108,7 +110,8 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     seconds = clock() - start
     compared = compare(truth, found, classes=classes)
     sides = sides_of(recording, truth, found) if job.joins else None
-    notes = tuple(truth.provenance.get("notes", ()))
+    unmet = (str(note) for note in recording.provenance.notes if note.startswith(UNMET))
+    notes = (*unmet, *truth.provenance.get("notes", ()))
     return Answer(compared, sides, classes, seconds, recording.duration, notes)
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from fnmatch import filter as filter_names
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
@@ -10,6 +12,9 @@ from typing import Any
 from kineme.errors import ParameterError, ReadError
 from kineme.recordings.motion import Motion
 from kineme.recordings.signals import Signals
+
+UNMET = "has no column like"
+"""How a note on a pattern begins that no column of a recording fits, such as a mistyped one."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +64,13 @@ class Reading:
         if not kept:
             names = ", ".join(signals.names)
             raise ParameterError(f"{path}: no column is left of {names:.200}")
-        return signals.select(kept)
+        return signals.select(kept).noted(*self._unmet(signals.names))
+
+    def _unmet(self, names: Sequence[str]) -> list[str]:
+        """What is said of patterns that no column fits."""
+        lower = [name.lower() for name in names]
+        unmet = [p for p in (*self.columns, *self.without) if not filter_names(lower, p.lower())]
+        return [f"{UNMET} {pattern!r:.60}" for pattern in unmet]
 
     def takes(self, name: str) -> bool:
         """Whether a column is one of those wanted; capitals and small letters are the same."""

@@ -99,7 +99,8 @@ def columns_to_motion(
         notes.append("two-dimensional: z is 0, and image rows count downwards")
         unit, up = unit or "pixel", up or "-y"
     points = Points(names, positions, timing.fps, unit, up, person=options.person)
-    return split_at(to_motion(points, content.provenance(name, notes)), timing.gaps)
+    provenance = content.provenance(name, notes).timed(timing.clock)
+    return split_at(to_motion(points, provenance), timing.gaps)
 
 
 def is_used(column: str) -> bool:

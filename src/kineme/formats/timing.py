@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kineme._clock import Clock
 from kineme._counts import counted
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S, spans_of
@@ -47,11 +48,13 @@ class Timing(NamedTuple):
     """What times tell.
 
     ``gaps`` are frames [start, stop): the last before each jump, which lasts as long as it.
+    ``clock`` is None where frames are at their number over the rate.
     """
 
     fps: float
     gaps: tuple[tuple[int, int], ...] = ()
     notes: tuple[str, ...] = ()
+    clock: Clock | None = None
 
 
 def timing_of(content: FileContent, times: Floats) -> Timing:
@@ -102,7 +105,7 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
         untimed = counted(int((~known).sum()), "row")
         notes.append(f"{untimed} without a time counted as frames")
     gaps = tuple((start, stop) for start, stop in spans_of(jumps).tolist())
-    return Timing(fps, gaps, tuple(notes))
+    return Timing(fps, gaps, tuple(notes), Clock.of(times, fps))
 
 
 def seconds(values: ArrayLike, unit: str | None = None) -> Floats:

@@ -150,7 +150,7 @@ def from_movement(
         up or attributes.get("up") or ("-y" if flat else None),
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
-    said = Provenance(str(source.path), name).noted(*timing.notes, *notes)
+    said = Provenance(str(source.path), name, clock=timing.clock).noted(*timing.notes, *notes)
     motion = split_at(to_motion(points, said), timing.gaps)
     if remarks := motion.provenance.warnings:
         warn(f"{said.path or 'dataset'}: {'; '.join(remarks)}")

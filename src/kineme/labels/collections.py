@@ -18,9 +18,11 @@ from math import ceil
 from os import PathLike
 from pathlib import Path
 
+from kineme._clock import Clock
 from kineme._counts import counted
 from kineme.errors import ReadError
 from kineme.labels import csv_table
+from kineme.labels.clock_times import by_clock, lost_labels
 from kineme.labels.files import read_content
 from kineme.labels.registry import holds_labels
 from kineme.labels.spans import Labels, Span, as_segmentation
@@ -45,13 +47,15 @@ class LabelSource:
     path: Path
     labels: Labels | None = None
 
-    def of(self, *, n_frames: int, fps: float) -> Segmentation:
+    def of(self, *, n_frames: int, fps: float, clock: Clock | None = None) -> Segmentation:
         """The labels in frames of their recording.
 
         Parameters
         ----------
         n_frames, fps : int and float
             Of the recording.
+        clock : Clock, optional
+            The one by which seconds are counted, where frames over the rate are not.
 
         Returns
         -------
@@ -70,7 +74,8 @@ class LabelSource:
             name = known.name
         if isinstance(content, Labels):
             told = content.fps or fps
-            labels = in_frames(content, told, n_frames=n_frames)
+            timed = by_clock(content, clock, length_s=n_frames / told)
+            labels = in_frames(timed, told, n_frames=n_frames)
             return as_segmentation(labels, self.path, name, fps=told, n_frames=n_frames)[0]
         if content.n_frames != n_frames:
             raise ReadError(
@@ -149,7 +154,8 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     Returns
     -------
     Labels
-        In frames, with a note where labels were cut or left out.
+        In frames, with a note where labels were cut or left out: those that meet no frame by
+        their names.
 
     Examples
     --------
@@ -161,15 +167,17 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     """
     rate = fps if labels.unit == "seconds" else 1.0
     backward = sum(span.stop < span.start for span in labels.spans)
-    beyond = sum(span.stop * rate > n_frames + 1 for span in labels.spans)
     whole = [
         span._replace(
-            start=ceil(span.start * rate - SLACK),
+            start=max(0, ceil(span.start * rate - SLACK)),
             stop=min(n_frames, ceil(span.stop * rate - SLACK)),
         )
         for span in labels.spans
     ]
     forward = [span for span in whole if span.start < span.stop]
+    pairs = list(zip(labels.spans, whole, strict=True))
+    lost = [old for old, new in pairs if old.start <= old.stop and new.start >= new.stop]
+    beyond = sum(old.stop * rate > n_frames + 1 for old, new in pairs if new.start < new.stop)
     kept: list[Span] = []
     overlaps = 0
     for new in forward:
@@ -182,7 +190,8 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
         "reaching beyond the end, cut off there": beyond,
     }
     notes = [f"{what}: {counted(count, 'label')}" for what, count in told.items() if count]
-    return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes))
+    notes += lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
+    return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
 
 
 def _cut(old: Span, new: Span) -> list[Span]:

@@ -9,7 +9,8 @@ that spreadsheets would run as a formula has a ``'`` before it. Columns are foun
 others are ignored.
 
 A table of intervals that people keep by hand is read as well: ``label`` with ``start_s``
-and ``stop_s``, or with ``start_frame`` and ``stop_frame``, in any order, with ``level``,
+and ``stop_s`` (seconds, or dates such as 2026-01-31T09:30:00.25), or with ``start_frame``
+and ``stop_frame``, in any order, with ``level``,
 ``kind`` and ``count`` (repetitions) where there are any. What no row covers is a transition.
 A column ``recording`` must name one recording only; tables of many are read by
 `kineme.labels.collections`.
@@ -28,6 +29,7 @@ from typing import Any, Literal
 from kineme._files import atomic_write
 from kineme.errors import ReadError
 from kineme.formats.delimited import dotted
+from kineme.formats.timing import date_seconds, is_date
 from kineme.labels import pairs
 from kineme.labels.delimited import as_text, from_text, number, read_rows, write_rows
 from kineme.labels.heads import columns as columns_of
@@ -36,6 +38,7 @@ from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span
 from kineme.segments.editing.comments import from_rows, in_rows
+from kineme.segments.row import START_TIME
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, COMMENT, DESCRIBED, Level, Segment, lacking
 
@@ -54,9 +57,12 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
         head_draft.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8")
         with draft.open("w", encoding="utf-8", newline="") as file:
             names, rows = [*COLUMNS], map(_cells, segmentation)
+            if times := segmentation.start_times():
+                names.append(START_TIME)
+                rows = map(_with_text, rows, times)
             if any(said := in_rows(segmentation)):
                 names.append(COMMENT)
-                rows = map(_with_comment, rows, said)
+                rows = map(_with_text, rows, said)
             write_rows(file, names, rows)
 
 
@@ -120,7 +126,8 @@ def intervals(path: Path) -> dict[str, Labels]:
         for line, row in read_rows(file, path, wanted, delimiter=comma):
             unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
             cells = {name: row[name] if comma == "," else dotted(row[name]) for name in SPANS[unit]}
-            start, stop = (number(cell, name, path, line) for name, cell in cells.items())
+            told = _second if unit == "seconds" else number
+            start, stop = (told(cell, name, path, line) for name, cell in cells.items())
             span = Span(start, stop, _text(row), _level(row), repetitions=_count(row, path, line))
             spans.setdefault(row.get("recording", ""), []).append(span)
     return {recording: Labels(own, unit) for recording, own in spans.items()}
@@ -137,6 +144,11 @@ def _intervals(path: Path) -> Labels:
             "folder of them: kineme evaluate FOLDER --labels TABLE",
         )
     return next(iter(found.values()), Labels([]))
+
+
+def _second(cell: str, name: str, path: Path, line: int) -> float:
+    """Seconds, or a date or time of day in seconds since 1970 or midnight."""
+    return date_seconds(cell.strip()) if is_date(cell.strip()) else number(cell, name, path, line)
 
 
 def _text(row: dict[str, str]) -> str:
@@ -218,8 +230,8 @@ def _cells(row: Segment) -> list[Any]:
     return ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in cells]
 
 
-def _with_comment(cells: list[Any], comment: str) -> list[Any]:
-    return [*cells, as_text(comment)]
+def _with_text(cells: list[Any], text: str) -> list[Any]:
+    return [*cells, as_text(text)]
 
 
 def _recognises(path: Path) -> bool:

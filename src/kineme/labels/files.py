@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from math import isclose
 from os import PathLike
 from pathlib import Path
 
 from kineme._checks import check_path, check_type, is_number
+from kineme._clock import Clock
 from kineme._doors import reading
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
+from kineme.labels.clock_times import by_clock
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.registry import format_to_read, format_to_write
 from kineme.labels.spans import Labels, as_segmentation
@@ -77,6 +80,7 @@ def read_segments(
     format: str | None = None,  # noqa: A002
     fps: float | None = None,
     n_frames: int | None = None,
+    clock: Clock | None = None,
 ) -> Segmentation:
     """The segmentation in a file of any label format.
 
@@ -91,6 +95,9 @@ def read_segments(
         Frame rate of the recording, for formats that do not tell it.
     n_frames : int, optional
         Length of the recording, where the last label may end before it.
+    clock : Clock, optional
+        That of the recording (``provenance.clock``), with `fps` and `n_frames`: labels in seconds
+        are by it, and those in a pause or outside the recording are left out.
 
     Returns
     -------
@@ -127,6 +134,8 @@ def read_segments(
     known, content = read_content(path, format)
     told = content.fps
     if isinstance(content, Labels):
+        if clock is not None and fps is not None and n_frames is not None:
+            content = by_clock(content, clock, length_s=n_frames / fps)
         with reading(path):
             content, unusual = as_segmentation(
                 content, Path(path), known.name, fps=fps, n_frames=n_frames
@@ -137,7 +146,9 @@ def read_segments(
         raise ReadError(path, f"says {told:g} frames per second, but fps is {fps:g}")
     if n_frames is not None and content.n_frames != n_frames:
         raise ReadError(path, f"is of {content.n_frames} frames, but n_frames is {n_frames}")
-    return content
+    if clock is None or "clock" in content.provenance:
+        return content
+    return replace(content, provenance={**content.provenance, "clock": clock.to_json()})
 
 
 def read_content(

@@ -19,6 +19,7 @@ from kineme.labels.heads import tail
 from kineme.labels.json_table import head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
 from kineme.segments.editing.comments import from_rows, in_rows
+from kineme.segments.row import START_TIME
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, COMMENT, Segment, lacking
 
@@ -29,6 +30,8 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave everything at ``path``."""
     arrow, parquet = _pyarrow()
     columns: dict[str, Any] = {**segmentation.table.columns()}
+    if times := segmentation.start_times():
+        columns[START_TIME] = times
     if any(said := in_rows(segmentation)):
         columns[COMMENT] = said
     table = arrow.table(columns)

@@ -63,6 +63,8 @@ class Labels:
         Of the recording.
     notes : tuple of str
         What is worth a warning, such as labels that had to be joined.
+    remarks : tuple of str
+        What was inferred, for the provenance alone.
     """
 
     spans: Sequence[Span]
@@ -70,6 +72,7 @@ class Labels:
     fps: float | None = None
     length: float | None = None
     notes: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
 
 
 def text_of(row: Segment) -> str:
@@ -122,7 +125,8 @@ def as_segmentation(
         No spans, an unknown frame rate, or spans that overlap or lie outside.
     """
     if not labels.spans:
-        raise ReadError(path, "has no labels")
+        said = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
+        raise ReadError(path, f"has no labels{said}")
     rate = fps or labels.fps
     if rate is None:
         raise ReadError(
@@ -133,7 +137,7 @@ def as_segmentation(
     per_unit = rate if labels.unit == "seconds" else 1.0
     rows = [_meant(span, per_unit, path) for span in labels.spans]
     last = max(row[3] for row in rows)
-    notes = []
+    notes = [*labels.remarks]
     if n_frames is None and labels.length is not None:
         n_frames = max(last, _frame(labels.length, per_unit, path))
     elif n_frames is None:

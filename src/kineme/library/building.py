@@ -32,6 +32,7 @@ from kineme.library.storage.layout import (
     read_json,
     write_json,
 )
+from kineme.library.storage.left import parted, read_left, write_left
 from kineme.library.storage.pieces import has_piece
 from kineme.library.storage.places import lies_in, place, reaching, remove_folder
 from kineme.library.storage.tables import read_table, write_tables
@@ -222,13 +223,19 @@ def _written(
     if same and all(head.get(name) == wanted[name] for name in ("kineme", "vocabulary")):
         following, tables = head["following"], head["tables"]
     else:
-        from kineme.library.compiling import compiled
+        from kineme.library.compiling import activities_in, compiled
 
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)
+        known = activities_in(plan.folder, head.get("tables"))
+        left = read_left(plan.folder)
+        back = {name: left[key] for name, _, key in entries if key in left and name not in known}
         made, following = compiled(
-            plan.folder, entries, head.get("tables"), following, executor, progress
+            plan.folder, entries, {**back, **known}, following, executor, progress
         )
+        pieces = dict(before.values())
+        owned = {pieces[name]: spans for name, spans in known.items() if name in pieces}
+        write_left(plan.folder, parted(left, owned, (key for _, _, key in entries)))
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**wanted, "following": following, "tables": tables}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -41,7 +41,7 @@ class _Words:
 def compiled(
     folder: Path,
     entries: Sequence[Entry],
-    before: str | None,
+    before: Mapping[str, Spans],
     following: int,
     executor: Executor,
     progress: Progress,
@@ -53,8 +53,9 @@ def compiled(
     folder : Path
     entries : sequence of (str, Path, str)
         The recordings in the order of their names.
-    before : str, optional
-        The tables that were valid so far: clusters that are found again keep their numbers.
+    before : mapping of str to (starts, stops, clusters)
+        By recording, the activities that it had, see `activities_in`: clusters that are found
+        again keep their numbers.
     following : int
         The first number of a cluster that was never given.
     executor : Executor
@@ -75,7 +76,7 @@ def compiled(
         name: _spans(piece.table.columns(), clusters)
         for (name, _, _), piece, clusters in zip(entries, pieces, shared, strict=True)
     }
-    numbers = lasting_numbers(_before(folder, before), new, following=following)
+    numbers = lasting_numbers(before, new, following=following)
     renumbered = np.array([*numbers.values(), -1], np.int64)  # labels are 0, 1, …
     tables = {
         "recordings": _recordings(entries, pieces),
@@ -86,6 +87,33 @@ def compiled(
     return {name: table_of(name, columns) for name, columns in tables.items()}, max(
         [following, *(number + 1 for number in numbers.values())]
     )
+
+
+def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
+    """The activities of each recording with their clusters, in tables of a library.
+
+    Parameters
+    ----------
+    folder : Path
+    tables : str, optional
+        None where there are none yet.
+
+    Returns
+    -------
+    dict of str to (starts, stops, clusters)
+    """
+    if tables is None:
+        return {}
+    table = read_table(folder, tables, "segments")
+    names = ("recording", "level", "kind", "start_s", "stop_s", "cluster")
+    columns = {name: as_array(table.column(name)) for name in names}
+    first = np.unique(columns["recording"], return_index=True)[1]
+    edges = [*np.sort(first).tolist(), len(table)]
+    found = {}
+    for start, stop in pairwise(edges):
+        own = {name: column[start:stop] for name, column in columns.items()}
+        found[str(own["recording"][0])] = _spans(own, own["cluster"])
+    return found
 
 
 def _joined_words(
@@ -143,22 +171,6 @@ def _spans(columns: Columns, clusters: Ints) -> Spans:
     active, coarse = columns["kind"] == "activity", columns["level"] == "activity"
     own = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))
     return columns["start_s"][own], columns["stop_s"][own], clusters[own]
-
-
-def _before(folder: Path, before: str | None) -> dict[str, Spans]:
-    """The activities of each recording with the clusters that they had."""
-    if before is None:
-        return {}
-    table = read_table(folder, before, "segments")
-    names = ("recording", "level", "kind", "start_s", "stop_s", "cluster")
-    columns = {name: as_array(table.column(name)) for name in names}
-    first = np.unique(columns["recording"], return_index=True)[1]
-    edges = [*np.sort(first).tolist(), len(table)]
-    found = {}
-    for start, stop in pairwise(edges):
-        own = {name: column[start:stop] for name, column in columns.items()}
-        found[str(own["recording"][0])] = _spans(own, own["cluster"])
-    return found
 
 
 def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:

@@ -30,7 +30,7 @@ def doubts(columns: Columns, fps: float, preset: ConfidencePreset) -> list[str]:
     """
     found = [*_of_activities(columns, fps, preset), *_of_counts(columns, fps, preset)]
     worst = sorted(found, key=lambda each: each[0])[:MOST]
-    return [f"{text} ({100 * probability:.0f} % sure)" for probability, text in worst]
+    return [text for _, text in worst]
 
 
 def _of_activities(columns: Columns, fps: float, preset: ConfidencePreset) -> Iterator[Doubt]:
@@ -38,13 +38,19 @@ def _of_activities(columns: Columns, fps: float, preset: ConfidencePreset) -> It
     for row in np.flatnonzero(columns["level"] == "activity"):
         border, link = (float(columns[name][row]) for name in ("border_confidence", "score"))
         if border < preset.unsure_border:
-            yield border, f"look at the border at {columns['start_frame'][row] / fps:.2f} s"
+            at = columns["start_frame"][row] / fps
+            yield border, _sure(f"look at the border at {at:.2f} s", border)
         if link < preset.unsure_action:
-            yield link, f"look at the cluster of the activity {_span(columns, row, fps)}"
+            where = _span(columns, row, fps)
+            yield link, _sure(f"look at the cluster of the activity {where}", link)
 
 
 def _of_counts(columns: Columns, fps: float, preset: ConfidencePreset) -> Iterator[Doubt]:
-    """Numbers of repetitions; activities that repeat nothing are told in one sentence."""
+    """Numbers of repetitions; activities that none were found in are told in one sentence.
+
+    A number beside that one would be of how sure it is that nothing repeats, and read as doubt
+    that something does.
+    """
     single = []
     is_primitive = (columns["level"] == "primitive") & (columns["kind"] == "activity")
     is_activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
@@ -58,12 +64,18 @@ def _of_counts(columns: Columns, fps: float, preset: ConfidencePreset) -> Iterat
             length = columns["stop_frame"][row] - columns["start_frame"][row]
             single.append((int(length), row, count))
         else:
-            yield count, f"look at the number of repetitions {_span(columns, row, fps)}"
+            where = _span(columns, row, fps)
+            yield count, _sure(f"look at the number of repetitions {where}", count)
     if single:
         _, row, count = max(single, key=lambda each: each[0])
         others = len(single) - 1
         more = f" and in {others} other {'activity' if others == 1 else 'activities'}"
-        yield count, f"nothing repeats {_span(columns, row, fps)}{more if others else ''}"
+        where = f"{_span(columns, row, fps)}{more if others else ''}"
+        yield count, f"perhaps repeats {where}, but no repetitions were found that are sure"
+
+
+def _sure(text: str, probability: float) -> str:
+    return f"{text} ({100 * probability:.0f} % sure)"
 
 
 def _span(columns: Columns, row: np.integer, fps: float) -> str:

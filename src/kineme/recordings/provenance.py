@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Literal, Self
 
+from kineme._clock import Clock
+
 Severity = Literal["info", "warning"]
 
 
@@ -59,6 +61,8 @@ class Provenance:
         notes of severity "info".
     events : sequence of (float, str)
         Those marked in the file: seconds from its first frame, and the label.
+    clock : Clock, optional
+        What times the file has, where these are not those of frames counted from 0.
 
     Examples
     --------
@@ -71,6 +75,7 @@ class Provenance:
     sha256: str | None = None
     notes: tuple[Note, ...] = ()
     events: tuple[tuple[float, str], ...] = ()
+    clock: Clock | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "notes", _as_notes(self.notes))
@@ -108,6 +113,19 @@ class Provenance:
         Provenance
         """
         return replace(self, events=tuple(events))
+
+    def timed(self, clock: Clock | None) -> Provenance:
+        """The same with this clock in place of its own.
+
+        Parameters
+        ----------
+        clock : Clock or None
+
+        Returns
+        -------
+        Provenance
+        """
+        return replace(self, clock=clock)
 
 
 def _as_notes(notes: Iterable[Note | str]) -> tuple[Note, ...]:

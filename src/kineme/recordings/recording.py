@@ -216,9 +216,10 @@ def as_gaps(
 
 
 def _cut(provenance: Provenance, start: int, stop: int, fps: float) -> Provenance:
-    """What is true of the frames [start, stop): the events in them, counted from there."""
+    """What is true of the frames [start, stop): the events in them, and their clock."""
     first, last = start / fps, stop / fps
     events: Iterable[tuple[float, str]] = (
         (at - first, name) for at, name in provenance.events if first <= at < last
     )
-    return provenance.noted(f"cut to frames {start} to {stop}").marked(events)
+    clock = provenance.clock and provenance.clock.between(first, last)
+    return provenance.noted(f"cut to frames {start} to {stop}").marked(events).timed(clock)

@@ -7,12 +7,14 @@ recording.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Self
 
 import numpy as np
 from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.utils.validation import validate_data
 
+from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.recordings import Signals
@@ -110,12 +112,33 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         return {**super().get_params(deep=deep), **self._constants}
 
     def set_params(self, **params: Any) -> Self:
-        """Change parameters or constants of the preset; ``fit`` says which it cannot take."""
+        """Change parameters or constants of the preset; ``fit`` says which values it cannot take.
+
+        Raises
+        ------
+        ParameterError
+            The preset has no constant of a name.
+        """
         own = set(self._get_param_names())
         constants = {name: value for name, value in params.items() if name not in own}
+        known = _constants_of(params.get("preset", self.preset)) if constants else {}
+        for name in constants:
+            if known and name not in known and name not in self._constants:
+                raise ParameterError(
+                    f"there is no parameter or constant {name!r:.60}; there are "
+                    f"{', '.join((*sorted(own), *known))}"
+                )
         self._constants = {**self._constants, **constants}
         super().set_params(**{name: value for name, value in params.items() if name in own})
         return self
+
+
+def _constants_of(preset: str | Preset) -> Mapping[str, Any]:
+    """The constants of a preset by name; none of what is no preset, which ``fit`` says."""
+    try:
+        return resolve_preset(preset, signals=True).parameters()
+    except ParameterError:
+        return {}
 
 
 def _rate_of(rows: Any) -> float | None:

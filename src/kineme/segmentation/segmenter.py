@@ -242,6 +242,8 @@ def _result(
     }
     if gaps := gaps_between(view.seen, n_frames):
         provenance["gaps"] = [list(gap) for gap in gaps]
+    if source.clock is not None:
+        provenance["clock"] = source.clock.to_json()
     table, hierarchy = segment_table(columns, fps), None
     if isinstance(found, Leveled):
         with stopwatch(spent, None)("levels"):

@@ -136,10 +136,11 @@ def in_time(graph: NeighborGraph, gaps: Sequence[Sequence[int]], n_frames: int) 
 
 
 def _with_gaps(columns: Columns, gaps: Spans) -> Columns:
-    """The columns with a transition in no cluster for each gap, on both levels."""
+    """The columns with a transition in no cluster for each gap, on each level that they have."""
     if not gaps:
         return columns
-    rows = [(level, start, stop) for level in ("activity", "primitive") for start, stop in gaps]
+    present = sorted({"activity", *columns["level"].tolist()})
+    rows = [(level, start, stop) for level in present for start, stop in gaps]
     levels, starts, stops = zip(*rows, strict=True)
     n = len(rows)
     more: Columns = {

@@ -50,6 +50,8 @@ DESCRIBED: Mapping[str, Column] = {
     ),
 }  # fmt: skip
 COLUMNS = tuple(DESCRIBED)
+START_TIME = "start_time"
+"""One more column of files and data frames, where the recording has a clock: what it shows."""
 COMMENT = "comment"
 """One more column of files: what people said about a segment, in tables that have comments."""
 

@@ -7,16 +7,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from numpy.typing import ArrayLike
 
 from kineme._checks import check_type
+from kineme._clock import Clock
 from kineme.segments.columns import segment_table
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.invariants import check_parents, check_recording, check_tiles, plain_json
 from kineme.segments.levels import Levels
+from kineme.segments.row import START_TIME
 from kineme.segments.table import Level, SegmentTable
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @dataclass(frozen=True, repr=False)
@@ -36,7 +41,7 @@ class Segmentation(Levels):
     provenance : mapping
         What JSON can hold: ``kineme`` (version), ``preset``, ``parameters``,
         ``input`` (``path``, ``format``, ``sha256``), ``notes`` (sentences on what was
-        inferred). A producer may add more.
+        inferred), and where the recording has one its ``clock``. A producer may add more.
     timings : mapping of str to float
         Seconds spent per stage; two results that differ in these alone are equal.
     hierarchy : Hierarchy, optional
@@ -124,6 +129,41 @@ class Segmentation(Levels):
         said = {} if provenance is None else provenance
         spent = {} if timings is None else timings
         return cls(table, int(n_frames), float(fps), said, spent)
+
+    @property
+    def clock(self) -> Clock | None:
+        """That of the recording, where its seconds are not those of frames counted from 0."""
+        said = self.provenance.get("clock")
+        return None if said is None else Clock.from_json(said)
+
+    def start_times(self) -> list[str]:
+        """What the clock shows when each segment of the table starts; empty without a clock.
+
+        Returns
+        -------
+        list of str
+            Seconds, or dates of ISO 8601 where the clock counts since 1970.
+        """
+        clock = self.clock
+        return [] if clock is None else [clock.shown(row.start_s) for row in self]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """The table of both levels, as `SegmentTable.to_dataframe` gives it.
+
+        Returns
+        -------
+        pandas.DataFrame
+            With a column ``start_time`` where the recording has a clock, see `start_times`.
+
+        Raises
+        ------
+        MissingDependencyError
+            pandas is not installed.
+        """
+        frame = super().to_dataframe()
+        if times := self.start_times():
+            frame[START_TIME] = times
+        return frame
 
     @overload
     def level(self, level: Level) -> SegmentTable: ...

@@ -17,7 +17,7 @@ def annotation(path: Path, shown: Segmentation) -> tuple[Segmentation, dict[str,
     ReadError
         It cannot be read or understood, or is of another length.
     """
-    other = read_segments(path, fps=shown.fps, n_frames=shown.n_frames)
+    other = read_segments(path, fps=shown.fps, n_frames=shown.n_frames, clock=shown.clock)
     return other, agreement(shown, other)
 
 

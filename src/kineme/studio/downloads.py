@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from io import BytesIO
 from pathlib import Path
 
+from kineme._checks import is_text
 from kineme.clips.split import split, write_clips
 from kineme.errors import ParameterError
 from kineme.features import Names
@@ -17,6 +18,7 @@ from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
+from kineme.studio.http.uploads import safe_name
 from kineme.studio.open_recording import OpenRecording
 from kineme.web.page_data import Shown
 
@@ -32,7 +34,7 @@ def exported(opened: OpenRecording, kind: str, level: Level | None) -> tuple[str
     level : {"activity", "primitive"}, optional
         Of the segments.
     """
-    loaded, stem = opened.loaded, opened.path.stem
+    loaded, stem = opened.loaded, _stem_of(opened)
     if kind == CLIPS:
         return motion_files(loaded.motion, opened.table, stem, level)
     if kind == REPORT:
@@ -62,9 +64,9 @@ def clip_files(opened: OpenRecording, rows: Sequence[int], *, loops: bool) -> tu
     wanted = [table.table[row] for row in rows]
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
         write_clips(
-            [(opened.loaded.recording, wanted)], Path(folder) / opened.path.stem, loops=loops
+            [(opened.loaded.recording, wanted)], Path(folder) / _stem_of(opened), loops=loops
         )
-        return _one_file(Path(folder), opened.path.stem)
+        return _one_file(Path(folder), _stem_of(opened))
 
 
 def table_file(
@@ -126,6 +128,12 @@ def report_file(
         page = Path(folder) / f"{file.stem}.html"
         write_report(recording, segmentation, page, name=file.name, effectors=effectors)
         return _one_file(Path(folder), file.stem)
+
+
+def _stem_of(opened: OpenRecording) -> str:
+    """What downloads are called after: the recording, in letters that archives can hold."""
+    stem = opened.path.stem
+    return stem if is_text(stem) else safe_name(stem)
 
 
 def _one_file(folder: Path, stem: str) -> tuple[str, bytes]:

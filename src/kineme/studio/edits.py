@@ -113,7 +113,7 @@ def edited(
         return _labelled(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
     if isinstance(edit, sent.TakeLabels):
         path = files.annotation(edit.annotation)
-        said = read_segments(path, fps=table.fps, n_frames=table.n_frames)
+        said = read_segments(path, fps=table.fps, n_frames=table.n_frames, clock=table.clock)
         return Outcome(said, [f"the table is that of {path.name}"], replaced=True)
     if isinstance(edit, sent.Restore):
         return Outcome(version(edit.version), replaced=True)

@@ -36,10 +36,13 @@ def progress(recording: Path) -> Progress | None:
     Returns
     -------
     Progress or None
-        None where it has no table.
+        None where it has no table, or one that cannot be read.
     """
     path = usual_table(recording)
-    return _counts(path, *stamp_of(path)) if path else None
+    try:
+        return _counts(path, *stamp_of(path)) if path else None
+    except Exception:  # noqa: BLE001 (a table that is damaged in any way costs itself only)
+        return None
 
 
 @lru_cache(MOST_KNOWN)

@@ -191,12 +191,20 @@ class Api:
         return Comparison(name=title, segmentation=segments_message(other), scores=scores)
 
 
+def _size(path: Path) -> int:
+    """Bytes of a file, which may have gone since it was listed."""
+    try:
+        return path.stat().st_size
+    except OSError:
+        return 0
+
+
 def _listing(name: str, path: Path) -> Listing:
     said = progress(path)
     return Listing(
         id=name,
         name=path.name,
-        bytes=path.stat().st_size,
+        bytes=_size(path),
         corrected=said is not None,
         segments=said.segments if said else 0,
         checked=said.checked if said else 0,

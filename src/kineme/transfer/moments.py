@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,11 +142,26 @@ def in_common_units(recordings: Sequence[Moments]) -> list[Float32s]:
                 "clusters are shared over recordings of the same channels, not of "
                 f"{', '.join(recordings[0].names):.80} and of {', '.join(one.names):.80}"
             )
+    drawn = [recordings[i] for i in by_content(recordings)]
     units = Units.of(
-        np.concatenate([one.means for one in recordings]),
-        np.concatenate([one.deviations for one in recordings]),
+        np.concatenate([one.means for one in drawn]),
+        np.concatenate([one.deviations for one in drawn]),
     )
     return [units.features(one.means, one.deviations) for one in recordings]
+
+
+def by_content(recordings: Sequence[Moments]) -> list[int]:
+    """Recordings by their numbers, in an order that is the same whatever they are called.
+
+    Sums, and samples at equal steps, depend on the order; what they are taken for must not.
+    """
+
+    def digest(number: int) -> bytes:
+        one = recordings[number]
+        parts = (one.frames, one.means, one.deviations)
+        return sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in parts)).digest()
+
+    return sorted(range(len(recordings)), key=digest)
 
 
 def _means(values: Floats, first: Ints, last: Ints) -> Floats:

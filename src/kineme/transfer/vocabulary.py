@@ -17,7 +17,7 @@ from scipy.spatial.distance import cdist
 from threadpoolctl import threadpool_limits
 
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.moments import Float32s, Moments, in_common_units
+from kineme.transfer.moments import Float32s, Moments, by_content, in_common_units
 
 Floats = NDArray[np.float64]
 
@@ -61,7 +61,7 @@ def share_by_moments(
     """
     features = in_common_units(moments)
     typical = [_typical(*each) for each in zip(moments, features, segmentations, strict=True)]
-    points = np.concatenate(features)
+    points = np.concatenate([features[i] for i in by_content(moments)])
     count = likely_number(points) if n_clusters is None else n_clusters
     centres = centres_of(points[:: -(-len(points) // MOST)], count)
     shared = []

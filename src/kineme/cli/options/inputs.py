@@ -2,7 +2,7 @@
 
 One rule for every command: what is wrong with one recording costs that one only and is
 said at the end, by name and reason. The exit code is 1 where something asked for by name,
-a file or a folder, gave nothing.
+a file or a folder, gave nothing, and where a result could not be written, as on a full disk.
 """
 
 from __future__ import annotations
@@ -47,6 +47,7 @@ class Batch:
     def __init__(self, given: list[Path], *, recursive: bool = False, quiet: bool = False):
         self._quiet = quiet
         self._missing = set(given)
+        self._unwritten = False
         self._messages: list[tuple[Callable[[str], None], str]] = []
         self._at = 0
         self._given_as: dict[Path, set[Path]] = {}
@@ -97,7 +98,9 @@ class Batch:
         try:
             yield
         except KinemeError as error:
-            say = say_error if self._is_named(path) else say_skipped
+            unwritten = isinstance(error, WriteError)  # not the fault of the recording
+            self._unwritten |= unwritten
+            say = say_error if unwritten or self._is_named(path) else say_skipped
             self._messages.append((say, one_line(error, subject=path)))
         else:
             self._missing -= self._given_as[absolute(path)]
@@ -108,10 +111,13 @@ class Batch:
         return progress(f"{path.name}{turn}", quiet=self._quiet)
 
     def exit(self) -> None:
-        """Say what was left out and why; end with code 1 if something named gave nothing."""
+        """Say what was left out and why.
+
+        End with code 1 if something named gave nothing, or a result could not be written.
+        """
         for say, text in self._messages:
             say(text)
-        if self._missing:
+        if self._missing or self._unwritten:
             raise typer.Exit(1)
 
     def _recordings_in(self, folder: Path, *, recursive: bool) -> list[Path]:

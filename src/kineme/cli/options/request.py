@@ -104,7 +104,8 @@ class Request:
             return self.segment(recording, stage)[0]
         from kineme.labels import read_segments
 
-        return read_segments(table, fps=recording.fps, n_frames=recording.n_frames)
+        clock = recording.provenance.clock
+        return read_segments(table, fps=recording.fps, n_frames=recording.n_frames, clock=clock)
 
     def drawn(self, recording: Motion | Signals) -> Motion | Signals:
         """The recording as a page compares its frames: muscles by their envelopes."""

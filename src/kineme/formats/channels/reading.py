@@ -49,4 +49,4 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
     timing = table.timed(content, fps)
     values, gaps, filled = without_gaps(content, table.values, timing, table.names)
     provenance = content.provenance(name, [*table.notes, *timing.notes, *filled])
-    return Signals(values, timing.fps, table.names, gaps, provenance)
+    return Signals(values, timing.fps, table.names, gaps, provenance.timed(timing.clock))

@@ -52,7 +52,8 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     unit = options.unit or unit_named(head.get("Units", ""))
     points = Points(names, positions, timing.fps, unit, options.up, person=options.person)
     notes = [*timing.notes, *([COMMAS] if comma else [])]
-    return split_at(to_motion(points, content.provenance("TRC", notes)), timing.gaps)
+    provenance = content.provenance("TRC", notes).timed(timing.clock)
+    return split_at(to_motion(points, provenance), timing.gaps)
 
 
 def write_trc(motion: Motion, path: Path) -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -140,7 +140,8 @@ def read_landmarks(table: PoseTable, options: ReadOptions) -> Motion:
         frames=frames.tolist(),
         notes=clock.notes,
     )
-    return split_at(motion, clock.gaps)
+    timed_motion = replace(motion, provenance=motion.provenance.timed(clock.clock))
+    return split_at(timed_motion, clock.gaps)
 
 
 def read_long(table: PoseTable, options: ReadOptions) -> Motion:

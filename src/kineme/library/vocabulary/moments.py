@@ -78,7 +78,9 @@ def clusters_of_moments(
 
     numbers = sorted({place.recording for place in places})
     step = -(-sum(pieces[number].facts["moments"] for number in numbers) // SAMPLE)
-    sample = np.concatenate([read_moments(folder, keys[number], step) for number in numbers])
+    # By the digests of their contents: clusters are the same whatever the files are called.
+    drawn = sorted(numbers, key=lambda number: keys[number])
+    sample = np.concatenate([read_moments(folder, keys[number], step) for number in drawn])
     units = Units.of(*_parted(sample))
     points = units.features(*_parted(sample))
     centres = centres_of(points, likely_number(points))
@@ -130,7 +132,8 @@ def _taken(distances: Floats, seconds: Floats) -> Joined:
     """The nearest cluster of each word, those of most seconds first; others there are not."""
     taken = np.unique(distances.argmin(axis=1))
     distances = distances[:, taken]
-    order = np.argsort(-np.bincount(distances.argmin(axis=1), seconds), kind="stable")
+    lasts = np.round(np.bincount(distances.argmin(axis=1), seconds), 6)
+    order = np.argsort(-lasts, kind="stable")
     distances = distances[:, order]
     labels, words = distances.argmin(axis=1), np.arange(len(distances))
     spread = distances[words, labels]

@@ -17,8 +17,9 @@ class MessageResponse(JSONResponse):
 
 
 def file_response(name: str, content: bytes) -> Response:
-    """A file to keep."""
-    headers = {"content-disposition": f"attachment; filename*=UTF-8''{quote(name, safe='')}"}
+    """A file to keep; what is not Unicode in its name becomes "?"."""
+    called = quote(name.encode(errors="replace"), safe="")
+    headers = {"content-disposition": f"attachment; filename*=UTF-8''{called}"}
     return Response(content, headers=headers, media_type="application/octet-stream")
 
 

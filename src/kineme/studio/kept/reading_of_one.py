@@ -12,7 +12,7 @@ from typing import Any
 
 from kineme.errors import KinemeError
 from kineme.formats import ReadOptions
-from kineme.studio.kept.records import FOLDER, write_file
+from kineme.studio.kept.records import FOLDER, keep
 
 ASKED = ("person", "fps", "unit", "up")
 """Of the options, those that the page asks for."""
@@ -44,9 +44,7 @@ def keep_options(recording: Path, said: dict[str, Any]) -> None:
     """
     known = {name: value for name, value in said.items() if name in ASKED and value}
     ReadOptions(**known)
-    place = _place(recording)
-    place.parent.mkdir(exist_ok=True)
-    write_file(place, json.dumps(known).encode())
+    keep(_place(recording), json.dumps(known).encode())
 
 
 def _place(recording: Path) -> Path:

@@ -8,6 +8,7 @@ from pathlib import Path
 import msgspec
 
 from kineme._files import atomic_write
+from kineme.errors import WriteError
 from kineme.segments.history import History
 from kineme.web.edits import Edit
 
@@ -74,6 +75,24 @@ def write_file(path: Path, content: bytes) -> None:
     """Have a file on the disk: whole or not at all."""
     with atomic_write(path) as draft:
         draft.write_bytes(content)
+
+
+def keep(path: Path, content: bytes) -> None:
+    """Have a file in a ``.kineme`` on the disk, which is made if need be.
+
+    Raises
+    ------
+    WriteError
+        It cannot be made, written, or is a link to elsewhere.
+    """
+    home = path.parent
+    if home.is_symlink():
+        raise WriteError(home, "is a link, which could lead out of the folder: remove it")
+    try:
+        home.mkdir(exist_ok=True)
+    except OSError as error:
+        raise WriteError(home, f"cannot be made: {error.strerror or error}") from error
+    write_file(path, content)
 
 
 def pruned(record: Record) -> Record:

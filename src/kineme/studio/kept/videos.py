@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from kineme.studio.kept.records import FOLDER, write_file
+from kineme.studio.kept.records import FOLDER, keep
 from kineme.web.messages import Video
 
 SUFFIXES = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
@@ -40,9 +40,7 @@ def video_message(recording: Path) -> Video | None:
 
 def set_offset(recording: Path, seconds: float) -> None:
     """Keep the offset of the video."""
-    place = _place(recording)
-    place.parent.mkdir(exist_ok=True)
-    write_file(place, json.dumps({"offset_s": seconds}).encode())
+    keep(_place(recording), json.dumps({"offset_s": seconds}).encode())
 
 
 def _place(recording: Path) -> Path:

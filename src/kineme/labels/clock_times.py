@@ -1,0 +1,96 @@
+"""Labels whose seconds are those of a clock, as seconds of the recording.
+
+A recording that pauses has fewer seconds than its clock, and one that begins at half past nine
+has none of those that its clock shows. People label by the clock: of the time column, of the day,
+since 1970. Where more of the labels' time meets the recording if they are counted from its first
+frame, pauses included, or if they count frames as the package's own tables do, they are taken so,
+and a note says it. Labels that meet nothing are left out by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme._clock import Clock
+from kineme.labels.spans import Labels, Span
+
+Floats = NDArray[np.float64]
+
+NAMED = 4
+"""Labels that a note names before it only counts."""
+
+
+def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
+    """The labels in seconds of the recording, and notes on how they were taken.
+
+    Parameters
+    ----------
+    labels : Labels
+        Those that count frames stay as they are.
+    clock : Clock or None
+        Of the recording; None where its seconds are those of its frames.
+    length_s : float
+        Of the recording: frames over the rate.
+
+    Returns
+    -------
+    Labels
+
+    Examples
+    --------
+    >>> labels = Labels([Span(50, 60, "walk"), Span(100, 130, "rest"), Span(660, 700, "run")])
+    >>> found = by_clock(labels, Clock([0, 60], [0, 660]), length_s=120)
+    >>> [span[:3] for span in found.spans]
+    [(50.0, 60.0, 'walk'), (60.0, 100.0, 'run')]
+    >>> found.notes
+    ("meeting no frame, left out: 'rest' 100 to 130 s",)
+    """
+    if clock is None or labels.unit != "seconds" or not labels.spans:
+        return labels
+    given = np.array([span[:2] for span in labels.spans], np.float64)
+    seconds, said = _taken(given, clock, length_s)
+    begin, end = np.maximum(seconds[:, 0], 0.0), seconds[:, 1]
+    backward = given[:, 1] < given[:, 0]
+    meets = backward | ((begin < np.minimum(end, length_s)) & (end > 0))
+    met = [
+        span._replace(start=float(a), stop=float(b))
+        for span, a, b in zip(labels.spans, begin, end, strict=True)
+    ]
+    lost = [span for span, kept in zip(labels.spans, meets, strict=True) if not kept]
+    notes = (*labels.notes, *lost_labels(lost, "s"))
+    spans = [span for span, kept in zip(met, meets, strict=True) if kept]
+    remarks = (*labels.remarks, *said)
+    return replace(labels, spans=spans, length=None, notes=notes, remarks=remarks)
+
+
+def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
+    """A note that names the labels which no frame has; none where there are none."""
+    if not spans:
+        return ()
+    named = [f"{span.text!r:.60} {span.start:.10g} to {span.stop:.10g} {unit}" for span in spans]
+    more = f" and {len(spans) - NAMED} more" if len(spans) > NAMED else ""
+    return (f"meeting no frame, left out: {', '.join(named[:NAMED])}{more}",)
+
+
+def _taken(given: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
+    """The seconds that starts and stops stand for, and a note unless they are the clock's own."""
+    ways: tuple[tuple[Callable[[ArrayLike], Floats], tuple[str, ...]], ...] = (
+        (clock.second, ()),
+        (
+            clock.since_first().second,
+            (f"times counted from the first frame, at which the clock shows {clock.shown(0.0)}",),
+        ),
+        (np.asarray, ("times taken as frames over the rate, without pauses",)),
+    )
+    taken = [(way(given), note) for way, note in ways]
+    return max(taken, key=lambda one: _met(one[0], length_s))
+
+
+def _met(seconds: Floats, length_s: float) -> float:
+    """Seconds of the recording that labels meet, to the millisecond."""
+    inside = np.clip(seconds, 0.0, length_s)
+    return round(float(np.maximum(inside[:, 1] - inside[:, 0], 0.0).sum()), 3)

@@ -1,0 +1,166 @@
+"""Labels by the clock of a recording that pauses or begins at some time of the day."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kineme
+from kineme._clock import Clock
+from kineme.errors import KinemeWarning, ParameterError, ReadError
+from kineme.labels.clock_times import by_clock
+from kineme.labels.collections import LabelSource, labels_of
+from kineme.labels.spans import Labels, Span
+
+FPS = 30.0
+PAUSE_S, BEGUN = 600.0, 1_769_851_800.25  # 2026-01-31T09:30:00.25Z
+
+
+def times_with_a_pause() -> np.ndarray:
+    """40 s, ten minutes of nothing, and 40 s more."""
+    seconds = np.arange(2400) / FPS
+    return seconds + PAUSE_S * (seconds >= 40)
+
+
+def recording(path: Path, times, head: str = "time_s") -> Path:
+    seconds = np.arange(len(times)) / FPS
+    rows = zip(times, np.sin(5 * seconds), np.cos(3 * seconds), strict=True)
+    lines = [f"{time},{x:.5f},{y:.5f}" for time, x, y in rows]
+    path.write_text("\n".join([f"{head},gyro_x,gyro_y", *lines]))
+    return path
+
+
+def truth(home: Path, rows: str, path: Path):
+    (home / "labels.csv").write_text(f"recording,start_s,stop_s,label\n{rows}")
+    read = kineme.read(path)
+    source = labels_of([path], home / "labels.csv")[path]
+    return source.of(n_frames=read.n_frames, fps=read.fps, clock=read.provenance.clock)
+
+
+def placed(found) -> list[tuple[str, int, int]]:
+    return [(row.label, row.start_frame, row.stop_frame) for row in found.activities if row.label]
+
+
+EVERYTHING = [("a", 0, 600), ("b", 600, 1200), ("c", 1200, 1500), ("d", 1500, 2400)]
+
+
+@pytest.mark.parametrize(
+    ("head", "start", "told"),
+    [
+        ("time_s", 0.0, str),
+        ("time_s", 12.5, str),
+        ("timestamp", BEGUN, str),
+        ("timestamp", BEGUN, lambda t: str(np.datetime64(round(t * 1000), "ms"))),
+        ("time", 9.5 * 3600, lambda t: str(np.datetime64(round(t * 1000), "ms"))[11:]),
+    ],
+)
+def test_labels_behind_a_pause_are_where_the_clock_says(tmp_path, head, start, told) -> None:
+    times = times_with_a_pause() + start
+    path = recording(tmp_path / "walk.csv", [*map(told, times.tolist())], head)
+    rows = [("a", 0, 20), ("b", 20, 40), ("c", 640, 650), ("d", 650, 680)]
+    lines = [f"walk,{told(a + start)},{told(b + start)},{name}" for name, a, b in rows]
+    assert placed(truth(tmp_path, "\n".join(lines), path)) == EVERYTHING
+
+
+def test_labels_counted_from_the_first_frame_are_known_by_what_they_meet(tmp_path) -> None:
+    path = recording(tmp_path / "walk.csv", times_with_a_pause() + BEGUN, "timestamp")
+    found = truth(tmp_path, "walk,0,20,a\nwalk,20,40,b\nwalk,640,650,c\nwalk,650,680,d", path)
+    assert placed(found) == EVERYTHING
+    assert any("counted from the first frame" in note for note in found.provenance["notes"])
+
+
+def test_what_the_package_wrote_itself_counts_frames_and_is_found_again(tmp_path) -> None:
+    path = recording(tmp_path / "walk.csv", times_with_a_pause())
+    found = truth(tmp_path, "walk,0,20,a\nwalk,20,40,b\nwalk,40,50,c\nwalk,50,80,d", path)
+    assert placed(found) == EVERYTHING
+
+
+def test_labels_that_meet_nothing_are_named(tmp_path) -> None:
+    path = recording(tmp_path / "walk.csv", times_with_a_pause())
+    rows = "walk,0,20,a\nwalk,100,130,rest\nwalk,640,680,c\nwalk,700,710,after"
+    found = truth(tmp_path, rows, path)
+    assert placed(found) == [("a", 0, 600), ("c", 1200, 2400)]
+    (note,) = found.provenance["notes"]
+    assert note == "meeting no frame, left out: 'rest' 100 to 130 s, 'after' 700 to 710 s"
+    with pytest.raises(ReadError, match="has no labels of this recording .*'b' 9000 to 9001 s"):
+        truth(tmp_path, "walk,9000,9001,b", path)
+
+
+def test_they_are_named_where_there_is_no_clock_too() -> None:
+    source = LabelSource(Path("a.csv"), Labels([Span(0, 2, "walk"), Span(9, 12, "run")]))
+    found = source.of(n_frames=60, fps=20)
+    assert found.provenance["notes"] == ["meeting no frame, left out: 'run' 9 to 12 s"]
+
+
+def test_a_pause_costs_a_folder_no_label(tmp_path) -> None:
+    from kineme.evaluation.folder import evaluate_folder
+
+    (tmp_path / "r").mkdir()
+    even = recording(tmp_path / "r" / "even.csv", np.arange(2400) / FPS)
+    paused = recording(tmp_path / "r" / "paused.csv", times_with_a_pause())
+    rows = [
+        *(f"even,{a},{a + 10},{'xy'[a // 10 % 2]}" for a in range(0, 80, 10)),
+        *(
+            f"paused,{a + 600 * (a >= 40)},{a + 10 + 600 * (a >= 40)},{'xy'[a // 10 % 2]}"
+            for a in range(0, 80, 10)
+        ),
+    ]
+    (tmp_path / "labels.csv").write_text("\n".join(["recording,start_s,stop_s,label", *rows]))
+    sources = labels_of([even, paused], tmp_path / "labels.csv")
+    one, other = evaluate_folder(sources, ["uniform"], processes=1).methods["uniform"]
+    assert not one.error + other.error
+    assert other.notes == ()
+    assert one.results["mof"].whole == other.results["mof"].whole == 2400  # none is cut off
+
+
+def test_one_result_and_its_table_have_the_clock(tmp_path) -> None:
+    from kineme.evaluation.inputs import read_truth
+
+    path = recording(tmp_path / "walk.csv", times_with_a_pause() + BEGUN, "timestamp")
+    kineme.write_segments(kineme.segment(kineme.read(path)), tmp_path / "found.csv")
+    found = kineme.read_segments(tmp_path / "found.csv")
+    lines = (tmp_path / "found.csv").read_text().splitlines()
+    assert lines[0].endswith("start_time")
+    assert lines[1].endswith("2026-01-31T09:30:00.250+00:00")
+    (tmp_path / "labels.csv").write_text(
+        f"start_s,stop_s,label\n{BEGUN},{BEGUN + 40},a\n{BEGUN + 100},{BEGUN + 101},rest\n"
+        f"{BEGUN + 640},{BEGUN + 680},b\n"
+    )
+    with pytest.warns(KinemeWarning, match="meeting no frame, left out: 'rest'"):
+        annotation = read_truth(tmp_path / "labels.csv", found)
+    assert (annotation.labels, annotation.mean.tolist()) == (("a", "b"), [1200])
+
+
+def test_the_column_is_in_data_frames_where_there_is_a_clock(tmp_path) -> None:
+    pytest.importorskip("pandas")
+    late = kineme.read(recording(tmp_path / "late.csv", np.arange(900) / FPS + 12.5))
+    frame = kineme.segment(late).to_dataframe()
+    assert frame.start_time.astype(float).tolist() == pytest.approx((frame.start_s + 12.5).tolist())
+    even = kineme.read(recording(tmp_path / "even.csv", np.arange(900) / FPS))
+    assert "start_time" not in kineme.segment(even).to_dataframe().columns
+
+
+def test_a_slice_keeps_the_time_of_its_frames(tmp_path) -> None:
+    read = kineme.read(recording(tmp_path / "walk.csv", times_with_a_pause()))
+    clock = read[1500:].provenance.clock
+    assert clock.time([0.0, 1.0]).tolist() == pytest.approx([650.0, 651.0])
+    across = read[900:].provenance.clock
+    assert across.time([0.0, 10.0]).tolist() == pytest.approx([30.0, 640.0], abs=0.05)
+
+
+def test_where_the_clock_is_set_back_the_first_of_two_is_meant() -> None:
+    clock = Clock([0.0, 100.0], [0.0, 50.0])
+    assert clock.second([40.0, 70.0, 120.0]).tolist() == [40.0, 70.0, 170.0]
+    labels = Labels([Span(60, 90, "walk"), Span(110, 120, "run")])
+    assert [span[:2] for span in by_clock(labels, clock, length_s=200).spans] == [
+        (60, 90), (160, 170),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("said", [{}, {"seconds": [0], "times": []}, {"seconds": [1], "times": [1]},
+                                  {"seconds": ["a"], "times": ["b"]}, [1], 3])  # fmt: skip
+def test_a_clock_that_is_none_is_refused(said) -> None:
+    with pytest.raises(ParameterError, match="clock"):
+        Clock.from_json(said)

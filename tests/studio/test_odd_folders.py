@@ -1,0 +1,81 @@
+"""Folders as they are: closed to writing, with damaged tables, with names that are not UTF-8."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+from starlette.testclient import TestClient
+from studio_clients import Studio
+
+from kineme.studio.folder import file_id
+from kineme.studio.kept import videos
+
+ODD = os.fsdecode(b"w\xe9")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="where names of files are any bytes")
+def test_a_name_that_is_not_utf8_is_shown_and_downloaded(make_studio, folder: Path) -> None:
+    (folder / "take.bvh").rename(folder / f"{ODD}.bvh")
+    shutil.copy(Path(__file__).parents[1] / "browser" / "clock.webm", folder / f"{ODD}.webm")
+    client: TestClient = make_studio().client
+    one = f"/api/recordings/{file_id(folder / f'{ODD}.bvh')}"
+    formats = [each["name"] for each in client.get("/api/state").json()["export_formats"]]
+    asked = [f"export/{name}" for name in (*formats, "motions", "report")]
+    for address in ("", *(f"/{each}" for each in (*asked, "video", "people", "versions"))):
+        answer = client.get(f"{one}{address}")
+        assert answer.status_code == 200, (address, answer.text)
+    for address, sent in (
+        ("video", {"offset_s": 1.5}),
+        ("reading", {"fps": 30}),
+        ("clips", {"rows": [0], "loops": False}),
+    ):
+        answer = client.post(f"{one}/{address}", json=sent)
+        assert answer.status_code == 200, (address, answer.text)
+    told = client.get(f"{one}/export/json").headers["content-disposition"]
+    assert told == "attachment; filename*=UTF-8''w_.json"
+
+
+def test_a_folder_that_nothing_can_be_written_to_is_said(studio: Studio, folder: Path) -> None:
+    (folder / ".kineme").write_text("a file where a folder should be")  # for root may write all
+    one = f"/api/recordings/{studio.id}"
+    assert studio.get(one).status_code == 200
+    for address, sent in (
+        (f"{one}/video", {"offset_s": 1.5}),
+        (f"{one}/reading", {"fps": 30}),
+        ("/api/labels", {"labels": ["walk"]}),
+    ):
+        answer = studio.client.post(address, json=sent)
+        assert "cannot be made" in answer.json()["error"], address
+    assert videos.offset_of(folder / "take.bvh") == 0.0
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda text: text[:200],
+        lambda text: "[" * 100_000,
+        lambda text: text.replace(
+            '"provenance": {', '"provenance": {"checked": [["activity", [1], 2]],'
+        ),
+        lambda text: text.replace('"provenance": {', '"provenance": {"checked": 5,'),
+        lambda text: text.replace('"stop_frame": 240', '"stop_frame": "x"'),
+        lambda text: text.replace('"cluster": ', '"cluster": 1e400, "x": '),
+    ],
+)
+def test_a_damaged_table_costs_itself_only(make_studio, folder: Path, damage) -> None:
+    shutil.copy(folder / "take.bvh", folder / "other.bvh")
+    first = make_studio()
+    saved = first.get(f"/api/recordings/{first.id}/export/json").text
+    assert json.loads(saved)
+    (folder / "other.segments.json").write_text(saved)
+    (folder / "take.segments.json").write_text(damage(saved))
+    listed = make_studio().get("/api/state")
+    assert listed.status_code == 200, listed.text
+    counted = {each["name"]: each["segments"] for each in listed.json()["recordings"]}
+    assert counted["other.bvh"] > 0
+    assert set(counted) == {"take.bvh", "other.bvh"}
