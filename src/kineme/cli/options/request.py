@@ -102,9 +102,10 @@ class Request:
         """The segments in a table or label file; without one those that are found."""
         if table is None:
             return self.segment(recording, stage)[0]
-        from kineme.labels import read_segments
+        from kineme.labels.collections import labels_for
 
-        return read_segments(table, fps=recording.fps, n_frames=recording.n_frames)
+        path = Path(recording.provenance.path or "")
+        return labels_for(path, table, n_frames=recording.n_frames, fps=recording.fps)
 
     def drawn(self, recording: Motion | Signals) -> Motion | Signals:
         """The recording as a page compares its frames: muscles by their envelopes."""
