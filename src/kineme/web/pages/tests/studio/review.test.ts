@@ -84,6 +84,9 @@ it("orders and filters the table", () => {
   expect(starts(table, EVERYTHING, "sure", false)).toEqual([10, 30, 0, 40]);
   expect(starts(table, { ...EVERYTHING, text: "Hop" }, "start", false)).toEqual([10]);
   expect(starts(table, { ...EVERYTHING, text: "cluster 1" }, "start", false)).toEqual([30]);
+  const tens = tableOf([10, 1, 15].map((cluster, i) => segment(i, i + 1, { cluster })));
+  expect(starts(tens, { ...EVERYTHING, text: "Cluster 1" }, "start", false)).toEqual([1]);
+  expect(starts(tens, { ...EVERYTHING, text: "cluster" }, "start", false)).toEqual([0, 1, 2]);
   expect(starts(table, { ...EVERYTHING, kind: "transition" }, "start", false)).toEqual([40]);
   expect(starts(table, { ...EVERYTHING, shortest: 1.5 }, "start", false)).toEqual([10]);
   expect(starts(table, { ...EVERYTHING, sureBelow: 0.5 }, "start", false)).toEqual([10, 30]);

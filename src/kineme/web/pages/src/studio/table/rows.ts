@@ -81,16 +81,21 @@ function passes({ segment, checked, sureness }: Row, filter: Filter): boolean {
     (!level || segment.level === level) &&
     (!kind || segment.kind === kind) &&
     (!filter.checked || checked === (filter.checked === "yes")) &&
-    nameWithCluster(segment).includes(text.trim().toLowerCase()) &&
+    isCalled(segment, text.trim().toLowerCase()) &&
     duration >= shortest &&
     duration <= longest &&
     (sureBelow === Infinity || (sureness.sure ?? Infinity) < sureBelow)
   );
 }
 
-function nameWithCluster(segment: Segment): string {
-  const cluster = segment.cluster >= 0 ? ` cluster ${segment.cluster}` : "";
-  return `${nameOf(segment)}${cluster}`.toLowerCase();
+/** "cluster 1" is that cluster alone, not 10 to 19 as well; any other text is part of a name. */
+function isCalled(segment: Segment, text: string): boolean {
+  const number = /^cluster (\d+)$/.exec(text)?.[1];
+  if (number !== undefined && segment.cluster === Number(number)) return true;
+  const cluster = segment.cluster >= 0 && number === undefined ? ` cluster ${segment.cluster}` : "";
+  return `${number === undefined ? nameOf(segment) : segment.label}${cluster}`
+    .toLowerCase()
+    .includes(text);
 }
 
 const inTime = (a: Segment, b: Segment): number => a.start_frame - b.start_frame || byLevel(a, b);
