@@ -16,6 +16,9 @@ ON_TOP = """button => {
     return document.elementFromPoint(left + width / 2, top + height / 2) === button;
 }"""
 
+ASKED = """id => performance.getEntriesByType("resource").filter(
+    ({ name }) => name.includes(`${id}/curves/`)).length"""
+
 
 @pytest.mark.parametrize("size", [(1600, 1000), (1366, 768)])
 def test_what_makes_a_preview_the_table_is_in_sight(page, size):
@@ -108,19 +111,12 @@ def test_channels_of_the_recording_before_are_not_asked_for(new_tab, server):
     page = new_tab(server.address_of(paths[0]))
     screen = Screen(page)
     screen.wait("k?.n_segments > 0 && !k.finding")
-    page.locator(".channels canvas").wait_for()
-    asked: list[str] = []
-    page.on("request", lambda request: asked.append(request.url))
-    known = -1
-    while known != len(asked):  # until its own channels have come
-        known = len(asked)
-        page.wait_for_timeout(2000)
-    asked.clear()
+    ids = [file_id(path) for path in paths]
+    screen.wait(f"({ASKED})('{ids[0]}') === 12")  # of each channel its outline, and its values
     page.keyboard.press("PageDown")
-    screen.wait(f"k.name === '{paths[1].name}'")
-    page.wait_for_timeout(1500)
-    assert [url for url in asked if file_id(paths[0]) in url] == []
-    assert sum(file_id(paths[1]) in url and "curves" in url for url in asked) > 6
+    screen.wait(f"k.name === '{paths[1].name}' && ({ASKED})('{ids[1]}') >= 12")
+    page.wait_for_timeout(500)
+    assert page.evaluate(ASKED, ids[0]) == 12
 
 
 def test_a_label_file_that_comes_is_offered_at_once(page, take):
