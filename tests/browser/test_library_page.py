@@ -36,7 +36,6 @@ def test_a_cluster_is_named_more_of_it_found_and_what_is_wrong_refused(new_tab, 
         page.locator(".hit .figure[data-drawn=true]").first.wait_for()
         assert Library(library).numbers("walk") == [0]
         before = listed(page)
-        page.locator(".hit").first.focus()
         page.keyboard.press("y")  # the next card is in front afterwards
         page.keyboard.press("n")
         page.get_by_text("1 confirmed, 1 refused").wait_for()

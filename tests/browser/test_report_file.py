@@ -19,6 +19,17 @@ MEAN_RED = """() => {
     dispatchEvent(new Event("afterprint"));
     return data.reduce((sum, value, i) => sum + (i % 4 ? 0 : value), 0) / (data.length / 4);
 }"""
+PRINTED_FIGURE = """async () => {
+    dispatchEvent(new Event("beforeprint"));
+    const figure = document.querySelector("img.on-paper");
+    await figure.decode();
+    const pen = new OffscreenCanvas(figure.width, figure.height).getContext("2d");
+    pen.drawImage(figure, 0, 0, figure.width, figure.height);
+    dispatchEvent(new Event("afterprint"));
+    const { data } = pen.getImageData(0, 0, figure.width, figure.height);
+    const seen = [...data].filter((_, i) => i % 4 < 3);
+    return [seen.reduce((sum, value) => sum + value, 0) / seen.length, new Set(seen).size];
+}"""
 NASTY = "</script><img src=x onerror=alert(1)><b>squat</b>"
 
 
@@ -64,6 +75,20 @@ def test_it_plays_without_a_network(chromium, segments, tmp_path: Path) -> None:
     assert shown["n_segments"] == len(segments)
     assert all(before[place] != after[place] for place in before)
     assert printed > 200  # light, though the screen is dark
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_printed_figure_is_the_one_on_the_screen(chromium, segments, tmp_path, scheme) -> None:
+    path = tmp_path / "report.html"
+    write_report(kineme.read(bundled_recording()), segments, path)
+    page = chromium.new_page(color_scheme=scheme)
+    page.goto(path.as_uri())
+    Screen(page).opened()
+    page.wait_for_timeout(1500)  # the picture rests: what it was drawn into is gone
+    mean, shades = page.evaluate(PRINTED_FIGURE)
+    page.close()
+    assert mean > 150  # light, as paper is
+    assert shades > 30
 
 
 def test_signals_have_no_figure_but_lanes_and_matrix(chromium, tmp_path: Path) -> None:

@@ -70,6 +70,17 @@ def test_all_members_of_a_cluster_play_in_step(page):
     assert screen.pixels()["figure"] != alone
 
 
+def test_the_mean_of_two_walks_is_of_one_phase(page):
+    """The bundled recording has two, the second cut a sixth of a double step later."""
+    screen = Screen(page)
+    walks = [row for row in screen.lane("primitive") if row["cluster"] == 0]
+    later = sum(row["activity"] != walks[0]["activity"] for row in walks)
+    page.get_by_role("tab", name="Clusters").click()
+    note = page.locator(".curves .note").inner_text()
+    assert f"{len(walks)} members, mean ± deviation" in note
+    assert f"{later} cut at another phase of the cycle, turned to that of the others" in note
+
+
 def test_two_recordings_stand_side_by_side(new_tab, server, take):
     second = Path(shutil.copy(take, take.with_stem(f"{take.stem}_too")))
     page = new_tab(server.address_of(take))

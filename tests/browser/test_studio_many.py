@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -46,7 +47,7 @@ def test_the_queue_shows_the_least_sure_first_and_a_new_segmentation_leaves_what
     screen.wait("k.selected")
 
     shown = page.locator(".doubts .number:last-child").all_inner_texts()
-    known = [float(text) for text in shown if text != "–"]
+    known = [int(text.removesuffix(" %")) for text in shown if text != "–"]
     assert len(known) > 5
     assert known == sorted(known)
     assert page.locator(".doubts li").first.locator("[aria-current=true]").count() == 1
@@ -63,6 +64,22 @@ def test_the_queue_shows_the_least_sure_first_and_a_new_segmentation_leaves_what
     spans = [(r["level"], r["start_frame"], r["stop_frame"]) for r in screen.state["segments"]]
     assert span in spans
     assert marked(saved_table(take), "checked") == {span}
+
+
+def test_a_segment_is_as_sure_in_the_queue_as_in_its_panel_and_in_the_table(page):
+    page.locator("#tab-review").click()
+    page.keyboard.press("j")
+    Screen(page).wait("k.selected")
+    sure = page.locator(".doubts [aria-current=true] .number:last-child").inner_text()
+    assert re.findall(r"\d+ %", page.locator(".why").inner_text()) == [sure]
+    page.locator("#tab-segment").click()
+    panel = page.locator(".segment-panel").inner_text()
+    assert re.findall(r"\d+ %|score", panel) == [sure]
+    page.locator("#tab-table").click()
+    chosen = page.locator(".table-rows [aria-selected=true]")
+    assert chosen.locator("[role=gridcell]").last.inner_text() == sure
+    page.get_by_label("Less sure than").fill(str(int(sure[:-2]) / 100 - 0.01))
+    page.get_by_text("0 segments").wait_for()
 
 
 def test_the_next_recording_opens_at_its_start_and_its_status_is_shown(new_tab, server, take):

@@ -63,6 +63,14 @@ def test_activity_labels_of_another_program_suffice(kineme, tmp_path, recording)
     assert set(KnowledgeBase.load(tmp_path / "new.npz").counts()) == names
 
 
+def test_of_labels_of_many_recordings_its_own_are_taken(kineme, tmp_path, recording) -> None:
+    rows = "recording,start_s,stop_s,label\nother,0,99,run\nexercises,0,20,walk\n"
+    (tmp_path / "labels.csv").write_text(rows)
+    done = kineme("label", recording, "--labels", "labels.csv", "--knowledge", "new.npz", "-q")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert set(KnowledgeBase.load(tmp_path / "new.npz").counts()) == {"walk"}
+
+
 def test_json_holds_costs_and_options(kineme, recording, taught) -> None:
     options = ("--threshold", 0.05, "--spread", "--json")
     done = kineme("transfer", recording, "--knowledge", taught, "--knowledge", taught, *options)

@@ -442,6 +442,27 @@ def test_the_labels_of_another_program_become_the_table(studio, folder: Path) ->
     assert studio.edit(taken["revision"], "take_labels", annotation="x").status_code == 404
 
 
+@pytest.mark.parametrize("name", ["take", "take.bvh"])
+def test_of_a_table_of_many_recordings_its_own_rows_are_taken(studio, folder: Path, name) -> None:
+    rows = f"run,0,90,run\n{name},0,2,walk\n{name},2,4,hop\n"
+    (folder / "labels.csv").write_text(f"recording,start_s,stop_s,label\n{rows}")
+    chosen = studio.get("/api/state").json()["annotations"][0]["id"]
+    sent = {"annotation": chosen}
+    compared = studio.client.post(f"/api/recordings/{studio.id}/compare", json=sent).json()
+    taken = studio.done(studio.recording()["revision"], "take_labels", **sent)
+    for message in (compared, taken):
+        found = [row for row in message["segmentation"]["segments"] if row["level"] == "activity"]
+        assert [(row["start_frame"], row["label"]) for row in found] == [(0, "walk"), (120, "hop")]
+
+
+def test_a_table_of_other_recordings_is_refused_by_name(studio, folder: Path) -> None:
+    (folder / "labels.csv").write_text("recording,start_s,stop_s,label\nrun,0,2,a\njog,0,2,b\n")
+    chosen = studio.get("/api/state").json()["annotations"][0]["id"]
+    refused = studio.edit(studio.recording()["revision"], "take_labels", annotation=chosen)
+    assert refused.status_code == 400
+    assert "has no labels of 'take', but of 'run', 'jog'" in refused.json()["error"]
+
+
 def test_bulk_changes_are_one_step_and_say_how_many(studio) -> None:
     message = studio.recording()
     rows = [row for row in message["segmentation"]["segments"] if row["level"] == "primitive"]

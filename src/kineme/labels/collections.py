@@ -3,7 +3,7 @@
 A table has the columns ``recording``, ``start_s``, ``stop_s`` and ``label`` (or
 ``start_frame``, ``stop_frame``); a recording is named with or without its suffix. In a folder,
 the labels of ``walk.bvh`` are in a file called ``walk`` in any label format (``walk.eaf``,
-``walk.labels.csv``).
+``walk.labels.csv``). What either says of a single recording is read by `labels_for`.
 
 A frame has the label in whose span ``[start, stop)`` its time lies. Labels of public sets overlap
 here and there, run backwards or beyond the end: of two that overlap the one further down in the
@@ -23,8 +23,9 @@ from kineme._counts import counted
 from kineme.errors import ReadError
 from kineme.labels import csv_table
 from kineme.labels.clock_times import by_clock, lost_labels
-from kineme.labels.files import read_content
-from kineme.labels.registry import holds_labels
+from kineme.labels.files import read_content, read_segments
+from kineme.labels.heads import columns
+from kineme.labels.registry import format_to_read, holds_labels
 from kineme.labels.spans import Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
 
@@ -113,10 +114,46 @@ def labels_of(
     found = {path: source for path, source in pairs if source is not None}
     if not found:
         first = files[0].stem if files else "none"
-        raise ReadError(
-            labels, f"has no labels of any of the {len(files)} recordings, such as {first!r}"
-        )
+        whose = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
+        of = ", ".join(map(repr, named)) or "none"
+        raise ReadError(labels, f"has no labels of {whose}{first!r}, but of {of:.60}")
     return found
+
+
+def labels_for(
+    recording: Path,
+    labels: str | PathLike[str],
+    *,
+    n_frames: int,
+    fps: float,
+    clock: Clock | None = None,
+) -> Segmentation:
+    """What a label file says of a recording: its own rows, where others are in the table, too.
+
+    Parameters
+    ----------
+    recording : Path
+        Its file.
+    labels : path-like
+        A file of any label format, or a table with a column ``recording``.
+    n_frames, fps, clock : int, float and Clock
+        Of the recording.
+
+    Returns
+    -------
+    Segmentation
+        What no label covers is a transition.
+
+    Raises
+    ------
+    ReadError
+        The file cannot be understood, is of another length, or names other recordings only.
+    """
+    table = format_to_read(labels) is csv_table.FORMAT and "recording" in columns(Path(labels))
+    if not table:
+        return read_segments(labels, fps=fps, n_frames=n_frames, clock=clock)
+    (source,) = labels_of([recording], labels).values()
+    return source.of(n_frames=n_frames, fps=fps, clock=clock)
 
 
 def strays_of(recordings: Iterable[Path], labels: str | PathLike[str]) -> list[str]:

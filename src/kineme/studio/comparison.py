@@ -5,19 +5,21 @@ from __future__ import annotations
 from pathlib import Path
 
 from kineme.evaluation.inputs import agreement as scores_against
-from kineme.labels import read_segments
+from kineme.labels.collections import labels_for
 from kineme.segments.segmentation import Segmentation
 
 
-def annotation(path: Path, shown: Segmentation) -> tuple[Segmentation, dict[str, float]]:
-    """What a label file says about the recording shown, and how well the result agrees with it.
+def annotation(
+    path: Path, recording: Path, shown: Segmentation
+) -> tuple[Segmentation, dict[str, float]]:
+    """What a label file says about a recording, and how well the result shown agrees with it.
 
     Raises
     ------
     ReadError
-        It cannot be read or understood, or is of another length.
+        It cannot be read or understood, or is of another recording.
     """
-    other = read_segments(path, fps=shown.fps, n_frames=shown.n_frames, clock=shown.clock)
+    other = labels_for(recording, path, n_frames=shown.n_frames, fps=shown.fps, clock=shown.clock)
     return other, agreement(shown, other)
 
 

@@ -10,7 +10,7 @@ from typing import Protocol
 from msgspec import UNSET, Struct
 
 from kineme.errors import ParameterError
-from kineme.labels import read_segments
+from kineme.labels.collections import labels_for
 from kineme.segments import editing
 from kineme.segments.editing.marks import noted
 from kineme.segments.hierarchy import DEFAULT_DETAIL
@@ -113,7 +113,9 @@ def edited(
         return _labelled(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
     if isinstance(edit, sent.TakeLabels):
         path = files.annotation(edit.annotation)
-        said = read_segments(path, fps=table.fps, n_frames=table.n_frames, clock=table.clock)
+        said = labels_for(
+            loaded.path, path, n_frames=table.n_frames, fps=table.fps, clock=table.clock
+        )
         return Outcome(said, [f"the table is that of {path.name}"], replaced=True)
     if isinstance(edit, sent.Restore):
         return Outcome(version(edit.version), replaced=True)

@@ -185,7 +185,7 @@ class Api:
         elif sent.annotation is not UNSET and sent.preset is UNSET:
             path = self._recordings.annotation(sent.annotation)
             title = path.name
-            other, scores = comparison.annotation(path, shown)
+            other, scores = comparison.annotation(path, opened.path, shown)
         else:
             raise ParameterError("compare with a preset or with an annotation: name one of them")
         return Comparison(name=title, segmentation=segments_message(other), scores=scores)

@@ -102,10 +102,15 @@ class Request:
         """The segments in a table or label file; without one those that are found."""
         if table is None:
             return self.segment(recording, stage)[0]
-        from kineme.labels import read_segments
+        from kineme.labels.collections import labels_for
 
-        clock = recording.provenance.clock
-        return read_segments(table, fps=recording.fps, n_frames=recording.n_frames, clock=clock)
+        return labels_for(
+            Path(recording.provenance.path or ""),
+            table,
+            n_frames=recording.n_frames,
+            fps=recording.fps,
+            clock=recording.provenance.clock,
+        )
 
     def drawn(self, recording: Motion | Signals) -> Motion | Signals:
         """The recording as a page compares its frames: muscles by their envelopes."""

@@ -54,6 +54,7 @@ export function isForPlayer(event: KeyboardEvent): boolean {
   if (event.defaultPrevented || target?.closest("dialog[open]")) return false;
   if (!target || target === document.body) return true;
   if (isTyped(target)) return false;
+  if (event.altKey || event.ctrlKey || event.metaKey) return true; // these work no control
   return target === clicked || !keysOf(target).includes(event.key);
 }
 
@@ -71,6 +72,6 @@ function isTyped(element: HTMLElement): boolean {
 function keysOf(element: HTMLElement): readonly string[] {
   if (element instanceof HTMLSelectElement) return [...ARROWS, ...PRESSES];
   if (element instanceof HTMLInputElement) return element.type === "range" ? ARROWS : PRESSES;
-  if (element.closest("[role=tab]")) return [...ARROWS, ...PRESSES];
+  if (element.closest("[role=tab], [role=separator]")) return [...ARROWS, ...PRESSES];
   return element.closest("button, summary, a, label") ? PRESSES : [];
 }

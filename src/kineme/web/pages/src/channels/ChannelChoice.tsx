@@ -4,9 +4,15 @@ import type { JSX } from "preact";
 import type { CurveList } from "../messages";
 import { nameOf, rowsOf, toggle } from "./chosen";
 
-export function ChannelChoice({ list }: { list: CurveList }): JSX.Element {
+interface Props {
+  list: CurveList;
+  /** The joints shown before anybody chose. */
+  ends: readonly string[];
+}
+
+export function ChannelChoice({ list, ends }: Props): JSX.Element {
   const search = useSignal("");
-  const shown = new Set(rowsOf(list).map(({ curve }) => curve));
+  const shown = new Set(rowsOf(list, ends).map(({ curve }) => curve));
   const words = search.value.toLowerCase().split(/\s+/);
   const found = list.curves
     .map((head, curve) => ({ head, curve }))
@@ -33,7 +39,7 @@ export function ChannelChoice({ list }: { list: CurveList }): JSX.Element {
                   <input
                     type="checkbox"
                     checked={shown.has(curve)}
-                    onChange={() => toggle(list, head)}
+                    onChange={() => toggle(list, ends, head)}
                   />
                   {head.name}
                 </label>

@@ -1,5 +1,5 @@
 /** Curves and signals over time: under the timeline, or on the stage of a recording without a body. */
-import { useSignal } from "@preact/signals";
+import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import type { JSX } from "preact";
 import { useCalm } from "../canvas/calm";
@@ -10,7 +10,7 @@ import { Gestures } from "../timeline/gestures";
 import { GUTTER } from "../timeline/lanes";
 import { toPixel } from "../view";
 import { ChannelChoice } from "./ChannelChoice";
-import { rowsOf } from "./chosen";
+import { endsOf, rowsOf } from "./chosen";
 import { boxOf, drawChannels, type Row } from "./drawing";
 import { Pieces } from "./pieces";
 
@@ -22,7 +22,11 @@ interface Props {
 
 export function Channels({ store, ruler = false }: Props): JSX.Element | null {
   const data = store.active.value?.data;
-  const pieces = useSignal<Pieces | null>(null);
+  const came = useSignal<Pieces | null>(null);
+  // Those of the recording before are never asked for what is shown of this one.
+  const pieces = useComputed(() =>
+    came.value?.data === store.active.value?.data ? came.value : null,
+  );
   const gestures = useMemo(
     () =>
       new Gestures(
@@ -34,10 +38,9 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
   );
   useEffect(() => {
     let asked = true;
-    pieces.value = null;
     void data?.curves().then(
       (list) => {
-        if (asked && list) pieces.value = new Pieces(data, list);
+        if (asked && list) came.value = new Pieces(data, list);
       },
       () => undefined,
     );
@@ -45,7 +48,8 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
   }, [data]);
   const known = pieces.value;
   if (!known) return <div class="channels" aria-busy="true" />;
-  const rows = rowsOf(known.list);
+  const ends = endsOfShown(store);
+  const rows = rowsOf(known.list, ends);
   const names = rows.map(({ head }) => `${head.name} ${head.group}`).join(", ");
   return (
     <div class="channels">
@@ -55,7 +59,7 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
           label={`Curves over time: ${names}. Click to go there; use the wheel to zoom, drag to pan.`}
           watch={() =>
             void [
-              rowsOf(known.list),
+              rowsOf(known.list, endsOfShown(store)),
               known.arrived.value,
               store.range.value,
               store.primitives.value,
@@ -66,7 +70,9 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
           }
           draw={(pen, width, height) => {
             const now = pieces.value;
-            if (now) drawChannels(pen, rowsOf(now.list), now, store, { width, height, ruler });
+            if (!now) return;
+            const shown = rowsOf(now.list, endsOfShown(store));
+            drawChannels(pen, shown, now, store, { width, height, ruler });
           }}
           gestures={gestures}
         />
@@ -79,9 +85,14 @@ export function Channels({ store, ruler = false }: Props): JSX.Element | null {
         </div>
       )}
       <Values store={store} rows={rows} pieces={known} ruler={ruler} />
-      <ChannelChoice list={known.list} />
+      <ChannelChoice list={known.list} ends={ends} />
     </div>
   );
+}
+
+function endsOfShown(store: Store): string[] {
+  const head = store.recording.value?.motion;
+  return head ? endsOf(head) : [];
 }
 
 /** What each curve is at the playhead. */

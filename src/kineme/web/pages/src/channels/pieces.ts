@@ -11,7 +11,8 @@ export class Pieces {
   private readonly known = new Map<string, Float32Array | null>();
 
   constructor(
-    private readonly data: RecordingData,
+    /** Of the recording that these are the curves of. */
+    readonly data: RecordingData,
     readonly list: CurveList,
   ) {}
 

@@ -17,6 +17,7 @@ import {
   type Axis,
   type Track,
 } from "./curves";
+import { phasesOf } from "./phases";
 import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
 
 const MOST = 150; // curves drawn, and members that the mean is of
@@ -31,8 +32,9 @@ export function Curves({ store }: { store: Store }): JSX.Element {
   );
   const content = shown.value;
   if (!content) return <Missing store={store} />;
-  const { motion, track, members, color } = content;
+  const { motion, track, members, phases, color } = content;
   const all = store.shownCluster.value?.members.length ?? 0;
+  const turned = phases.filter((phase) => phase > 0).length;
   const plural = members.length === 1 && all <= 1 ? "member" : "members";
   const memberCount = `${members.length < all ? `${members.length} of ${all}` : members.length} ${plural}`;
   return (
@@ -82,9 +84,13 @@ export function Curves({ store }: { store: Store }): JSX.Element {
             if (nearest) store.select(nearest);
           }}
         />
-        <Now store={store} members={members} />
+        <Now store={store} members={members} phases={phases} />
       </div>
-      <p class="quiet note">{memberCount}, mean ± deviation, seen from the pelvis</p>
+      <p class="quiet note">
+        {memberCount}, mean ± deviation, seen from the pelvis
+        {turned > 0 &&
+          `; ${turned} cut at another phase of the cycle, turned to that of the others`}
+      </p>
     </div>
   );
 }
@@ -96,11 +102,14 @@ function contentOf(store: Store, chosen: Partial<Track>) {
   const cluster = store.shownCluster.value ?? store.clusters.value[0];
   if (!motion || !cluster) return null;
   const members = someOf(cluster.members, MOST);
-  const track = { ...liveliest(motion, someOf(members, FEW)), ...chosen };
+  const phases = phasesOf(motion, members);
+  const some = someOf([...members.keys()], FEW);
+  const of = <T,>(all: readonly T[]): T[] => some.map((i) => all[i]!);
+  const track = { ...liveliest(motion, of(members), of(phases)), ...chosen };
   const points = pointsFor(motion, members);
-  const curves = members.map((member) => curveOf(motion, member, track, points));
+  const curves = members.map((member, i) => curveOf(motion, member, track, points, phases[i]));
   const color = clusterColor(cluster.id);
-  return { motion, track, members, curves, spread: spreadOf(curves), color };
+  return { motion, track, members, phases, curves, spread: spreadOf(curves), color };
 }
 
 /** The member under the playhead, else the selected one. */
@@ -113,10 +122,17 @@ function memberAt(store: Store, { members }: Content): number {
 }
 
 /** How far the present repetition is; apart from the canvas, so that playing redraws no curves. */
-function Now({ store, members }: { store: Store; members: readonly Segment[] }): JSX.Element {
+function Now(props: {
+  store: Store;
+  members: readonly Segment[];
+  phases: readonly number[];
+}): JSX.Element {
+  const { store, members, phases } = props;
   const at = store.playhead.value;
-  const present = members.find((each) => each.start_s <= at && at < each.stop_s);
-  const share = present ? (at - present.start_s) / (present.stop_s - present.start_s) : -1;
+  const number = members.findIndex((each) => each.start_s <= at && at < each.stop_s);
+  const present = members[number];
+  const done = present ? (at - present.start_s) / (present.stop_s - present.start_s) : -1;
+  const share = present ? (done - phases[number]! + 1) % 1 : -1;
   return (
     <div class="curve-now" style={{ left: `${LEFT}px`, right: `${RIGHT}px` }}>
       {share >= 0 && <Line share={share} />}

@@ -4,11 +4,14 @@ import { NO_COLOR } from "../colors";
 import { durationOf, nameOf } from "../segments";
 import type { Store } from "../store";
 import { IconButton } from "../transport/icons";
+import { surenessOf } from "../sureness";
 import { clock } from "../view";
 
 export function Present({ store }: { store: Store }): JSX.Element | null {
   const segment = store.present.value;
   if (!segment) return null;
+  const table = store.recording.value?.segmentation;
+  const sureness = table && surenessOf(table).get(segment);
   const cluster = store.clusters.value.find((each) => each.id === segment.cluster);
   const members = cluster?.members ?? [];
   const at = members.indexOf(segment);
@@ -34,7 +37,7 @@ export function Present({ store }: { store: Store }): JSX.Element | null {
       </p>
       <p class="quiet number">
         {clock(segment.start_s, 2)} to {clock(segment.stop_s, 2)} · {durationOf(segment).toFixed(2)}{" "}
-        s{segment.score !== null && ` · score ${segment.score.toFixed(2)}`}
+        s{sureness?.text && <span title={sureness.why}> · {sureness.text}</span>}
       </p>
     </section>
   );

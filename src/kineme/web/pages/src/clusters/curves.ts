@@ -22,19 +22,29 @@ export function pointsFor(motion: Motion, members: readonly Segment[]): number {
   return Math.min(Math.max(samples, FEWEST), MOST_POINTS);
 }
 
-/** The track of a member: metres from the root, at `points` times from its start to its end. */
+/**
+ * The track of a member: metres from the root, at `points` times from its start to its end. With
+ * a `phase` the curve begins that share of the cycle later and goes on from its end to its start;
+ * it is broken (NaN) there.
+ */
 export function curveOf(
   motion: Motion,
   segment: Segment,
   { joint, axis }: Track,
   points: number,
+  phase = 0,
 ): Float32Array {
   const curve = new Float32Array(points);
   const pose = new Float32Array(motion.head.joints.length * 3);
   const root = 3 * rootOf(motion.head);
   const length = segment.stop_s - segment.start_s;
   for (let i = 0; i < points; i++) {
-    const seconds = segment.start_s + (length * i) / (points - 1);
+    const share = i / (points - 1) + phase;
+    if (phase > 0 && share > 1 && share - 1 / (points - 1) <= 1) {
+      curve[i] = NaN;
+      continue;
+    }
+    const seconds = segment.start_s + length * (share > 1 ? share - 1 : share);
     poseAt(motion, seconds, pose);
     const x = pose[3 * joint]! - pose[root]!;
     const y = pose[3 * joint + 1]! - pose[root + 1]!;
@@ -74,7 +84,11 @@ export function spreadOf(curves: readonly Float32Array[]): Spread {
 const COARSE = 61; // points that tell which track moves most
 
 /** The track on which hands, feet and head move most in these members. */
-export function liveliest(motion: Motion, members: readonly Segment[]): Track {
+export function liveliest(
+  motion: Motion,
+  members: readonly Segment[],
+  phases: readonly number[] = [],
+): Track {
   const { effectors } = motion.head;
   const parts = Object.keys(effectors).filter((part) => part !== "pelvis");
   const joints = parts.length ? parts.map((part) => effectors[part]!) : motion.head.joints.keys();
@@ -83,8 +97,11 @@ export function liveliest(motion: Motion, members: readonly Segment[]): Track {
   for (const joint of joints) {
     for (const axis of AXES) {
       const track = { joint, axis };
-      const { mean } = spreadOf(members.map((member) => curveOf(motion, member, track, COARSE)));
-      const extent = Math.max(...mean) - Math.min(...mean);
+      const { mean } = spreadOf(
+        members.map((member, i) => curveOf(motion, member, track, COARSE, phases[i])),
+      );
+      const seen = mean.filter((value) => !Number.isNaN(value));
+      const extent = Math.max(...seen) - Math.min(...seen);
       if (extent > most) [best, most] = [{ joint, axis }, extent];
     }
   }

@@ -1,5 +1,6 @@
 /** The edge of a panel: dragged, or moved with arrow keys; a double click gives the size back. */
 import type { JSX, TargetedEvent } from "preact";
+import { isForPlayer } from "../focus";
 import { setSize, type Size } from "./sizes";
 
 const STEP = 16; // pixels an arrow key moves it
@@ -29,7 +30,7 @@ export function Splitter({ size, at }: Props): JSX.Element {
   const onKeyDown = (event: TargetedEvent<HTMLDivElement, KeyboardEvent>): void => {
     const keys = upright ? ["ArrowLeft", "ArrowRight"] : ["ArrowUp", "ArrowDown"];
     const by = keys.indexOf(event.key);
-    if (by < 0) return;
+    if (by < 0 || isForPlayer(event)) return;
     event.preventDefault();
     event.stopPropagation();
     setSize(size, extentOf(event.currentTarget) + sign * (by === 0 ? -STEP : STEP), most());

@@ -1,6 +1,7 @@
 /** Several panels in one place, one shown at a time; arrow keys go from tab to tab. */
 import { useSignal, type Signal } from "@preact/signals";
 import type { ComponentChildren, JSX } from "preact";
+import { isForPlayer } from "../focus";
 
 export interface Tab {
   id: string;
@@ -21,7 +22,7 @@ export function Tabs({ label, tabs, open }: Props): JSX.Element {
   const tab = tabs.find((each) => each.id === shown.value) ?? tabs[0];
   const onKeyDown = (event: KeyboardEvent): void => {
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (!by || !tab) return;
+    if (!by || !tab || isForPlayer(event)) return;
     event.preventDefault();
     event.stopPropagation();
     const next = tabs[(tabs.indexOf(tab) + by + tabs.length) % tabs.length]!;

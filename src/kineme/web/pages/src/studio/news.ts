@@ -1,12 +1,14 @@
 /** What the page tells people in passing: one line of news, and problems that stay until read. */
 
-import { signal } from "@preact/signals";
+import { effect, signal, untracked } from "@preact/signals";
 
 const READING_TIME = 6000; // milliseconds
 
 export interface News {
   text: string;
   undo?: (() => void) | undefined;
+  /** The table that was in front: once it is another, this is no news any more. */
+  of: string;
 }
 
 export interface Problem {
@@ -19,9 +21,17 @@ export class Bulletin {
   readonly problems = signal<Problem[]>([]);
   private timer = 0;
 
+  /** @param inFront which table is looked at; reads signals */
+  constructor(private readonly inFront: () => string) {
+    effect(() => {
+      const { value: news } = this.news;
+      if (news && news.of !== inFront()) this.news.value = null;
+    });
+  }
+
   /** Takes the place of earlier news, and goes by itself. */
   tell(text: string, undo?: () => void): void {
-    this.news.value = { text, undo };
+    this.news.value = { text, undo, of: untracked(this.inFront) };
     window.clearTimeout(this.timer);
     this.timer = window.setTimeout(() => (this.news.value = null), READING_TIME);
   }

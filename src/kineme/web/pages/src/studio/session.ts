@@ -5,8 +5,8 @@
  * edits are sent even after it was closed.
  */
 
-import { computed, effect, signal } from "@preact/signals";
-import type { Changed, ReadingRequest, State } from "../messages";
+import { computed, effect, signal, untracked } from "@preact/signals";
+import type { Changed, ReadingRequest, Recording, State } from "../messages";
 import type { Motion } from "../motion";
 import { loadMotion, type OpenRecording } from "../opened";
 import type { Store } from "../store";
@@ -25,6 +25,9 @@ const NO_ANSWER =
 const STARTED_ANEW =
   "The studio was started anew. Open the address it printed: then this tab goes on, too.";
 
+/** Problems of what is laid below a table, which are none of the next one's. */
+const BESIDE = ["preview", "compare"];
+
 /** A recording that was not read as it was told to be. */
 export interface Unread {
   id: string;
@@ -40,7 +43,7 @@ export class Session {
   readonly opening = signal<string | null>(null);
   /** The recording that could not be read, and the people in it. */
   readonly unread = signal<Unread | null>(null);
-  readonly bulletin = new Bulletin();
+  readonly bulletin: Bulletin;
   private readonly recordings = signal<EditedRecording[]>([]);
   readonly list = new RecordingList(this.state, this.recordings);
   readonly edited = computed(() => {
@@ -60,7 +63,12 @@ export class Session {
     readonly api: Api,
     readonly store: Store,
   ) {
+    this.bulletin = new Bulletin(() => tableOf(store.recording.value));
     this.beside = new Beside(this);
+    effect(() => {
+      void tableOf(store.recording.value);
+      untracked(() => BESIDE.forEach((what) => this.bulletin.solved(what)));
+    });
   }
 
   /** @param announced once other tabs know of this one, which edits are taken over by */
@@ -178,6 +186,7 @@ export class Session {
       (change) => void this.changed(change),
       (up) => void (up ? this.recover() : this.refresh()),
     );
+    addEventListener("focus", () => void this.refresh()); // files may have come meanwhile
     const { recordings } = this.state.value!;
     const known = new Set(recordings.map((each) => each.id));
     const before = fromAddress().filter((id) => known.has(id));
@@ -195,11 +204,18 @@ export class Session {
         api: this.api,
         folder: this.state.value?.folder ?? "",
         lost: () => this.lost(),
-        tell: (text, undo) => this.bulletin.tell(text, undo),
+        tell: (text, undo) => this.tellOf(id, text, undo),
       }));
     if (!this.recordings.value.includes(edited))
       this.recordings.value = [...this.recordings.value, edited];
     return { data, recording: edited.confirmed, motion: signal<Motion | null>(null) };
+  }
+
+  /** News of a recording; those of one that is not in front are told with its name. */
+  private tellOf(id: string, text: string, undo?: () => void): void {
+    const edited = this.recordings.peek().find((each) => each.id === id);
+    if (!edited || this.edited.peek() === edited) this.bulletin.tell(text, undo);
+    else this.bulletin.tell(`${edited.confirmed.peek().name}: ${text}`);
   }
 
   /** Recordings that are neither shown nor have edits on their way need no memory. */
@@ -233,4 +249,9 @@ export class Session {
       this.bulletin.problem(explain(error), "open");
     }
   }
+}
+
+/** Which table is in front: another one after each edit. */
+function tableOf(recording: Recording | undefined): string {
+  return recording ? `${recording.id} ${recording.revision}` : "";
 }

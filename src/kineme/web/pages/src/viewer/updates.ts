@@ -2,7 +2,7 @@
 import { effect } from "@preact/signals";
 import { CLICK } from "../canvas/pointers";
 import type { Store } from "../store";
-import { theme } from "../theme";
+import { onPaper, theme } from "../theme";
 import { ticker } from "../ticker";
 import type { FigureScene } from "./scene";
 
@@ -43,6 +43,11 @@ export function keepUpToDate(
       void theme.value;
       expire("paint", "picture");
     }),
+    // What was drawn into is empty once it has been shown: whoever reads it has it drawn before.
+    effect(() => {
+      void onPaper.value;
+      expire("edges");
+    }),
     effect(() => {
       watchPose(store);
       expire("picture");
@@ -54,7 +59,7 @@ export function keepUpToDate(
       const moving = stale.picture;
       if (moving) scene.pose(seconds);
       stale.figures = stale.paint = stale.picture = stale.edges = false; // pose() turned the camera
-      scene.stage.draw(moving, seconds);
+      scene.stage.draw(moving && !onPaper.peek(), seconds);
       if (moving) sharpenSoon();
     }),
     pickOnClick(store, scene, canvas),

@@ -1,6 +1,7 @@
 import { expect, it } from "vitest";
 import { doubtsOf, progressOf } from "../../src/studio/review/doubts";
 import { between, EVERYTHING, rowsOf, spansToMerge } from "../../src/studio/table/rows";
+import { surenessOf } from "../../src/sureness";
 import { segment, tableOf } from "../recordings";
 
 const rows = [
@@ -14,8 +15,11 @@ const table = tableOf(rows);
 it("shows first where the result is least sure, and says why", () => {
   const doubts = doubtsOf(table);
   expect(doubts.map(({ segment }) => segment.start_frame)).toEqual([10, 30, 0, 40]);
-  expect(doubts[0]!.why).toBe("It is 30 % sure that a segment starts at 0:01.00.");
-  expect(doubts[1]!.why).toBe("It is 40 % sure that this is cluster 1.");
+  expect(doubts[0]!.why).toBe(
+    "It is 24 % sure that all of this is right. Least sure is that a segment starts at 0:01.00.",
+  );
+  expect(doubts[1]!.why).toContain("Least sure is that this is cluster 1.");
+  expect(doubts[2]!.why).toBe("It is 90 % sure that this is cluster 0.");
   expect(doubts[3]!.sure).toBeNull();
 });
 
@@ -37,9 +41,32 @@ it("asks once for an activity what can be wrong with it and its repetitions", ()
     ["primitive", 20],
   ]);
   expect(doubts[0]!.sure).toBeCloseTo(0.8 * 0.9 * 0.5);
-  expect(doubts[0]!.why).toBe("It is 50 % sure that this is done 2 times.");
+  expect(doubts[0]!.why).toBe(
+    "It is 36 % sure that all of this is right. Least sure is that this is done 2 times.",
+  );
   expect(doubts[1]!.sure).toBe(0.7);
   expect(doubts[3]!.sure).toBeNull();
+});
+
+it("has one number for a segment, wherever that is shown", () => {
+  const found = tableOf([
+    segment(0, 40, { level: "activity", score: 0.99, border_confidence: null }),
+    segment(0, 40, { score: 0.19 }),
+    segment(40, 50, { level: "activity", activity: 1, score: 0.9, border_confidence: 0.9 }),
+  ]);
+  const [doubt] = doubtsOf(found);
+  const [first] = rowsOf(found, EVERYTHING, "sure", false);
+  const { short, text, why } = surenessOf(found).get(found.segments[0]!)!;
+  expect([short, text]).toEqual(["19 %", "19 % sure"]);
+  expect([doubt!.segment, doubt!.short]).toEqual([found.segments[0], short]);
+  expect([first!.segment, first!.sureness.short]).toEqual([found.segments[0], short]);
+  expect(why.match(/\d+ %/g)).toEqual([short]);
+});
+
+it("calls a score that is no probability by its name", () => {
+  const found = tableOf([segment(0, 10, { level: "activity", score: 0.4 })]);
+  expect(doubtsOf(found)[0]!.why).toBe("It was found with a score of 0.40.");
+  expect(doubtsOf(found)[0]!.text).toBe("score 0.40");
 });
 
 it("leaves out what is checked, and counts it", () => {
@@ -57,6 +84,9 @@ it("orders and filters the table", () => {
   expect(starts(table, EVERYTHING, "sure", false)).toEqual([10, 30, 0, 40]);
   expect(starts(table, { ...EVERYTHING, text: "Hop" }, "start", false)).toEqual([10]);
   expect(starts(table, { ...EVERYTHING, text: "cluster 1" }, "start", false)).toEqual([30]);
+  const tens = tableOf([10, 1, 15].map((cluster, i) => segment(i, i + 1, { cluster })));
+  expect(starts(tens, { ...EVERYTHING, text: "Cluster 1" }, "start", false)).toEqual([1]);
+  expect(starts(tens, { ...EVERYTHING, text: "cluster" }, "start", false)).toEqual([0, 1, 2]);
   expect(starts(table, { ...EVERYTHING, kind: "transition" }, "start", false)).toEqual([40]);
   expect(starts(table, { ...EVERYTHING, shortest: 1.5 }, "start", false)).toEqual([10]);
   expect(starts(table, { ...EVERYTHING, sureBelow: 0.5 }, "start", false)).toEqual([10, 30]);

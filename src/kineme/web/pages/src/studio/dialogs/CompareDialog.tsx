@@ -1,6 +1,7 @@
 /** Another result beside the shown one: a preset's, or a label file's of the folder. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
 import type { CompareRequest } from "../../messages";
 import { Dialog } from "./Dialog";
 import type { Session } from "../session";
@@ -12,6 +13,7 @@ interface Props {
 
 export function CompareDialog({ session, close }: Props): JSX.Element {
   const busy = useSignal("");
+  useEffect(() => void session.refresh(), []); // there may be new files
   const { presets = [], annotations = [] } = session.state.value ?? {};
   const compare = async (name: string, request: CompareRequest): Promise<void> => {
     busy.value = name;

@@ -1,6 +1,7 @@
 /** Labels from a knowledge base of the folder. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
+import { useEffect } from "preact/hooks";
 import { Dialog } from "./Dialog";
 import { NewKnowledge } from "./NewKnowledge";
 import type { Session } from "../session";
@@ -12,15 +13,17 @@ interface Props {
 
 export function TransferDialog({ session, close }: Props): JSX.Element {
   const bases = session.state.value?.knowledge_bases ?? [];
-  const base = useSignal(bases[0]?.id ?? "");
+  const chosen = useSignal("");
+  const base = chosen.value || (bases[0]?.id ?? "");
   const threshold = useSignal("");
+  useEffect(() => void session.refresh(), []); // there may be new files
   const spread = useSignal(true);
   const transfer = (event: Event): void => {
     event.preventDefault();
     const limit = Number.parseFloat(threshold.value);
     void session.edited.value?.edit({
       kind: "transfer",
-      knowledge_base: base.value,
+      knowledge_base: base,
       spread: spread.value,
       ...(Number.isFinite(limit) && { threshold: limit }),
     });
@@ -41,10 +44,7 @@ export function TransferDialog({ session, close }: Props): JSX.Element {
           </p>
           <label class="field">
             <span>Knowledge base</span>
-            <select
-              value={base.value}
-              onChange={(event) => (base.value = event.currentTarget.value)}
-            >
+            <select value={base} onChange={(event) => (chosen.value = event.currentTarget.value)}>
               {bases.map(({ id, name }) => (
                 <option key={id} value={id}>
                   {name}

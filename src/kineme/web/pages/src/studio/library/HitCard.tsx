@@ -12,20 +12,23 @@ const calm = matchMedia("(prefers-reduced-motion: reduce)");
 export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): JSX.Element {
   const looked = useSignal(false);
   const right = page.judged.value.get(keyOf(hit))?.right;
+  const front = page.hits.value[page.inFront.value] === hit;
   const { recording, start_s, stop_s, cluster, label, name } = hit;
   const id = page.state.value?.recordings.find((each) => each.recording === recording)?.id;
   const time = `${start_s.toFixed(2)} to ${stop_s.toFixed(2)} s`;
   const look = (at: boolean) => (): void => void (looked.value = at && !calm.matches);
   return (
     <li
-      class={`card hit ${right === undefined ? "" : right ? "yes" : "no"}`}
+      class={`card hit ${front ? "front" : ""} ${right === undefined ? "" : right ? "yes" : "no"}`}
       tabIndex={0}
       aria-label={`${recording}, ${time}`}
       onPointerEnter={look(true)}
       onPointerLeave={look(false)}
-      onFocus={look(true)}
+      onFocus={() => {
+        page.front.value = keyOf(hit);
+        look(true)();
+      }}
       onBlur={look(false)}
-      onKeyDown={(event) => onKey(event, page, hit)}
     >
       <Figure
         sketches={page.sketches}
@@ -76,23 +79,4 @@ export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): 
       </div>
     </li>
   );
-}
-
-/** Y and N, after which the next card is in front; arrows go from card to card. */
-function onKey(
-  event: KeyboardEvent & { currentTarget: HTMLElement },
-  page: LibraryPage,
-  hit: LibraryHit,
-): void {
-  if (event.ctrlKey || event.altKey || event.metaKey) return;
-  const key = event.key.toLowerCase();
-  const next = event.currentTarget.nextElementSibling as HTMLElement | null;
-  const before = event.currentTarget.previousElementSibling as HTMLElement | null;
-  if (key === "y" || key === "n") {
-    page.judge(hit, key === "y");
-    next?.focus();
-  } else if (key === "arrowright" || key === "arrowdown") next?.focus();
-  else if (key === "arrowleft" || key === "arrowup") before?.focus();
-  else return;
-  event.preventDefault();
 }

@@ -1,8 +1,10 @@
 /** "Find more like this": what is searched for, and the hits as cards to say yes or no to. */
 import type { JSX } from "preact";
+import { useEffect, useRef } from "preact/hooks";
 import { NameInput } from "../../layout/NameInput";
 import { save } from "../server/save";
 import { HitCard } from "./HitCard";
+import { startHitKeys } from "./hitKeys";
 import { asCsv, asJson, keyOf } from "./hits";
 import type { LibraryPage } from "./libraryPage";
 import { SpanForm } from "./SpanForm";
@@ -10,6 +12,8 @@ import { SpanForm } from "./SpanForm";
 export function Search({ page }: { page: LibraryPage }): JSX.Element {
   const { value: question } = page.question;
   const { value: hits } = page.hits;
+  const cards = useRef<HTMLUListElement>(null);
+  useEffect(() => startHitKeys(page, () => cards.current), [page]);
   const said = page.confirmed.value.length + page.refused.value.length;
   return (
     <>
@@ -32,7 +36,7 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
           </button>
           <Downloads page={page} />
           <span class="quiet">
-            Is it one? <kbd>Y</kbd> yes, <kbd>N</kbd> no, arrow keys for the next.
+            Is the framed one right? <kbd>Y</kbd> yes, <kbd>N</kbd> no, arrow keys for the next.
           </span>
         </div>
       )}
@@ -40,7 +44,7 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
       {question && !page.searching.value && !hits.length && (
         <p class="quiet">Nothing is that near: try a larger distance.</p>
       )}
-      <ul class="cards hits">
+      <ul class="cards hits" ref={cards}>
         {hits.map((hit) => (
           <HitCard key={keyOf(hit)} page={page} hit={hit} />
         ))}

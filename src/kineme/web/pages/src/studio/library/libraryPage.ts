@@ -32,6 +32,12 @@ export class LibraryPage {
   readonly span = signal<Span | null>(null);
   /** The hits of which somebody has said whether they are right, by `keyOf`. */
   readonly judged = signal<ReadonlyMap<string, { hit: LibraryHit; right: boolean }>>(new Map());
+  /** The hit that keys are about, by `keyOf`; the first where it is none of those shown. */
+  readonly front = signal("");
+  readonly inFront = computed(() => {
+    const at = this.hits.value.findIndex((hit) => keyOf(hit) === this.front.value);
+    return at < 0 ? 0 : at;
+  });
   readonly confirmed = computed(() => this.said(true));
   readonly refused = computed(() => this.said(false));
   readonly shares = computed(() => sharesOf(this.confirmed.value));
@@ -102,6 +108,7 @@ export class LibraryPage {
     if (judged.get(keyOf(hit))?.right === right) judged.delete(keyOf(hit));
     else judged.set(keyOf(hit), { hit, right });
     this.judged.value = judged;
+    this.news.value = ""; // it was of others
   }
 
   clusterName(cluster: number): string {

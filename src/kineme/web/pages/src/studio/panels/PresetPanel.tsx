@@ -94,30 +94,32 @@ function Presets({ session, edited, presets, fallback, details }: Props): JSX.El
           Reset
         </button>
       </div>
-      <select
-        aria-label="Preset"
-        value={preset}
-        title={choice.help}
-        onChange={(event) => {
-          const next = presets.find((each) => each.name === event.currentTarget.value)!;
-          again({ preset: next.name, values: defaults(next), detail: 1 }, 0);
-        }}
-      >
-        {presets.map(({ name }) => (
-          <option key={name} value={name}>
-            {name}
-          </option>
+      <div class="preset-choice">
+        <select
+          aria-label="Preset"
+          value={preset}
+          title={choice.help}
+          onChange={(event) => {
+            const next = presets.find((each) => each.name === event.currentTarget.value)!;
+            again({ preset: next.name, values: defaults(next), detail: 1 }, 0);
+          }}
+        >
+          {presets.map(({ name }) => (
+            <option key={name} value={name}>
+              {name}
+            </option>
+          ))}
+        </select>
+        <DetailSlider store={session.store} />
+        {choice.parameters.map((parameter) => (
+          <ParameterSlider
+            key={`${preset}.${parameter.name}`}
+            parameter={parameter}
+            value={values[parameter.name] ?? parameter.value}
+            change={(value) => change(parameter, value)}
+          />
         ))}
-      </select>
-      <DetailSlider store={session.store} />
-      {choice.parameters.map((parameter) => (
-        <ParameterSlider
-          key={`${preset}.${parameter.name}`}
-          parameter={parameter}
-          value={values[parameter.name] ?? parameter.value}
-          change={(value) => change(parameter, value)}
-        />
-      ))}
+      </div>
       {proposal && (
         <Proposed
           session={session}

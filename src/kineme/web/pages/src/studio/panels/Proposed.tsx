@@ -16,29 +16,31 @@ export function Proposed(props: {
   const some = preview.corrections + preview.names > 0;
   return (
     <div class="proposed" role="group" aria-label="Preview">
-      <p class="quiet">
-        Shown below what is there; borders that differ are marked. Nothing has been changed.
-      </p>
-      {some && (
-        <label class="check">
-          <input
-            type="checkbox"
-            checked={keep}
-            onChange={(event) => setKeep(event.currentTarget.checked)}
-          />
-          Take over {own}
-        </label>
-      )}
-      {some && keep && preview.lost.length > 0 && (
-        <details open>
-          <summary>{counted(preview.lost.length, "name")} would be lost</summary>
-          <ul>
-            {preview.lost.map((what) => (
-              <li key={what}>{what}</li>
-            ))}
-          </ul>
-        </details>
-      )}
+      <div class="proposed-said">
+        {some && (
+          <label class="check">
+            <input
+              type="checkbox"
+              checked={keep}
+              onChange={(event) => setKeep(event.currentTarget.checked)}
+            />
+            Take over {own}
+          </label>
+        )}
+        {some && keep && preview.lost.length > 0 && (
+          <details open>
+            <summary>{counted(preview.lost.length, "name")} would be lost</summary>
+            <ul>
+              {preview.lost.map((what) => (
+                <li key={what}>{what}</li>
+              ))}
+            </ul>
+          </details>
+        )}
+        <p class="quiet">
+          Shown below what is there; borders that differ are marked. Nothing has been changed.
+        </p>
+      </div>
       <p class="actions">
         <button type="button" onClick={() => session.beside.discard()}>
           Discard

@@ -5,6 +5,7 @@ import { clusterColor, NO_COLOR } from "../../colors";
 import type { Kind, Segment } from "../../messages";
 import { NameInput } from "../../layout/NameInput";
 import { durationOf, nameOf } from "../../segments";
+import { surenessOf } from "../../sureness";
 import type { Editor } from "../editing/editor";
 import { counted } from "../editing/words";
 import type { Review } from "../review/review";
@@ -24,6 +25,8 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
   const called = store.recording.value?.segmentation.cluster_names[segment.cluster] ?? "";
   const own = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
+  const table = store.recording.value?.segmentation;
+  const sureness = table && surenessOf(table).get(segment);
   return (
     <div class="segment-panel">
       <p class="times number">
@@ -38,9 +41,7 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
         <br />
         <span class="quiet">
           frames {segment.start_frame} – {segment.stop_frame}
-          {segment.score !== null && `, score ${segment.score.toFixed(2)}`}
-          {segment.border_confidence !== null &&
-            `, start ${Math.round(100 * segment.border_confidence)} % sure`}
+          {sureness?.text && <span title={sureness.why}>, {sureness.text}</span>}
         </span>
       </p>
       <NameField

@@ -47,7 +47,7 @@ export function ReviewPanel({ session, review }: Props): JSX.Element {
       </p>
       <ol class="doubts">
         {doubts.slice(0, MOST).map((doubt) => {
-          const { segment, sure } = doubt;
+          const { segment, short } = doubt;
           return (
             <li key={`${segment.level} ${segment.start_frame}`}>
               <button
@@ -62,7 +62,7 @@ export function ReviewPanel({ session, review }: Props): JSX.Element {
                   {nameOf(segment)} <span class="quiet">{segment.level}</span>
                 </span>
                 <span class="number quiet">{clock(segment.start_s, 2)}</span>
-                <span class="number">{sure === null ? "–" : sure.toFixed(2)}</span>
+                <span class="number">{short || "–"}</span>
               </button>
             </li>
           );

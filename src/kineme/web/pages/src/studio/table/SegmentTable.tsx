@@ -10,7 +10,7 @@ import { durationOf, nameOf } from "../../segments";
 import { clock } from "../../view";
 import type { Editor } from "../editing/editor";
 import type { Session } from "../session";
-import { between, EVERYTHING, type Filter, type Order, type Row, rowsOf, sureness } from "./rows";
+import { between, EVERYTHING, type Filter, type Order, type Row, rowsOf } from "./rows";
 import { Actions } from "./Actions";
 import { TableFilter } from "./TableFilter";
 
@@ -149,8 +149,7 @@ function TableRow(props: {
   go: (at: number, many: "one" | "range" | "more") => void;
 }): JSX.Element {
   const { row, at, color, chosen, go } = props;
-  const { segment, checked } = row;
-  const sure = sureness(segment);
+  const { segment, checked, sureness } = row;
   return (
     <div
       role="row"
@@ -172,7 +171,11 @@ function TableRow(props: {
         <span class="swatch" style={{ background: color }} /> {nameOf(segment)}
       </span>
       <span role="gridcell" class="number">
-        {checked ? <span title="checked">✓</span> : sure === null ? "" : sure.toFixed(2)}
+        {checked ? (
+          <span title="checked">✓</span>
+        ) : (
+          <span title={sureness.why}>{sureness.short}</span>
+        )}
       </span>
     </div>
   );

@@ -1,6 +1,7 @@
 /** Which segments the table shows, in which order; pure functions. */
 import type { Kind, Level, Segment, Segments } from "../../messages";
 import { durationOf, nameOf } from "../../segments";
+import { surenessOf, type Sureness } from "../../sureness";
 
 /** A column by which rows are ordered. */
 export type Order = "start" | "duration" | "name" | "cluster" | "sure";
@@ -28,27 +29,28 @@ export const EVERYTHING: Filter = {
   sureBelow: Infinity,
 };
 
-/** A segment, the number of its row in the table, and whether it is checked. */
+/** A segment, the number of its row in the table, whether it is checked, and how sure it is. */
 export interface Row {
   segment: Segment;
   number: number;
   checked: boolean;
-}
-
-/** How sure a segment is: of its score and its border, the lower; null where nobody says. */
-export function sureness({ score, border_confidence: border }: Segment): number | null {
-  if (score === null) return border;
-  return border === null ? score : Math.min(score, border);
+  sureness: Sureness;
 }
 
 export function rowsOf(table: Segments, filter: Filter, order: Order, down: boolean): Row[] {
   const checked = new Set(table.checked);
+  const known = surenessOf(table);
   const rows = table.segments
-    .map((segment, number) => ({ segment, number, checked: checked.has(number) }))
+    .map((segment, number) => ({
+      segment,
+      number,
+      checked: checked.has(number),
+      sureness: known.get(segment)!,
+    }))
     .filter((row) => passes(row, filter));
   const sign = down ? -1 : 1;
   const compare = COMPARE[order];
-  return rows.sort((a, b) => sign * compare(a.segment, b.segment) || inTime(a.segment, b.segment));
+  return rows.sort((a, b) => sign * compare(a, b) || inTime(a.segment, b.segment));
 }
 
 /** The rows from one to another, whichever comes first. */
@@ -72,33 +74,38 @@ export function spansToMerge(
   return spans.filter(({ n }) => n > 1).map(({ level, start, stop }) => ({ level, start, stop }));
 }
 
-function passes({ segment, checked }: Row, filter: Filter): boolean {
+function passes({ segment, checked, sureness }: Row, filter: Filter): boolean {
   const { level, kind, text, shortest, longest, sureBelow } = filter;
   const duration = durationOf(segment);
   return (
     (!level || segment.level === level) &&
     (!kind || segment.kind === kind) &&
     (!filter.checked || checked === (filter.checked === "yes")) &&
-    nameWithCluster(segment).includes(text.trim().toLowerCase()) &&
+    isCalled(segment, text.trim().toLowerCase()) &&
     duration >= shortest &&
     duration <= longest &&
-    (sureBelow === Infinity || (sureness(segment) ?? Infinity) < sureBelow)
+    (sureBelow === Infinity || (sureness.sure ?? Infinity) < sureBelow)
   );
 }
 
-function nameWithCluster(segment: Segment): string {
-  const cluster = segment.cluster >= 0 ? ` cluster ${segment.cluster}` : "";
-  return `${nameOf(segment)}${cluster}`.toLowerCase();
+/** "cluster 1" is that cluster alone, not 10 to 19 as well; any other text is part of a name. */
+function isCalled(segment: Segment, text: string): boolean {
+  const number = /^cluster (\d+)$/.exec(text)?.[1];
+  if (number !== undefined && segment.cluster === Number(number)) return true;
+  const cluster = segment.cluster >= 0 && number === undefined ? ` cluster ${segment.cluster}` : "";
+  return `${number === undefined ? nameOf(segment) : segment.label}${cluster}`
+    .toLowerCase()
+    .includes(text);
 }
 
 const inTime = (a: Segment, b: Segment): number => a.start_frame - b.start_frame || byLevel(a, b);
 const byLevel = (a: Segment, b: Segment): number =>
   a.level.localeCompare(b.level) || a.start_frame - b.start_frame;
 
-const COMPARE: Record<Order, (a: Segment, b: Segment) => number> = {
-  start: inTime,
-  duration: (a, b) => durationOf(a) - durationOf(b),
-  name: (a, b) => nameOf(a).localeCompare(nameOf(b)),
-  cluster: (a, b) => a.cluster - b.cluster,
-  sure: (a, b) => (sureness(a) ?? 2) - (sureness(b) ?? 2),
+const COMPARE: Record<Order, (a: Row, b: Row) => number> = {
+  start: (a, b) => inTime(a.segment, b.segment),
+  duration: (a, b) => durationOf(a.segment) - durationOf(b.segment),
+  name: (a, b) => nameOf(a.segment).localeCompare(nameOf(b.segment)),
+  cluster: (a, b) => a.segment.cluster - b.segment.cluster,
+  sure: (a, b) => (a.sureness.sure ?? 2) - (b.sureness.sure ?? 2),
 };
