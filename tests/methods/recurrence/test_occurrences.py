@@ -16,6 +16,7 @@ from kineme.methods.recurrence.primitives import with_occurrences
 from kineme.methods.recurrence.repeating import _occurrence_kernels as kernels
 from kineme.methods.recurrence.repeating import _set_kernels as set_kernels
 from kineme.methods.recurrence.repeating.occurrences import Occurrences, occurrences
+from kineme.methods.recurrence.repeating.paths import followed
 from kineme.methods.recurrence.repeating.placing import Segments
 
 seconds = settings(max_examples=40)
@@ -37,7 +38,7 @@ def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
-    ends, scores = kernels.local_paths(columns, costs, begins, gap, width, 0.8, -2.0, least)
+    ends, scores, _ = kernels.local_paths(columns, costs, begins, gap, width, 99, 0.8, -2.0, least)
     found: dict[tuple[int, int], float] = {}
     for (i, j, *_), score in zip(ends.tolist(), scores, strict=True):
         found[i, j] = max(found.get((i, j), 0), score)
@@ -50,16 +51,45 @@ def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
 def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
-    ends, scores = kernels.local_paths(columns, costs, begins, 1, 30, 0.8, -2.0, 1.0)
+    ends, scores, _ = kernels.local_paths(columns, costs, begins, 1, 30, 99, 0.8, -2.0, 1.0)
     for each, score in zip(ends, scores, strict=True):
         partners, sums, other_partners, other_sums = kernels.follow(columns, costs, each, 0.8, -2.0)
-        expected = naive.followed_score(samples, costs, each.tolist(), 0.8, -2.0)
+        expected = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
         assert sums[-1] == pytest.approx(expected)
         assert other_sums[-1] == pytest.approx(expected)
         assert expected >= score - 1e-9
         assert partners[[0, -1]].tolist() == [each[1], each[3]]
         assert other_partners[[0, -1]].tolist() == [each[0], each[2]]
         assert (np.diff(partners) > 0).all()
+
+
+@given(walks(), st.integers(1, 5))
+@seconds
+def test_a_long_path_is_followed(walk, leg) -> None:
+    samples, costs, begins = walk
+    columns = np.ascontiguousarray(samples.T)
+    options = columns, costs, begins, 1, 30
+    whole, whole_scores, _ = kernels.local_paths(*options, 99, 0.8, -2.0, 1.0)
+    ends, scores, passed = kernels.local_paths(*options, leg, 0.8, -2.0, 1.0)
+    assert ends[:, :4].tolist() == whole[:, :4].tolist()
+    assert scores.tolist() == whole_scores.tolist()
+    for each, score in zip(ends, scores, strict=True):
+        pairs, latest = [each[2:4]], each[4]
+        while latest >= 0:
+            pairs.append(passed[latest, :2])
+            latest = passed[latest, 2]
+        rows = np.array([*pairs, each[:2]])[::-1, 0]
+        assert (leg <= np.diff(rows)[:-1]).all()
+        assert np.diff(rows).max() <= leg + 1  # a step is two samples at most
+        forth, sums, back, back_sums = followed(columns, costs, each, passed, 0.8)
+        assert forth[[0, -1]].tolist() == [each[1], each[3]]
+        assert back[[0, -1]].tolist() == [each[0], each[2]]
+        assert (np.diff(forth) > 0).all()
+        assert len(forth) == len(sums) == each[2] - each[0] + 1
+        assert len(back) == len(back_sums) == each[3] - each[1] + 1
+        assert sums[-1] == pytest.approx(back_sums[-1])
+        best = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        assert score - 1e-9 <= sums[-1] <= best + 1e-9
 
 
 def paths_of(rng: np.random.Generator, n: int) -> list[tuple[int, np.ndarray, np.ndarray]]:
@@ -79,7 +109,6 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     n, cover = 30, 0.8
     paths = paths_of(rng, n)
     free = rng.random(n) < 0.9
-    room = np.append(0, np.cumsum(free))
     starts = np.array([first for first, _, _ in paths])
     sizes = np.array([len(sums) for _, _, sums in paths])
     ptr = np.append(0, np.cumsum(sizes))
@@ -93,7 +122,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     for start in range(n):
         for stop in start + lengths[start + lengths <= n]:
             total, count = set_kernels.recurrences(
-                start, stop, starts, ptr, *flat, row_ptr, row_paths, room, cover, spans, gains
+                start, stop, starts, ptr, *flat, row_ptr, row_paths, free, cover, spans, gains
             )
             expected = naive.recurrences_of(start, stop, paths, free, cover)
             of = [(begin, end, *part) for begin, end, _, part in expected]
