@@ -718,7 +718,11 @@ def class_distances(near, width, labels, wanted, gap):
 
 
 def coverage(near, width, scales, g, h, gap, softness):
-    """Mean over the samples of g of how near the nearest of h is, more than the gap away."""
+    """Mean over the samples of g of how near the nearest of h is, more than the gap away.
+
+    Or over so many of them, evenly spread, as the band has lags.
+    """
+    g = g[:: 1 + (len(g) - 1) // (2 * width + 1)]
     total = 0.0
     for i in g:
         nearest = min((near[i, j] for j in h if gap < abs(i - j) <= width), default=np.inf)

@@ -9,11 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.samples import spread
+
+if TYPE_CHECKING:
+    from scipy.sparse import sparray
 
 Floats = NDArray[np.float64]
 Samples = NDArray[np.int64]
@@ -53,15 +57,15 @@ class Evidence:
     parents: Samples
 
 
-def link_statistics(labels: Samples, alike: Floats, own: Floats) -> Floats:
+def link_statistics(labels: Samples, alike: sparray, own: Floats) -> Floats:
     """What tells how sure the cluster of each segment is.
 
     Parameters
     ----------
     labels : (segments,) array
         Clusters; -1 for transitions.
-    alike : (segments, segments) array
-        Mean similarity of the samples of each two segments; nan where they are not compared.
+    alike : (segments, segments) sparse array
+        Mean similarity of the samples of each two segments; none where they are not compared.
     own : (segments,) array
         How much more similar the samples of each are to their own cluster than to others.
 
@@ -70,13 +74,15 @@ def link_statistics(labels: Samples, alike: Floats, own: Floats) -> Floats:
     (segments, 2) array
         Similarity to the most similar segment of another cluster, relative to that within; `own`.
     """
-    foreign = np.not_equal.outer(labels, labels) & (labels >= 0) & np.isfinite(alike)
-    nearest = np.where(foreign, relative(alike), 0).max(axis=1, initial=0)
+    shares, rows, columns = relative(alike)
+    foreign = (labels[rows] != labels[columns]) & (labels[columns] >= 0)
+    nearest = np.zeros(len(labels))
+    np.maximum.at(nearest, rows[foreign], shares[foreign])
     return np.where(labels[:, None] >= 0, np.column_stack([nearest, own]), np.nan)
 
 
 def border_statistics(
-    borders: Samples, labels: Samples, alike: Floats, similar: Alike, near: int
+    borders: Samples, labels: Samples, alike: sparray, similar: Alike, near: int
 ) -> Floats:
     """What tells how sure the start of each segment is.
 
@@ -86,7 +92,7 @@ def border_statistics(
     ----------
     borders, labels : array of int
         Samples, ends included, and clusters; -1 for transitions.
-    alike : (segments, segments) array
+    alike : (segments, segments) sparse array
         See `link_statistics`.
     similar : callable
     near : int
@@ -100,7 +106,8 @@ def border_statistics(
     """
     found = np.full((len(labels), 2), np.nan)
     spans = [spread(start, stop, COMPARED) for start, stop in pairwise(borders.tolist())]
-    across = np.nan_to_num(relative(alike))
+    shares, rows, columns = relative(alike)
+    across = dict(zip(zip(rows.tolist(), columns.tolist(), strict=True), shares, strict=True))
     for g in range(1, len(labels)):
         left = max(g - 1 - int(labels[g - 1] < 0), 0)
         right = min(g + int(labels[g] < 0), len(labels) - 1)
@@ -111,7 +118,7 @@ def border_statistics(
             similar(side, spans[its]) - similar(side, spans[other])
             for side, its, other in ((before, left, right), (after, right, left))
         ]
-        found[g] = sum(sharpness), across[left, right]
+        found[g] = sum(sharpness), across.get((left, right), 0.0)
     return found
 
 
@@ -179,12 +186,15 @@ def correlations(repetitions: Floats) -> Floats:
     return found
 
 
-def relative(alike: Floats) -> Floats:
-    """Similarity of each two segments relative to that within them, to 1; nan where unknown."""
-    within = np.maximum(np.nan_to_num(alike.diagonal()), 0)
-    scale = np.sqrt(np.outer(within, within))
-    found: Floats = np.minimum(alike / np.maximum(scale, LEAST), 1)
-    return found
+def relative(alike: sparray) -> tuple[Floats, Samples, Samples]:
+    """Similarity of segments relative to that within them, to 1, and which two each is of."""
+    from scipy.sparse import coo_array
+
+    pairs = coo_array(alike)
+    within = np.maximum(pairs.diagonal(), 0)
+    rows, columns = pairs.coords
+    scale = np.sqrt(within[rows] * within[columns])
+    return np.minimum(pairs.data / np.maximum(scale, LEAST), 1), rows, columns
 
 
 def clear(correlation: Floats | float) -> Floats:

@@ -11,7 +11,7 @@ from loops import measured, swing
 
 OPTIONS = {
     "similarity": 0.6, "softness": 1.3, "samples": 20, "least": 0.05, "narrow": 7,
-    "gap_share": 0.25, "common": 0.35,
+    "gap_share": 0.25, "common": 0.35, "part": 3000,
 }  # fmt: skip
 
 
@@ -24,6 +24,20 @@ def test_an_action_is_known_again() -> None:
     # 12 s away is too far to be compared, 0 s is not.
     near_by = link(borders, found, found.features, **OPTIONS, max_lag=60)
     assert near_by.tolist() == [0, 1, 2, 3, 3]
+
+
+@pytest.mark.parametrize("part", [60, 200, 300])
+@pytest.mark.parametrize("max_lag", [None, 60])
+def test_what_is_linked_part_by_part_is_known_again(part: int, max_lag: int | None) -> None:
+    walk, turn = swing(8, period=1), swing(10, period=1.2, axis=2)
+    found = measured(walk, turn, walk, turn, turn)
+    borders = np.array([0, 80, 200, 280, 400, 520])
+
+    def linked(part: int) -> list[int]:
+        options = {**OPTIONS, "part": part, "max_lag": max_lag}
+        return link(borders, found, found.features, **options).tolist()
+
+    assert linked(part) == linked(len(found))
 
 
 def test_who_stands_before_two_movements_makes_them_no_one_action() -> None:

@@ -10,12 +10,14 @@ import pytest
 from hypothesis import given, settings
 
 import naive
+from gestures import stacked, wandering, with_gestures
 from kineme.methods.recurrence.analysis import analyze_actions
 from kineme.methods.recurrence.preset import KINEME
 from kineme.methods.recurrence.primitives import with_occurrences
 from kineme.methods.recurrence.repeating import _occurrence_kernels as kernels
 from kineme.methods.recurrence.repeating import _set_kernels as set_kernels
 from kineme.methods.recurrence.repeating.occurrences import Occurrences, occurrences
+from kineme.methods.recurrence.repeating.paths import followed
 from kineme.methods.recurrence.repeating.placing import Segments
 
 seconds = settings(max_examples=40)
@@ -37,7 +39,7 @@ def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
-    ends, scores = kernels.local_paths(columns, costs, begins, gap, width, 0.8, -2.0, least)
+    ends, scores, _ = kernels.local_paths(columns, costs, begins, gap, width, 99, 0.8, -2.0, least)
     found: dict[tuple[int, int], float] = {}
     for (i, j, *_), score in zip(ends.tolist(), scores, strict=True):
         found[i, j] = max(found.get((i, j), 0), score)
@@ -50,16 +52,45 @@ def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
 def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
-    ends, scores = kernels.local_paths(columns, costs, begins, 1, 30, 0.8, -2.0, 1.0)
+    ends, scores, _ = kernels.local_paths(columns, costs, begins, 1, 30, 99, 0.8, -2.0, 1.0)
     for each, score in zip(ends, scores, strict=True):
         partners, sums, other_partners, other_sums = kernels.follow(columns, costs, each, 0.8, -2.0)
-        expected = naive.followed_score(samples, costs, each.tolist(), 0.8, -2.0)
+        expected = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
         assert sums[-1] == pytest.approx(expected)
         assert other_sums[-1] == pytest.approx(expected)
         assert expected >= score - 1e-9
         assert partners[[0, -1]].tolist() == [each[1], each[3]]
         assert other_partners[[0, -1]].tolist() == [each[0], each[2]]
         assert (np.diff(partners) > 0).all()
+
+
+@given(walks(), st.integers(1, 5))
+@seconds
+def test_a_long_path_is_followed(walk, leg) -> None:
+    samples, costs, begins = walk
+    columns = np.ascontiguousarray(samples.T)
+    options = columns, costs, begins, 1, 30
+    whole, whole_scores, _ = kernels.local_paths(*options, 99, 0.8, -2.0, 1.0)
+    ends, scores, passed = kernels.local_paths(*options, leg, 0.8, -2.0, 1.0)
+    assert ends[:, :4].tolist() == whole[:, :4].tolist()
+    assert scores.tolist() == whole_scores.tolist()
+    for each, score in zip(ends, scores, strict=True):
+        pairs, latest = [each[2:4]], each[4]
+        while latest >= 0:
+            pairs.append(passed[latest, :2])
+            latest = passed[latest, 2]
+        rows = np.array([*pairs, each[:2]])[::-1, 0]
+        assert (leg <= np.diff(rows)[:-1]).all()
+        assert np.diff(rows).max() <= leg + 1  # a step is two samples at most
+        forth, sums, back, back_sums = followed(columns, costs, each, passed, 0.8)
+        assert forth[[0, -1]].tolist() == [each[1], each[3]]
+        assert back[[0, -1]].tolist() == [each[0], each[2]]
+        assert (np.diff(forth) > 0).all()
+        assert len(forth) == len(sums) == each[2] - each[0] + 1
+        assert len(back) == len(back_sums) == each[3] - each[1] + 1
+        assert sums[-1] == pytest.approx(back_sums[-1])
+        best = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        assert score - 1e-9 <= sums[-1] <= best + 1e-9
 
 
 def paths_of(rng: np.random.Generator, n: int) -> list[tuple[int, np.ndarray, np.ndarray]]:
@@ -79,7 +110,6 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     n, cover = 30, 0.8
     paths = paths_of(rng, n)
     free = rng.random(n) < 0.9
-    room = np.append(0, np.cumsum(free))
     starts = np.array([first for first, _, _ in paths])
     sizes = np.array([len(sums) for _, _, sums in paths])
     ptr = np.append(0, np.cumsum(sizes))
@@ -93,7 +123,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     for start in range(n):
         for stop in start + lengths[start + lengths <= n]:
             total, count = set_kernels.recurrences(
-                start, stop, starts, ptr, *flat, row_ptr, row_paths, room, cover, spans, gains
+                start, stop, starts, ptr, *flat, row_ptr, row_paths, free, cover, spans, gains
             )
             expected = naive.recurrences_of(start, stop, paths, free, cover)
             of = [(begin, end, *part) for begin, end, _, part in expected]
@@ -108,29 +138,6 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
     if len(places):
         assert totals[tuple(places[0].tolist())] == max(totals.values())
     assert (np.diff(ranks) >= 0).all()
-
-
-def wandering(rng: np.random.Generator, n: int) -> np.ndarray:
-    """Movement that hardly ever comes back: body sizes, 30 frames a second."""
-    noise = rng.normal(0, 1, (n + 60, 6))
-    window = np.hanning(45)
-    smooth = [np.convolve(column, window / np.linalg.norm(window), "valid") for column in noise.T]
-    return 0.3 * np.column_stack(smooth)[:n]
-
-
-def with_gestures(seed: int, places: list[int]) -> np.ndarray:
-    """A gesture of 40 frames at some places of such movement, begun and ended at one pose."""
-    rows = wandering(np.random.default_rng(seed), 900)
-    angle = np.linspace(0, 2 * np.pi, 40)
-    gesture = 0.3 * np.column_stack([np.sin(k * angle) for k in (1, 2, 1, 3, 1, 2)])
-    away = np.ones((len(rows), 1))
-    for place in places:
-        far = np.abs(np.arange(len(rows)) - place - 19.5) - 19.5
-        away = np.minimum(away, np.clip(far / 15, 0, 1)[:, None])
-    rows *= away
-    for place in places:
-        rows[place : place + 40] = gesture
-    return rows
 
 
 def found_in(rows: np.ndarray, free: np.ndarray | None = None) -> Occurrences:
@@ -174,13 +181,6 @@ def test_what_is_not_free_is_not_looked_at() -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_movement_that_never_comes_back_has_no_occurrences(seed) -> None:
     assert len(found_in(wandering(np.random.default_rng(seed), 900))) == 0
-
-
-def stacked(rows: np.ndarray) -> np.ndarray:
-    """Features of the method: each pose with those before and after, scaled."""
-    shifts = [round(offset * KINEME.working_fps) for offset in KINEME.offsets]
-    places = np.arange(len(rows)) + np.array(shifts)[:, None]
-    return np.hstack(rows[places.clip(0, len(rows) - 1)]) / len(shifts) ** 0.5
 
 
 def test_gestures_are_primitives_where_nothing_is_counted() -> None:

@@ -190,3 +190,17 @@ def test_the_value_of_a_rank(values, data) -> None:
     rank = data.draw(st.integers(0, len(values) - 1))
     found = kernels.smallest(np.array(values, np.float32), len(values), rank)
     assert found == sorted(values)[rank]
+
+
+@pytest.mark.parametrize(("width", "phases"), [(20, (12, 9, 7)), (5, (12, 7)), (150, (7,))])
+def test_rows_compared_at_a_time_change_nothing(monkeypatch, width, phases) -> None:
+    features = np.random.default_rng(0).normal(0, 0.1, (1200, 4)).cumsum(axis=0)
+    options = {**OPTIONS, "width": width, "phases": phases, "high": 1e9}
+    at_once = recurrence(features, **options)
+    for rows in (1, 3):
+        monkeypatch.setattr("kineme.methods.recurrence.recurrence.BLOCK", rows)
+        in_blocks = recurrence(features, **options)
+        np.testing.assert_array_equal(in_blocks.scales, at_once.scales)
+        np.testing.assert_array_equal(in_blocks.similarity, at_once.similarity)
+    monkeypatch.setattr("kineme.methods.recurrence.recurrence.BLOCK", 10**6)
+    np.testing.assert_array_equal(recurrence(features, **options).similarity, at_once.similarity)

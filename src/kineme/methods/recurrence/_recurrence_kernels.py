@@ -130,17 +130,23 @@ def class_distances(near, labels, wanted, gap, start, stop, nearest):
 
 @njit("float64(float32[:, ::1], float32[::1], int64, int64, int64, int64, int64, float64)", **SUMS)
 def coverage(near, scales, g_start, g_stop, h_start, h_stop, gap, softness):
-    """How well the samples of g recur in h beyond the gap: mean similarity, 0 to 1."""
+    """How well the samples of g recur in h beyond the gap: mean similarity, 0 to 1.
+
+    Of a long g no more samples are looked at than the band has lags.
+    """
     width = near.shape[1] // 2
+    step = 1 + (g_stop - g_start - 1) // near.shape[1]
     total = 0.0
-    for i in range(g_start, g_stop):
+    count = 0
+    for i in range(g_start, g_stop, step):
+        count += 1
         nearest = FAR
         for j in range(max(h_start, i - width), min(h_stop, i + width + 1)):
             if abs(j - i) > gap:
                 nearest = min(nearest, near[i, j - i + width])
         if nearest < FAR:
             total += np.exp(-((nearest / (softness * scales[i])) ** 2))
-    return total / (g_stop - g_start)
+    return total / count
 
 
 @njit("float64(float32[:, ::1], int64[::1], int64[::1], int64)", **SUMS)

@@ -53,6 +53,7 @@ def find_actions(wide: Recurrence, narrow: Recurrence, preset: RecurrenceConstan
         common=preset.link_common,
         samples=preset.link_samples,
         least=preset.least_self_similarity,
+        part=max(1, preset.samples(preset.event_window)),
         max_lag=None if preset.max_lag is None else preset.samples(preset.max_lag),
     )
     repeats = repeating(borders, labels, wide, preset)

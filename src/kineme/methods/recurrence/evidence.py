@@ -45,6 +45,8 @@ def evidence(recurring: Recurrence, preset: CountingPreset, segments: Segments) 
     segments : Segments
     """
     borders, labels, own = segments.borders, segments.labels, segments.own
+    from scipy.sparse import coo_array, triu
+
     samples, width = recurring.similarity.shape
 
     def similar(rows: Frames, columns: Frames) -> float:
@@ -53,11 +55,11 @@ def evidence(recurring: Recurrence, preset: CountingPreset, segments: Segments) 
 
     at = np.append(borders[:-1] // recurring.step, samples)
     spans = [spread(start, stop, COMPARED) for start, stop in pairwise(at.tolist())]
-    alike = np.full((len(labels), len(labels)), np.nan)
     within_reach = np.searchsorted(at[:-1], at[1:] + width)
-    for g in range(len(labels)):
-        for h in range(g, within_reach[g]):
-            alike[g, h] = alike[h, g] = similar(spans[g], spans[h])
+    pairs = np.array([(g, h) for g, last in enumerate(within_reach) for h in range(g, last)])
+    shares = [similar(spans[g], spans[h]) for g, h in pairs.tolist()]
+    forth = coo_array((shares, pairs.T), (len(labels), len(labels)))
+    alike = forth + triu(forth, 1).T
     near = round(NEAR * preset.working_fps / recurring.step)
     parents = segments.parents
     return Evidence(

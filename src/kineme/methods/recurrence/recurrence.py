@@ -30,6 +30,8 @@ Band = NDArray[np.float32]
 
 SHORT = 1000
 """Rows of a band that are read or written sooner than threads have shared them."""
+BLOCK = 4
+"""Times as many rows as the band has lags that are compared at a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,29 +143,55 @@ def _similar(
     high: float,
     softness: float,
 ) -> Recurrence:
-    """Similarities of samples from their distances."""
-    n, width = len(near), near.shape[1] // 2
-    blurred = np.empty_like(near)
+    """Similarities of samples from their distances.
+
+    Blurred distances are held for a block of rows at a time, and for those in reach of it.
+    """
+    n, lags = near.shape
     scales = np.empty(n, np.float32)
-    similarity = np.zeros((n, width + 1), np.float32)
-    parts = even_slices(n, SHORT)
+    similarity = np.zeros((n, lags // 2 + 1), np.float32)
+    blurred = np.empty((min(n, BLOCK * lags + 2 * (lags // 2 + phases[0])), lags), np.float32)
+    held: tuple[slice, int] | None = None  # which rows are blurred, and by which window
 
-    def scale(part: slice) -> None:
-        kernels.local_scales(blurred, phases[0], rank, part.start, part.stop, low, high, scales)
+    def blur(around: slice, window: int) -> None:
+        nonlocal held
+        if held == (around, window):
+            return
+        held, rows_around = (around, window), near[around]
 
-    def compare(part: slice) -> None:
-        kernels.add_similarities(
-            blurred, scales, softness, 1 / len(phases), part.start, part.stop, similarity
-        )
+        def fill(part: slice) -> None:
+            kernels.blur_rows(rows_around, window, part.start, part.stop, blurred)
 
+        map_threads(fill, even_slices(len(rows_around), SHORT))
+
+    def block(first: int) -> tuple[slice, list[slice]]:
+        """Rows around those of a block, and slices of its own, counted from there."""
+        last, reach = min(first + BLOCK * lags, n), lags // 2 + phases[0]
+        around = slice(max(first - reach, 0), min(last + reach, n))
+        begin = first - around.start
+        own = even_slices(last - first, SHORT)
+        return around, [slice(begin + each.start, begin + each.stop) for each in own]
+
+    blocks = [block(first) for first in range(0, n, BLOCK * lags)]
+    for around, parts in blocks:  # the scale is that of the widest window, which is the first
+        blur(around, phases[0])
+
+        def scale(part: slice, around: slice = around) -> None:
+            rows_of, found = blurred[: around.stop - around.start], scales[around]
+            kernels.local_scales(rows_of, phases[0], rank, part.start, part.stop, low, high, found)
+
+        map_threads(scale, parts)
     for window in phases:
+        for around, parts in blocks:
+            blur(around, window)
 
-        def blur(part: slice, window: int = window) -> None:
-            kernels.blur_rows(near, window, part.start, part.stop, blurred)
+            def compare(part: slice, around: slice = around) -> None:
+                kernels.add_similarities(
+                    blurred[: around.stop - around.start], scales[around], softness,
+                    1 / len(phases), part.start, part.stop, similarity[around],
+                )  # fmt: skip
 
-        # The scale is that of the widest window, which is the first.
-        for stage in (blur, scale, compare) if window == phases[0] else (blur, compare):
-            map_threads(stage, parts)
+            map_threads(compare, parts)
     return Recurrence(near, similarity, scales, rows, step, phases, softness)
 
 

@@ -116,7 +116,8 @@ def _distances(
 ) -> NDArray[np.float32]:
     """How far some samples are from the nearest of an action."""
     nearest = np.empty(len(per_sample), np.float32)
-    wanted = np.full(len(per_sample), action)
+    wanted = np.empty(len(per_sample), np.int64)
+    wanted[around] = action
     kernels.class_distances(
         recurrence.near, per_sample, wanted, recurrence.phase, around.start, around.stop, nearest
     )

@@ -33,24 +33,29 @@ def pair_scores(samples, costs, i, start, scale, worst, found):
 
 
 @njit(
-    "Tuple((int64[:, ::1], float64[::1]))(float64[:, ::1], float64[::1], boolean[::1], int64,"
-    " int64, float64, float64, float64)",
+    "Tuple((int64[:, ::1], float64[::1], int64[:, ::1]))(float64[:, ::1], float64[::1],"
+    " boolean[::1], int64, int64, int64, float64, float64, float64)",
     **OPTIONS,
 )
-def local_paths(samples, costs, begins, gap, width, scale, worst, least):
+def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
     """First and last pair (i, j, i, j) and score of the best path from each first pair.
 
     Pairs are ``gap`` to ``width`` samples apart. A path steps by one sample on
     both sides or by two on one of them, never into a sample that ``begins`` a
     stretch, and goes on for as long as its score is above 0. Of those that score
     ``least`` or more, one for each branch of each first pair is kept, at its best.
+    Beside its ends is the latest of the pairs that it passed, one after so many samples
+    (``leg``), -1 if there is none; these are (i, j, the one before).
     """
     n = len(costs)
     line = np.empty(n)
     scores = np.zeros((3, n))
     firsts = np.zeros((3, n), np.int64)
     records = np.full((3, n), -1, np.int64)
-    found = [(0, 0, 0, 0, 0.0)]
+    passes = np.full((3, n), -1, np.int64)
+    since = np.zeros((3, n), np.int64)  # the first sample, or that of the latest pair passed
+    found = [(0, 0, 0, 0, np.int64(-1), 0.0)]
+    passed = [(0, 0, np.int64(-1))]
     for i in range(n):
         row, one, two = i % 3, (i - 1) % 3, (i - 2) % 3
         for j in range(max(i + gap - 3, 0), min(i + gap, n)):
@@ -60,32 +65,43 @@ def local_paths(samples, costs, begins, gap, width, scale, worst, least):
         pair_scores(samples, costs, i, near, scale, worst, line[near:far])
         for j in range(near, far):
             score = line[j]
-            best, first, record = score, i * n + j, np.int64(-1)
+            best, source, column = score, -1, -1
             if go and not begins[j]:
                 before = scores[one, j - 1]
                 if before > 0 and before + score > best:
-                    best, first, record = before + score, firsts[one, j - 1], records[one, j - 1]
+                    best, source, column = before + score, one, j - 1
                 before = scores[one, j - 2]
                 if not begins[j - 1] and before > 0 and before + 1.5 * score > best:
-                    best, first = before + 1.5 * score, firsts[one, j - 2]
-                    record = records[one, j - 2]
+                    best, source, column = before + 1.5 * score, one, j - 2
                 before = scores[two, j - 1]
                 if skip and before > 0 and before + 1.5 * score > best:
-                    best, first = before + 1.5 * score, firsts[two, j - 1]
-                    record = records[two, j - 1]
+                    best, source, column = before + 1.5 * score, two, j - 1
             scores[row, j] = max(best, 0)
+            if best <= 0:
+                continue
+            first, record, latest, start = i * n + j, np.int64(-1), np.int64(-1), i
+            if source >= 0:
+                first, record = firsts[source, column], records[source, column]
+                latest, start = passes[source, column], since[source, column]
             firsts[row, j], records[row, j] = first, record
             if best >= least:
                 if record < 0:
                     records[row, j] = len(found)
-                    found.append((first // n, first % n, i, j, best))
-                elif best > found[record][4]:
-                    found[record] = (first // n, first % n, i, j, best)
-    ends = np.empty((len(found) - 1, 4), np.int64)
+                    found.append((first // n, first % n, i, j, latest, best))
+                elif best > found[record][5]:
+                    found[record] = (first // n, first % n, i, j, latest, best)
+            if i - start >= leg:
+                passed.append((i, j, latest))
+                latest, start = np.int64(len(passed) - 2), i
+            passes[row, j], since[row, j] = latest, start
+    ends = np.empty((len(found) - 1, 5), np.int64)
     totals = np.empty(len(found) - 1)
     for k in range(len(totals)):
-        ends[k, 0], ends[k, 1], ends[k, 2], ends[k, 3], totals[k] = found[k + 1]
-    return ends, totals
+        ends[k, 0], ends[k, 1], ends[k, 2], ends[k, 3], ends[k, 4], totals[k] = found[k + 1]
+    pairs = np.empty((len(passed) - 1, 3), np.int64)
+    for k in range(len(pairs)):
+        pairs[k, 0], pairs[k, 1], pairs[k, 2] = passed[k + 1]
+    return ends, totals, pairs
 
 
 @njit(

@@ -6,25 +6,36 @@ Paths are those of ``_occurrence_kernels``, seen from either side. Naive twins a
 
 from __future__ import annotations
 
+from heapq import heapify, heappop, heappush
+
 import numpy as np
 from numba import njit
 
 from kineme._compiled import OPTIONS
 
 
+@njit("int64(boolean[::1], int64, int64)", **OPTIONS)
+def set_in(marks, start, stop):
+    """How many marks of ``[start, stop)`` are set."""
+    count = 0
+    for i in range(start, stop):
+        count += marks[i]
+    return count
+
+
 @njit(
     "Tuple((float64, int64))(int64, int64, int64[::1], int64[::1], float64[::1], float64[::1],"
-    " int64[::1], int64[::1], int64[::1], float64, int64[:, ::1], float64[::1])",
+    " int64[::1], int64[::1], boolean[::1], float64, int64[:, ::1], float64[::1])",
     **OPTIONS,
 )
 def recurrences(
-    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, room, cover, spans, gains
+    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
 ):
     """Where ``[start, stop)`` recurs, written to spans and gains: their sum and their number.
 
     Each is the partner of what a path covers of it, ``cover`` at least, and that comes
     after it; the strongest are first, none reaches into another, into itself or into
-    samples that are not free. ``room`` is how many are before each.
+    samples that are not free.
     """
     length = stop - start
     middle = (start + stop) // 2
@@ -56,10 +67,10 @@ def recurrences(
     total, count = 0.0, 0
     for k in range(n):
         begin, end = spans[k, 0], spans[k, 1]
-        clear = 5 * (room[end] - room[begin]) >= 4 * (end - begin)
+        clear = True
         for other in range(count):
             clear = clear and (end <= spans[other, 0] or begin >= spans[other, 1])
-        if clear:
+        if clear and 5 * set_in(free, begin, end) >= 4 * (end - begin):
             for column in range(4):
                 spans[count, column] = spans[k, column]
             gains[count] = gains[k]
@@ -78,14 +89,6 @@ def largest(values, count):
     return best
 
 
-@njit("void(boolean[::1], int64[::1])", **OPTIONS)
-def count_before(marks, counts):
-    """How many marks are set before each place, and in all."""
-    counts[0] = 0
-    for i in range(len(marks)):
-        counts[i + 1] = counts[i] + marks[i]
-
-
 @njit(
     "Tuple((int64[:, ::1], float64[::1], int64[::1]))(int64[::1], int64[::1], int64[::1],"
     " float64[::1], float64[::1], int64[::1], int64[::1], boolean[::1], float64)",
@@ -102,8 +105,6 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
     for i in range(n):
         most = max(most, row_ptr[i + 1] - row_ptr[i])
     spans, gains = np.empty((most, 4), np.int64), np.empty(most)
-    room = np.empty(n + 1, np.int64)
-    count_before(free, room)
     of_stretch = np.zeros((n, sizes))
     known = np.zeros((n, sizes), np.int64)
     best = np.zeros(n)
@@ -112,41 +113,44 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
     for start in range(n):
         for k in range(sizes):
             stop = start + lengths[k]
-            if stop <= n and room[stop] - room[start] == lengths[k]:
+            if stop <= n and set_in(free, start, stop) == lengths[k]:
                 of_stretch[start, k] = recurrences(
-                    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, room, cover,
+                    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover,
                     spans, gains,
                 )[0]  # fmt: skip
         best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
-    while n > 0:
-        start = largest(best, n)
-        if best[start] <= 0:
+    queue = [(-best[start], start) for start in range(n)]  # old entries stay, and are passed over
+    heapify(queue)
+    while len(queue) > 0:
+        gain, start = heappop(queue)
+        if gain >= 0:
             break
+        if best[start] != -gain:
+            continue
         k = largest(of_stretch[start], sizes)
         stop = start + lengths[k]
         total, count = recurrences(
-            start, stop, starts, ptr, partners, sums, row_ptr, row_paths, room, cover, spans, gains
+            start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
         )
         if known[start, k] == rank and count > 0:
             covered, stop = stop, start  # what recurs of it
             for other in range(count):
                 covered, stop = min(covered, spans[other, 2]), max(stop, spans[other, 3])
             found.append((covered, stop, gains[largest(gains, count)], rank))
-            free[covered:stop] = False
             for other in range(count):
-                found.append((spans[other, 0], spans[other, 1], gains[other], rank))
-                free[spans[other, 0] : spans[other, 1]] = False
+                found.append((spans[other, 0], spans[other, 1], gains[other], rank))  # noqa: PERF401
+            for covered, stop, _, _ in found[-1 - count :]:
+                free[covered:stop] = False
+                for begin in range(max(covered - lengths[sizes - 1] + 1, 0), stop):
+                    for k in range(sizes):  # what reaches into it gains nothing any more
+                        of_stretch[begin, k] *= begin + lengths[k] <= covered
+                    best[begin] = of_stretch[begin, largest(of_stretch[begin], sizes)]
+                    heappush(queue, (-best[begin], begin))
             rank += 1
-            count_before(free, room)
-            for begin in range(n):
-                for size in range(sizes):
-                    if of_stretch[begin, size] > 0:
-                        taken = lengths[size] - room[begin + lengths[size]] + room[begin]
-                        of_stretch[begin, size] *= taken == 0
-                best[begin] = of_stretch[begin, largest(of_stretch[begin], sizes)]
         else:
             of_stretch[start, k], known[start, k] = total, rank
             best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
+            heappush(queue, (-best[start], start))
     places = np.empty((len(found) - 1, 2), np.int64)
     scores, ranks = np.empty(len(places)), np.empty(len(places), np.int64)
     for k in range(len(places)):

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.recurrence.repeating import _occurrence_kernels as kernels
 from kineme.methods.recurrence.repeating import _set_kernels as set_kernels
+from kineme.methods.recurrence.repeating.paths import matching_paths
 from kineme.methods.segments import by_first_appearance
 
 if TYPE_CHECKING:
@@ -35,8 +35,6 @@ Ints = NDArray[np.int64]
 LENGTHS = 24
 # Share of the usual movement from which on somebody moves.
 MOVING = 0.25
-# What a pair of samples scores at least, however far they are apart.
-WORST = -2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,21 +127,21 @@ def occurrences(
         return Occurrences(none, none, none, np.empty(0))
     costs = preset.event_cost * samples.seconds
     shortest = max(1, preset.samples(preset.min_event))
-    ends, _ = kernels.local_paths(
+    paths = matching_paths(
         samples.columns,
         costs,
         samples.begins,
-        shortest,
-        preset.samples(preset.event_window),
-        preset.event_scale,
-        WORST,
-        preset.event_link * preset.min_recurrence * per_second,
+        gap=shortest,
+        width=preset.samples(preset.event_window),
+        leg=max(1, preset.samples(preset.window)),
+        scale=preset.event_scale,
+        least=preset.event_link * preset.min_recurrence * per_second,
     )
     longest = max(shortest, preset.samples(preset.max_event))
     lengths = np.unique(np.geomspace(shortest, longest, LENGTHS).round().astype(np.int64))
     spans, scores, ranks = set_kernels.best_sets(
         lengths,
-        *_flat_paths(samples, costs, ends, preset.event_scale),
+        *paths,
         np.ones(len(samples), np.bool_),
         preset.event_cover,
     )
@@ -226,24 +224,3 @@ def _stands(lasting: Floats, preset: RecurrenceConstants) -> NDArray[np.bool_]:
     longer = np.bincount(run, lasting)[run] >= preset.max_stand * preset.working_fps
     stands: NDArray[np.bool_] = still & longer
     return stands
-
-
-def _flat_paths(
-    samples: _Samples, costs: Floats, ends: Ints, scale: float
-) -> tuple[Ints, Ints, Floats, Floats, Ints, Ints]:
-    """Paths seen from either side: first samples, partners, sums, and the paths of each sample."""
-    starts, partners, sums = [], [np.empty(0)], [np.empty(0)]
-    for each in ends:
-        forth, forth_sums, back, back_sums = kernels.follow(
-            samples.columns, costs, each, scale, WORST
-        )
-        starts += [each[0], each[1]]
-        partners += [forth, back]
-        sums += [forth_sums, back_sums]
-    sizes = np.array([len(each) for each in partners[1:]], np.int64)
-    ptr = np.append(0, np.cumsum(sizes))
-    first = np.array(starts, np.int64)
-    rows = np.repeat(first - ptr[:-1], sizes) + np.arange(ptr[-1])
-    row_paths = np.repeat(np.arange(len(sizes)), sizes)[np.argsort(rows, kind="stable")]
-    row_ptr = np.append(0, np.cumsum(np.bincount(rows, minlength=len(samples))))
-    return first, ptr, np.concatenate(partners), np.concatenate(sums), row_ptr, row_paths
