@@ -7,6 +7,7 @@ import os
 import re
 import secrets
 import shutil
+import stat
 import sys
 import time
 from collections.abc import Iterator
@@ -33,7 +34,8 @@ _swept: set[Path] = set()  # folders whose drafts this process has looked at
 def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A path to write to; what is there when the block ends becomes ``path``.
 
-    It lies in the same folder and keeps the suffix. If the block raises, it
+    It lies in the same folder and keeps the suffix. A link at ``path`` is refused: whoever
+    made it would say which file is overwritten. If the block raises, the draft
     is removed and what was at ``path`` before stays as it was. Once the block has
     ended the file is on the disk under its name, should the machine go down.
     Drafts of killed writers are removed when they are an hour old.
@@ -41,7 +43,7 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     Raises
     ------
     WriteError
-        The folder is missing or the file cannot be written.
+        The folder is missing, the file cannot be written, or is a link to elsewhere.
     """
     final, draft = _places(path)
     held = None
@@ -97,6 +99,19 @@ def atomic_folder(target: Path) -> Iterator[Path]:
         shutil.rmtree(draft, ignore_errors=True)
 
 
+def refuse_link(path: Path) -> None:
+    """WriteError where a file or folder is a link, through which others would choose the place."""
+    try:
+        found = path.lstat()
+    except (FileNotFoundError, NotADirectoryError):
+        return
+    except (OSError, ValueError) as error:  # a folder closed to us; a null byte in the name
+        reason = getattr(error, "strerror", None) or error
+        raise WriteError(path, f"cannot be written: {reason}") from error
+    if stat.S_ISLNK(found.st_mode):
+        raise WriteError(path, "is a link, which could lead out of the folder: remove it")
+
+
 def head_of(path: Path) -> bytes:
     """The first bytes of a file; OSError if it cannot be opened."""
     with path.open("rb") as file:
@@ -113,15 +128,16 @@ def tail_of(path: Path) -> bytes:
 def _places(path: str | os.PathLike[str]) -> tuple[Path, Path]:
     """Where the file goes in the end, and where it is written."""
     target = Path(path)
+    refuse_link(target)
     try:
         if target.is_dir():
             raise WriteError(path, "cannot be written: it is a folder; name a file in it")
         if not target.parent.is_dir():
             raise WriteError(path, f"cannot be written: the folder {target.parent} does not exist")
-        final = Path(os.path.realpath(target))
-    except (OSError, ValueError) as error:  # a folder closed to us; a null byte in the name
-        reason = getattr(error, "strerror", None) or error
-        raise WriteError(path, f"cannot be written: {reason}") from error
+        # The folder's own name outlives links on the way to it that are changed meanwhile.
+        final = Path(os.path.realpath(target.parent)) / target.name
+    except OSError as error:  # a folder closed to us
+        raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
     _sweep(final.parent)
     return final, final.with_name(f".kineme-{secrets.token_hex(6)}{final.suffix}")
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import is_number
+from kineme._files import refuse_link
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.library.storage.places import is_remote, place, written
 
@@ -135,6 +136,7 @@ def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
         yield
         return
     try:
+        refuse_link(folder / name)
         lock = os.open(folder / name, os.O_CREAT | os.O_RDWR | getattr(os, "O_CLOEXEC", 0), 0o666)
     except OSError as error:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error

@@ -23,7 +23,7 @@ from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
 
-from kineme.errors import ParameterError, WriteError
+from kineme.errors import ParameterError
 from kineme.labels import json_table, read_segments
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
@@ -192,9 +192,10 @@ class Journal:
             self._write(record)
             save(change.table)
         finally:
-            for place in (self.folder, self.folder.parent):  # empty where nothing was written
-                with suppress(OSError):
-                    place.rmdir()
+            if not self.folder.parent.is_symlink():
+                for place in (self.folder, self.folder.parent):  # empty where nothing was written
+                    with suppress(OSError):
+                        place.rmdir()
         forgotten = self._record.steps.keys() - record.steps.keys()
         self._record, self._unsaved = record, {}
         for number in forgotten:
@@ -202,13 +203,6 @@ class Journal:
                 self._place(number).unlink()
 
     def _write(self, record: Record) -> None:
-        for place in (self.folder.parent, self.folder):
-            if place.is_symlink():
-                raise WriteError(place, "is a link, which could lead out of the folder: remove it")
-            try:
-                place.mkdir(exist_ok=True)
-            except OSError as error:
-                raise WriteError(place, f"cannot be made: {error.strerror or error}") from error
         for number in self._unsaved.keys() & record.steps.keys():
             table = self._unsaved[number]
             write_file(self._place(number), json_table.dumps(table).encode())

@@ -41,12 +41,12 @@ def keep_options(recording: Path, said: dict[str, Any]) -> None:
     ------
     ParameterError
         A value that an option does not take.
+    WriteError
+        It cannot be written.
     """
     known = {name: value for name, value in said.items() if name in ASKED and value}
     ReadOptions(**known)
-    place = _place(recording)
-    place.parent.mkdir(exist_ok=True)
-    write_file(place, json.dumps(known).encode())
+    write_file(_place(recording), json.dumps(known).encode())
 
 
 def _place(recording: Path) -> Path:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import msgspec
 
-from kineme._files import atomic_write
+from kineme._files import atomic_write, refuse_link
+from kineme.errors import WriteError
 from kineme.segments.history import History
 from kineme.web.edits import Edit
 
@@ -71,9 +72,26 @@ def write_record(folder: Path, record: Record) -> None:
 
 
 def write_file(path: Path, content: bytes) -> None:
-    """Have a file on the disk: whole or not at all."""
+    """Have a file of ``.kineme`` on the disk, whole or not at all, with the folders around it.
+
+    Raises
+    ------
+    WriteError
+        It cannot be written; it, ``.kineme`` or a folder between is a link.
+    """
+    _make(path.parent)
     with atomic_write(path) as draft:
         draft.write_bytes(content)
+
+
+def _make(folder: Path) -> None:
+    if folder.name != FOLDER:
+        _make(folder.parent)
+    refuse_link(folder)
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise WriteError(folder, f"cannot be made: {error.strerror or error}") from error
 
 
 def pruned(record: Record) -> Record:

@@ -39,10 +39,8 @@ def video_message(recording: Path) -> Video | None:
 
 
 def set_offset(recording: Path, seconds: float) -> None:
-    """Keep the offset of the video."""
-    place = _place(recording)
-    place.parent.mkdir(exist_ok=True)
-    write_file(place, json.dumps({"offset_s": seconds}).encode())
+    """Keep the offset of the video; WriteError where it cannot be written."""
+    write_file(_place(recording), json.dumps({"offset_s": seconds}).encode())
 
 
 def _place(recording: Path) -> Path:

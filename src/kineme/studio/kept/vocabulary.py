@@ -9,7 +9,6 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from kineme.errors import WriteError
 from kineme.studio.kept.records import FOLDER, write_file
 
 FILE = "labels.json"
@@ -33,12 +32,5 @@ def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
         They cannot be written.
     """
     kept = list(dict.fromkeys(label.strip() for label in labels if label.strip()))
-    place = root / FOLDER
-    if place.is_symlink():
-        raise WriteError(place, "is a link, which could lead out of the folder: remove it")
-    try:
-        place.mkdir(exist_ok=True)
-    except OSError as error:
-        raise WriteError(place, f"cannot be made: {error.strerror or error}") from error
-    write_file(place / FILE, json.dumps(kept, ensure_ascii=False, indent=1).encode())
+    write_file(root / FOLDER / FILE, json.dumps(kept, ensure_ascii=False, indent=1).encode())
     return kept
