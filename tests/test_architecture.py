@@ -117,6 +117,7 @@ HELPERS = {
     "_doors": {"errors"},
     "_files": {"errors"},
     "_interpolation": set(),
+    "_json": {"_files", "errors"},
     "_plugins": {"errors"},
     "_processes": {"_threads"},
     "_rank_kernels": {"_compiled"},

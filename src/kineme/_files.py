@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from kineme.errors import WriteError
+from kineme.errors import ReadError, WriteError
 
 HEAD = 4096
 """Bytes by which a file is known without reading it whole."""
@@ -110,6 +110,18 @@ def refuse_link(path: Path) -> None:
         raise WriteError(path, f"cannot be written: {reason}") from error
     if stat.S_ISLNK(found.st_mode):
         raise WriteError(path, "is a link, which could lead out of the folder: remove it")
+
+
+def refuse_pipe(path: Path) -> None:
+    """ReadError where a path of this machine is a pipe or a device, which might be waited for."""
+    if hasattr(path, "protocol"):  # of universal_pathlib
+        return
+    try:
+        mode = path.stat().st_mode
+    except (OSError, ValueError):  # reading will say what is wrong
+        return
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise ReadError(path, "is a pipe or a device: save what comes from it in a file")
 
 
 def head_of(path: Path) -> bytes:

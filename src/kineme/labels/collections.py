@@ -23,7 +23,7 @@ from kineme.errors import ReadError
 from kineme.labels import csv_table
 from kineme.labels.files import read_content
 from kineme.labels.registry import holds_labels
-from kineme.labels.spans import Labels, Span, as_segmentation
+from kineme.labels.spans import TOO_FAR, Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
 
 SLACK = 1e-6
@@ -164,8 +164,8 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     beyond = sum(span.stop * rate > n_frames + 1 for span in labels.spans)
     whole = [
         span._replace(
-            start=ceil(span.start * rate - SLACK),
-            stop=min(n_frames, ceil(span.stop * rate - SLACK)),
+            start=_first_frame(span.start * rate, n_frames),
+            stop=_first_frame(span.stop * rate, n_frames),
         )
         for span in labels.spans
     ]
@@ -183,6 +183,11 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     }
     notes = [f"{what}: {counted(count, 'label')}" for what, count in told.items() if count]
     return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes))
+
+
+def _first_frame(time: float, n_frames: int) -> int:
+    """The first frame at or after a time in frames; the end for times beyond, however far."""
+    return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
 
 def _cut(old: Span, new: Span) -> list[Span]:

@@ -61,11 +61,16 @@ class Journal:
     table : Segmentation
         What is in it; or was found, if it is not there. Where the history ends with another
         table, that one is kept. Nothing is written before the first change.
+
+    Attributes
+    ----------
+    notes : list of str
+        What people should know: that a damaged history was left alone.
     """
 
     def __init__(self, table_path: Path, table: Segmentation):
         self.folder = table_path.parent / FOLDER / table_path.name.removesuffix(".json")
-        self._record = read_record(self.folder)
+        self._record, self.notes = read_record(self.folder)
         self._unsaved: dict[int, Segmentation] = {}
         history, steps = self._record.history, self._record.steps
         digest = _digest(table)
