@@ -114,7 +114,7 @@ HELPERS = {
     "_colors": set(),
     "_counts": set(),
     "_compiled": set(),
-    "_doors": {"errors"},
+    "_doors": {"_files", "errors"},
     "_files": {"errors"},
     "_interpolation": set(),
     "_json": {"_files", "errors"},

@@ -23,6 +23,7 @@ TAIL = 1 << 16
 if sys.platform != "win32":  # where an open file cannot be removed anyway
     import fcntl
 
+PIPE = "is a pipe or a device: save what comes from it in a file"
 ABANDONED_S = 3600.0
 """Age from which a draft that no writer holds is that of one that was killed."""
 
@@ -112,26 +113,34 @@ def refuse_link(path: Path) -> None:
         raise WriteError(path, "is a link, which could lead out of the folder: remove it")
 
 
-def refuse_pipe(path: Path) -> None:
+def refuse_pipe(path: str | os.PathLike[str]) -> None:
     """ReadError where a path of this machine is a pipe or a device, which might be waited for."""
+    if _is_waited_for(path):
+        raise ReadError(path, PIPE)
+
+
+def _is_waited_for(path: str | os.PathLike[str]) -> bool:
     if hasattr(path, "protocol"):  # of universal_pathlib
-        return
+        return False
     try:
-        mode = path.stat().st_mode
+        mode = os.stat(path).st_mode  # noqa: PTH116 (a text serves as well)
     except (OSError, ValueError):  # reading will say what is wrong
-        return
-    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
-        raise ReadError(path, "is a pipe or a device: save what comes from it in a file")
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
 def head_of(path: Path) -> bytes:
     """The first bytes of a file; OSError if it cannot be opened."""
+    if _is_waited_for(path):
+        raise OSError(errno.EINVAL, PIPE)
     with path.open("rb") as file:
         return file.read(HEAD)
 
 
 def tail_of(path: Path) -> bytes:
     """The last bytes of a file; OSError if it cannot be opened."""
+    if _is_waited_for(path):
+        raise OSError(errno.EINVAL, PIPE)
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - TAIL))
         return file.read()

@@ -39,6 +39,9 @@ Floats = NDArray[np.float64]
 Joints = Mapping[str, Mapping[str, str]]
 """For each joint the columns of its axes."""
 
+RATE = "fps"
+"""A column that tells a rate, as it is written."""
+
 SURE = 0.5
 """Confidence from which a keypoint counts as seen."""
 
@@ -121,6 +124,11 @@ def joint_names(columns: Iterable[str]) -> list[str]:
 def is_timing(column: str) -> bool:
     """Whether a column of this name tells a time or a rate."""
     return any(pattern.fullmatch(column.strip()) for pattern in (_TIME, _RATE))
+
+
+def is_rate(column: str) -> bool:
+    """Whether a column of this name tells a rate."""
+    return _RATE.fullmatch(column.strip()) is not None
 
 
 def dated(names: Sequence[str], cells: Sequence[str]) -> list[int]:

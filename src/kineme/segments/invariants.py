@@ -14,6 +14,9 @@ from kineme._json import fault_of, sentence
 from kineme.errors import ParameterError
 from kineme.segments.table import Level, SegmentTable
 
+FASTEST, LONGEST = 1e9, 1e11
+"""Frames per second and seconds, below which every label format can tell them."""
+
 
 class Input(TypedDict, total=False):
     """The file that a recording was read from."""
@@ -51,8 +54,10 @@ def check_recording(n_frames: int, fps: float) -> None:
     """ParameterError where no recording has this length or rate."""
     if not (is_number(n_frames) and n_frames >= 1):
         raise ParameterError(f"a recording has at least 1 frame, not {n_frames!r:.60}")
-    if not (is_number(fps) and fps > 0):
+    if not (is_number(fps) and 0 < fps < FASTEST):
         raise ParameterError(f"the frame rate must be a positive number, not {fps!r:.60}")
+    if not n_frames / fps < LONGEST:
+        raise ParameterError(f"no recording lasts {n_frames / fps:.3g} s, as this would")
 
 
 def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
