@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, isclose
 from os import PathLike
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from kineme._counts import counted
 from kineme.errors import ReadError
 from kineme.labels import csv_table
 from kineme.labels.files import read_content
+from kineme.labels.pairs import SAME
 from kineme.labels.registry import holds_labels
 from kineme.labels.spans import TOO_FAR, Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
@@ -75,6 +76,11 @@ class LabelSource:
         if content.n_frames != n_frames:
             raise ReadError(
                 self.path, f"is of {content.n_frames} frames, but the recording has {n_frames}"
+            )
+        if not isclose(content.fps, fps, rel_tol=SAME):
+            raise ReadError(
+                self.path,
+                f"is of {content.fps:g} frames per second, but the recording has {fps:g}",
             )
         return content
 

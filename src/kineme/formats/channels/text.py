@@ -117,7 +117,8 @@ def text_channels(
     refuse_interleaved(content, text.names, text.rows, text.separator)
     columns = asked_for(content, text.names, columns, text.numeric())
     wanted = wanted_columns(columns, text.numeric())
-    at = [text.names.index(name) for name in wanted]
+    places = {name: i for i, name in enumerate(text.names)}  # each is there once
+    at = [places[name] for name in wanted]
     values = rows_of(
         content,
         text.rows,
