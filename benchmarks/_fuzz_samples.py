@@ -6,7 +6,9 @@ it is damaged.
 
 from __future__ import annotations
 
+import json
 import os
+import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,18 +20,31 @@ from kineme import formats, labels
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.formats.listing import recordings_in
 from kineme.labels import json_table
+from kineme.labels.collections import labels_of
 from kineme.library import Library, build
+from kineme.library.storage.layout import SEEN
 from kineme.recordings import Motion
+from kineme.reproduction.annotations import is_annotations, read_trials
+from kineme.segments import editing
+from kineme.segments.editing.marks import marked
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.kept.journal import Journal
+from kineme.studio.kept.reading_of_one import keep_options, notes_on_reading, said_of
 from kineme.studio.kept.storage import SUFFIX, saved_table
+from kineme.studio.kept.videos import notes_on_video, set_offset, video_message
+from kineme.studio.kept.vocabulary import notes_on_labels, share_labels, shared_labels
 from kineme.synthesis import motion_graph
-from kineme.synthesis.graph_file import read_graph, write_graph
+from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
 
 LARGEST = 100_000
 """Bytes of a sample from KINEME_DATA; of longer texts the beginning is taken."""
 
 TEXTS = (".bvh", ".amc", ".trc", ".mot", ".txt")
+
+TAKE, CUT = Path("studio/walk.bvh"), Path("graphs/cut.bvh")
+"""What side files and a graph are of; damage to them is that to a recording."""
+
+SIDE_FILES = ("labels.json", "walk.bvh.video.json", "walk.bvh.reading.json")
 
 Door = Callable[[Path], object]
 
@@ -47,10 +62,11 @@ def write_samples(root: Path) -> list[Case]:
     """Small sound files in folders of their kinds; every one of them as a case."""
     motion = formats.read_motion(bundled_recording())
     truth = kineme.read_segments(bundled_truth())
-    for write in (_recordings, _labels, _pairs, _others, _library, _studio):
+    for write in (_recordings, _labels, _pairs, _tables, _others, _benchmark, _library, _studio):
         write(root, motion, truth)
     paths = sorted(path.relative_to(root) for path in root.rglob("*") if path.is_file())
-    cases = [Case(path, (root / path).read_bytes(), doors_of(path)) for path in paths]
+    read = [path for path in paths if path not in (TAKE, CUT)]
+    cases = [Case(path, (root / path).read_bytes(), doors_of(path)) for path in read]
     return [case for case in cases if case.sound]  # locks are empty
 
 
@@ -68,12 +84,19 @@ def doors_of(path: Path) -> tuple[Door, ...]:
         "labels": (
             lambda root: kineme.read_segments(root / path, format=path.stem, fps=60),
             lambda root: kineme.read_segments(root / path),
+            lambda root: _write_on(root, path),
+        ),
+        "tables": (lambda root: _labels_of_many(root / path),),
+        "benchmark": (
+            lambda root: is_annotations(root / path),
+            lambda root: read_trials(root / path),
         ),
         "pairs": (lambda root: kineme.read_segments(root / "pairs" / table),),
         "knowledge": (lambda root: kineme.KnowledgeBase.load(root / path),),
-        "graphs": (lambda root: read_graph(root / path),),
-        "library": (_ask_library, _search_library, _export_library),
-        "studio": (_open_studio,),
+        "graphs": (lambda root: load_sources(read_graph(root / path)),),
+        "library": (_ask_library, _search_library, _export_library)
+        + ((_build_library,) if path.name == SEEN else ()),
+        "studio": (_read_beside,) if path.name in SIDE_FILES else (_open_studio,),
     }[path.parts[0]]
 
 
@@ -110,11 +133,31 @@ def _pairs(root: Path, _: Motion, truth: Segmentation) -> None:
     kineme.write_segments(truth, folder / "pair_events.tsv")
 
 
+def _tables(root: Path, _: Motion, __: Segmentation) -> None:
+    rows = ["recording,start_s,stop_s,label", "a.bvh,0,2,walk", "a.bvh,2,3.5,jump", "b,0,1,walk"]
+    for name, mark in (("commas.csv", ","), ("tabs.tsv", "\t"), ("semicolons.csv", ";")):
+        text = "\n".join(row.replace(",", mark) for row in rows)
+        (_made(root / "tables") / name).write_text(text + "\n")
+
+
+def _benchmark(root: Path, _: Motion, __: Segmentation) -> None:
+    folder = _made(root / "benchmark")
+    marks = (("walk", 90, 100, 110), ("jump", 190, 200, 210), ("walk", 300, 300, 300))
+    names = ("label", "end_earliest", "end_mean", "end_latest")
+    trials = {"86_01": [dict(zip(names, row, strict=True)) for row in marks]}
+    (folder / "annotations.json").write_text(json.dumps({"trials": trials}))
+    (folder / "mocap.txt").write_text(
+        "\n".join(["86_01", *(" ".join(map(str, row)) for row in marks)])
+    )
+
+
 def _others(root: Path, motion: Motion, truth: Segmentation) -> None:
     kineme.KnowledgeBase.from_recording(motion, truth).save(_made(root / "knowledge") / "base.npz")
     graph = kineme.MotionGraph((), (), (), 60.0, 0.1, 0.3)
     write_graph(graph, _made(root / "graphs") / "empty.json")
     cut = motion[:900]
+    formats.write(cut, root / CUT)
+    cut = formats.read_motion(root / CUT)
     graph = motion_graph([cut], [kineme.segment(cut)])
     write_graph(graph, root / "graphs" / "graph.json")
 
@@ -128,8 +171,12 @@ def _library(root: Path, motion: Motion, _: Segmentation) -> None:
     Library(folder).name(0, "walk").merge(0, 1).split(0, ["walk.bvh"])
 
 
-def _studio(root: Path, _: Motion, truth: Segmentation) -> None:
+def _studio(root: Path, motion: Motion, truth: Segmentation) -> None:
     folder = _made(root / "studio")
+    formats.write(motion[:60], root / TAKE)
+    keep_options(root / TAKE, {"fps": 30.0, "unit": "cm", "up": "y"})
+    set_offset(root / TAKE, 1.5)
+    share_labels(folder, ["walk", "jump"])
     journal = Journal(folder / f"walk{SUFFIX}", truth)
 
     def save(new: Segmentation) -> None:
@@ -138,6 +185,35 @@ def _studio(root: Path, _: Motion, truth: Segmentation) -> None:
     for fps in (59.0, 60.0):
         table = Segmentation.from_columns(truth.table.columns(), n_frames=truth.n_frames, fps=fps)
         journal.write(journal.changed(table, None, replaced=True), save, revision=1)
+
+
+def _write_on(root: Path, path: Path) -> object:
+    """What was read, in formats that tell more than the table: where it came from, and notes."""
+    found = kineme.read_segments(root / path, format=path.stem, fps=60)
+    folder = _made(root.parent / "written")
+    for name in ("boris", "babel", "clips", "csv"):
+        known = labels.label_formats()[name]
+        kineme.write_segments(found, folder / f"{name}{known.written_suffix}", format=name)
+    return marked(found, "checked"), editing.cluster_names(found), editing.comments(found)
+
+
+def _labels_of_many(path: Path) -> object:
+    sources = labels_of([Path("a.bvh"), Path("b.bvh")], path)
+    return [source.of(n_frames=240, fps=60.0) for source in sources.values()]
+
+
+def _build_library(root: Path) -> object:
+    folder = root.parent / "rebuilt"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(root / "library", folder)
+    return build((), folder)
+
+
+def _read_beside(root: Path) -> object:
+    take = root / TAKE
+    said = (notes_on_reading(take), notes_on_video(take), notes_on_labels(take.parent))
+    found = kineme.read(take, **said_of(take))
+    return found, video_message(take), shared_labels(take.parent), said
 
 
 def _ask_library(root: Path) -> object:

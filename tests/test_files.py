@@ -95,3 +95,36 @@ def test_names_that_no_file_has(tmp_path: Path, name: str) -> None:
         atomic_write(tmp_path / name) as path,
     ):
         path.write_text("whole")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+def test_a_link_is_refused_and_what_it_leads_to_stays(tmp_path: Path) -> None:
+    (tmp_path / "mine.csv").write_text("mine")
+    for name, target in (("link.csv", "mine.csv"), ("dangling.csv", "nowhere.csv")):
+        (tmp_path / name).symlink_to(tmp_path / target)
+        with (
+            pytest.raises(WriteError, match="is a link"),
+            atomic_write(tmp_path / name) as path,
+        ):
+            path.write_text("whole")
+    assert (tmp_path / "mine.csv").read_text() == "mine"
+    assert not (tmp_path / "nowhere.csv").exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+def test_a_link_made_while_a_file_is_written_is_replaced(tmp_path: Path) -> None:
+    (tmp_path / "mine.csv").write_text("mine")
+    with atomic_write(tmp_path / "a.csv") as path:
+        path.write_text("whole")
+        (tmp_path / "a.csv").symlink_to(tmp_path / "mine.csv")
+    assert (tmp_path / "mine.csv").read_text() == "mine"
+    assert (tmp_path / "a.csv").read_text() == "whole"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+def test_a_folder_that_a_link_leads_to_may_be_written(tmp_path: Path) -> None:
+    (tmp_path / "disk").mkdir()
+    (tmp_path / "data").symlink_to(tmp_path / "disk")
+    with atomic_write(tmp_path / "data" / "a.csv") as path:
+        path.write_text("whole")
+    assert (tmp_path / "disk" / "a.csv").read_text() == "whole"

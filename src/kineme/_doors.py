@@ -9,6 +9,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
+from kineme._files import refuse_pipe
 from kineme.errors import FileError, KinemeError, ReadError
 
 
@@ -26,6 +27,7 @@ def reading(path: str | os.PathLike[str]) -> Iterator[None]:
         In place of any exception but the package's own; the cause is kept.
     """
     try:
+        refuse_pipe(path)
         with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)
             yield

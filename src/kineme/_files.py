@@ -7,13 +7,14 @@ import os
 import re
 import secrets
 import shutil
+import stat
 import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from kineme.errors import WriteError
+from kineme.errors import ReadError, WriteError
 
 HEAD = 4096
 """Bytes by which a file is known without reading it whole."""
@@ -22,6 +23,7 @@ TAIL = 1 << 16
 if sys.platform != "win32":  # where an open file cannot be removed anyway
     import fcntl
 
+PIPE = "is a pipe or a device: save what comes from it in a file"
 ABANDONED_S = 3600.0
 """Age from which a draft that no writer holds is that of one that was killed."""
 
@@ -33,7 +35,8 @@ _swept: set[Path] = set()  # folders whose drafts this process has looked at
 def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A path to write to; what is there when the block ends becomes ``path``.
 
-    It lies in the same folder and keeps the suffix. If the block raises, it
+    It lies in the same folder and keeps the suffix. A link at ``path`` is refused: whoever
+    made it would say which file is overwritten. If the block raises, the draft
     is removed and what was at ``path`` before stays as it was. Once the block has
     ended the file is on the disk under its name, should the machine go down.
     Drafts of killed writers are removed when they are an hour old.
@@ -41,7 +44,7 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     Raises
     ------
     WriteError
-        The folder is missing or the file cannot be written.
+        The folder is missing, the file cannot be written, or is a link to elsewhere.
     """
     final, draft = _places(path)
     held = None
@@ -97,14 +100,47 @@ def atomic_folder(target: Path) -> Iterator[Path]:
         shutil.rmtree(draft, ignore_errors=True)
 
 
+def refuse_link(path: Path) -> None:
+    """WriteError where a file or folder is a link, through which others would choose the place."""
+    try:
+        found = path.lstat()
+    except (FileNotFoundError, NotADirectoryError):
+        return
+    except (OSError, ValueError) as error:  # a folder closed to us; a null byte in the name
+        reason = getattr(error, "strerror", None) or error
+        raise WriteError(path, f"cannot be written: {reason}") from error
+    if stat.S_ISLNK(found.st_mode):
+        raise WriteError(path, "is a link, which could lead out of the folder: remove it")
+
+
+def refuse_pipe(path: str | os.PathLike[str]) -> None:
+    """ReadError where a path of this machine is a pipe or a device, which might be waited for."""
+    if _is_waited_for(path):
+        raise ReadError(path, PIPE)
+
+
+def _is_waited_for(path: str | os.PathLike[str]) -> bool:
+    if hasattr(path, "protocol"):  # of universal_pathlib
+        return False
+    try:
+        mode = os.stat(path).st_mode  # noqa: PTH116 (a text serves as well)
+    except (OSError, ValueError):  # reading will say what is wrong
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+
+
 def head_of(path: Path) -> bytes:
     """The first bytes of a file; OSError if it cannot be opened."""
+    if _is_waited_for(path):
+        raise OSError(errno.EINVAL, PIPE)
     with path.open("rb") as file:
         return file.read(HEAD)
 
 
 def tail_of(path: Path) -> bytes:
     """The last bytes of a file; OSError if it cannot be opened."""
+    if _is_waited_for(path):
+        raise OSError(errno.EINVAL, PIPE)
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - TAIL))
         return file.read()
@@ -113,15 +149,16 @@ def tail_of(path: Path) -> bytes:
 def _places(path: str | os.PathLike[str]) -> tuple[Path, Path]:
     """Where the file goes in the end, and where it is written."""
     target = Path(path)
+    refuse_link(target)
     try:
         if target.is_dir():
             raise WriteError(path, "cannot be written: it is a folder; name a file in it")
         if not target.parent.is_dir():
             raise WriteError(path, f"cannot be written: the folder {target.parent} does not exist")
-        final = Path(os.path.realpath(target))
-    except (OSError, ValueError) as error:  # a folder closed to us; a null byte in the name
-        reason = getattr(error, "strerror", None) or error
-        raise WriteError(path, f"cannot be written: {reason}") from error
+        # The folder's own name outlives links on the way to it that are changed meanwhile.
+        final = Path(os.path.realpath(target.parent)) / target.name
+    except OSError as error:  # a folder closed to us
+        raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
     _sweep(final.parent)
     return final, final.with_name(f".kineme-{secrets.token_hex(6)}{final.suffix}")
 

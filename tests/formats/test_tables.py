@@ -124,6 +124,38 @@ def test_units_in_the_names_of_columns(tmp_path: Path) -> None:
     assert not any("unit" in note for note in named.provenance.notes)
 
 
+def in_units(units: dict[str, float], **columns) -> str:
+    """A table in which the joints are in these units in turn, by the metres in each."""
+    points, names = body(), list(units)
+    told = [names[i % len(names)] for i in range(len(JOINTS))]
+    points /= np.array([units[unit] for unit in told])[:, None]
+    text = table(points, time=TIMES, **columns)
+    for joint, unit in zip(JOINTS, told, strict=True):
+        for axis in "xyz":
+            text = text.replace(f"{joint}_{axis}", f"{joint}_{axis}{unit}", 1)
+    return text
+
+
+def test_columns_in_several_units_are_each_taken_in_their_own(tmp_path: Path) -> None:
+    plain = read(tmp_path, "a.csv", table(body(), time=TIMES), unit="m")
+    mixed = in_units({" [m]": 1, " [mm]": 0.001, " (cm)": 0.01})
+    found = read(tmp_path, "b.csv", mixed)
+    assert np.abs(found.positions - plain.positions).max() < 1e-12
+    assert any("cm and m and mm, each taken in its own" in note for note in found.provenance.notes)
+    with pytest.raises(ReadError, match=r"'left_hip_x' tells no unit: add it .* \[m\]"):
+        read(tmp_path, "c.csv", in_units({" [m]": 1, "": 1, " [mm]": 0.001}))
+
+
+def test_columns_without_a_unit_are_in_that_of_the_others(tmp_path: Path) -> None:
+    plain = read(tmp_path, "a.csv", table(body(), time=TIMES), unit="m")
+    with pytest.warns(KinemeWarning, match="columns of 4 points tell no unit"):
+        found = read(tmp_path, "b.csv", in_units({" [mm]": 0.001, "": 0.001}))
+    assert np.abs(found.positions - plain.positions).max() < 1e-12
+    once = table(1000 * body(), time=TIMES).replace("_x", "_x [mm]")
+    found = read(tmp_path, "c.csv", once)
+    assert np.abs(found.positions - plain.positions).max() < 1e-12
+
+
 def test_positions_beside_other_columns_of_joints(tmp_path: Path) -> None:
     plain = read(tmp_path, "a.csv", table(body(), time=TIMES))
     more = {f"head_{what}_{axis}": [90.0] * 20 for what in ("rotation", "vel") for axis in "xyz"}

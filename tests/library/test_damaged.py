@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ import pyarrow as pa
 import pytest
 from pyarrow import parquet
 
-from kineme.errors import KinemeError, ReadError
+from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.library import Library
 
 Damage = Callable[[Path], None]
@@ -122,3 +123,14 @@ def test_damage_is_said_in_a_sentence(folder: Path, kind: str) -> None:
 def test_a_cluster_without_segments_lasts_no_time(folder: Path) -> None:
     words(with_column("cluster", lambda n: pa.array([99] * n)))(folder)
     assert [cluster.typical_s for cluster in Library(folder).clusters()] == [0.0]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+@pytest.mark.parametrize("name", ["edits.json", ".edits.lock"])
+def test_nothing_is_written_through_a_link(folder: Path, library: Library, name: str) -> None:
+    mine = folder.parent / "mine"
+    (folder / name).unlink(missing_ok=True)
+    (folder / name).symlink_to(mine)
+    with pytest.raises(WriteError, match="is a link"):
+        library.name(library.clusters()[0].cluster, "walk")
+    assert not mine.exists()

@@ -99,7 +99,6 @@ def _numbers(text: str | None) -> list[int] | None:
 @contextmanager
 def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], None]]]:
     """What shows the progress of a file, and what prints a line above it."""
-    from rich.console import Console
     from rich.progress import (
         BarColumn,
         DownloadColumn,
@@ -109,6 +108,8 @@ def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], Non
     from rich.progress import (
         Progress as Bars,
     )
+
+    from kineme.cli.console import Console
 
     console = Console(stderr=True, highlight=False)
     if quiet:

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from rich import box
-from rich.console import Console, RenderableType
+from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from kineme._colors import cluster_color
+from kineme.cli.console import Console
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 

@@ -35,7 +35,7 @@ from kineme.clips.loops import loop
 from kineme.errors import MotionError, ParameterError
 from kineme.formats import write
 from kineme.formats.channels.writing import rows_of
-from kineme.labels.delimited import as_text
+from kineme.formats.delimited import as_text
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import cut
@@ -130,7 +130,8 @@ def write_clips(
     lines: list[list[object]] = []
     with atomic_folder(target) as draft:
         for recording, rows in wanted:
-            suffix, write_clip = _writer(recording, loops=loops)
+            shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
+            suffix, write_clip = _writer(recording, shortest, loops=loops)
             path = str(recording.provenance.path or "")
             stem = _plain(Path(path or "recording").stem)
             source = path.encode(errors="backslashreplace").decode()
@@ -142,12 +143,12 @@ def write_clips(
     return [target / str(name) for name, *_ in lines]
 
 
-def _writer(recording: Motion | Signals, *, loops: bool) -> tuple[str, Write]:
+def _writer(recording: Motion | Signals, shortest: int | None, *, loops: bool) -> tuple[str, Write]:
     """The suffix of clips, and what writes one."""
     if isinstance(recording, Signals):
         if loops:
             raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
-        own = rows_of(recording)
+        own = rows_of(recording, shortest=shortest)
 
         def write_rows(row: Segment, path: Path) -> tuple[float, ...]:
             own.write(path, row.start_frame, row.stop_frame)

@@ -10,19 +10,39 @@ correction.
 
 from __future__ import annotations
 
-import json
 import re
 import warnings
 from os import PathLike
 from pathlib import Path
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
+from msgspec import Meta, Struct
+
+from kineme._json import decoded
 from kineme.errors import KinemeWarning, ReadError
 
 MARKS_FPS = 120.0
 
 # As first published, trial 86_04, row 5 ends before it begins; the authors' correction.
 CORRECTIONS = {("86_04", 5, (4060, 5050, 5090)): (5052, 5052, 5092)}
+
+
+Mark = Annotated[int, Meta(ge=0, lt=10**9)]
+
+
+class _Row(Struct):
+    """An action in ``annotations.json``."""
+
+    label: str
+    end_earliest: Mark
+    end_mean: Mark
+    end_latest: Mark
+
+
+class _File(Struct):
+    """What is read of ``annotations.json``."""
+
+    trials: dict[str, Annotated[list[_Row], Meta(min_length=1)]]
 
 
 class Action(NamedTuple):
@@ -62,18 +82,14 @@ def read_actions(path: str | PathLike[str]) -> dict[str, list[Action]]:
 
 def _json_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
     try:
-        trials = json.loads(_text(path))["trials"]
-        return {
-            name: [
-                Action(
-                    row["label"], *(int(row[f"end_{m}"]) for m in ("earliest", "mean", "latest"))
-                )
-                for row in rows
-            ]
-            for name, rows in trials.items()
-        }
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise ReadError(path, f"no annotations.json of the benchmark: {error}") from error
+        trials = decoded(_text(path), path, _File).trials
+    except ReadError as error:
+        reason = f"no annotations.json of the benchmark: it {error.reason}"
+        raise ReadError(path, reason, line=error.line) from error
+    return {
+        name: [Action(row.label, row.end_earliest, row.end_mean, row.end_latest) for row in rows]
+        for name, rows in trials.items()
+    }
 
 
 def _text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
@@ -81,7 +97,7 @@ def _text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
     trials: dict[str, list[Action]] = {}
     rows: list[Action] | None = None
     for number, line in enumerate(_text(path).splitlines(), 1):
-        row = re.fullmatch(r"\s*(\S.*?)\s+(\d+)\s+(\d+)\s+(\d+)\s*", line)
+        row = re.fullmatch(r"\s*(\S.*?)\s+(\d{1,9})\s+(\d{1,9})\s+(\d{1,9})\s*", line)
         head = re.search(r"\b\d+_\d+\b", line)
         if head:
             rows = trials.setdefault(head[0], [])

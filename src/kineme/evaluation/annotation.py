@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from kineme._checks import as_texts
 from kineme.errors import ParameterError
 from kineme.evaluation.labelling import TRANSITION, Ints, Labelling, check_rate, round_half_up
 
@@ -46,6 +47,7 @@ class Annotation:
 
     def __post_init__(self) -> None:
         check_rate(self.fps)
+        object.__setattr__(self, "labels", as_texts(self.labels, "labels"))
         if not set(self.labels) - {TRANSITION}:
             raise ParameterError("an annotation needs at least one action")
         if self.counts and len(self.counts) != len(self.labels):

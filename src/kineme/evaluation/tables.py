@@ -17,7 +17,7 @@ from kineme._files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
 from kineme.evaluation.annotated_scores import SCORES
-from kineme.labels.delimited import as_text
+from kineme.formats.delimited import as_text
 
 OUTPUTS = (".json", ".csv")
 

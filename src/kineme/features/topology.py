@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 _SAME_LENGTH = 0.15  # relative difference at which two branches still make a pair
+_MOST_BRANCHES = 32  # of one joint, the longest; a hand has five, and pairs grow with the square
 _SHORTEST_FOOT = 0.1  # of the leg's length; less does not tell where the foot points
 
 
@@ -47,7 +48,7 @@ def find_by_shape(parents: Sequence[int], pose: Floats) -> dict[str, int]:
         Metres, y up: a pose in which the legs are the lower limbs.
     """
     paths, lengths = _longest_paths(parents, pose)
-    pairs = _limb_pairs(parents, paths, pose)[:2]
+    pairs = _limb_pairs(parents, paths, lengths, pose)[:2]
     if len(pairs) < 2:
         return {}
     legs, arms = sorted(pairs, key=lambda pair: float(pose[[limb.end for limb in pair], 1].sum()))
@@ -74,7 +75,7 @@ def _longest_paths(parents: Sequence[int], pose: Floats) -> tuple[list[list[int]
 
 
 def _limb_pairs(
-    parents: Sequence[int], paths: list[list[int]], pose: Floats
+    parents: Sequence[int], paths: list[list[int]], lengths: list[float], pose: Floats
 ) -> list[tuple[_Limb, _Limb]]:
     """Pairs of like branches of one joint, the longest first."""
     children: dict[int, list[int]] = {}
@@ -83,7 +84,8 @@ def _limb_pairs(
             children.setdefault(parent, []).append(joint)
     pairs = []
     for branches in children.values():
-        for one, other in combinations(branches, 2):
+        longest = sorted(branches, key=lambda joint: -lengths[joint])[:_MOST_BRANCHES]
+        for one, other in combinations(sorted(longest), 2):
             if pair := _pair(parents, paths[one], paths[other], pose):
                 pairs.append(pair)
     return sorted(pairs, key=lambda pair: -pair[0].length - pair[1].length)

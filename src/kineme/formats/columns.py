@@ -2,7 +2,8 @@
 
 A joint is two or three columns that differ in their last letter: ``hip_x hip_y
 hip_z``, ``hip.x``, ``hip x`` or ``hipX``, in any order; ``hip_pos_x`` where all are called so,
-and ``hip_x [mm]``, which tells the unit. Velocities, rotations and the like of joints are passed
+and ``hip_x [mm]``, which tells the unit; columns in several units are each taken in their own.
+Velocities, rotations and the like of joints are passed
 over. Besides these there may be
 
 - the time: ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or ``seconds``,
@@ -30,12 +31,16 @@ from kineme.formats.gaps import split_at
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import UNITS_OF_TIME, Timing, is_date, seconds, timing_of
-from kineme.recordings import Motion
+from kineme.formats.units import metres
+from kineme.recordings import Motion, Note
 from kineme.recordings.coordinates import COORDINATE, axes_by_point, beginnings, is_body
 
 Floats = NDArray[np.float64]
 Joints = Mapping[str, Mapping[str, str]]
 """For each joint the columns of its axes."""
+
+RATE = "fps"
+"""A column that tells a rate, as it is written."""
 
 SURE = 0.5
 """Confidence from which a keypoint counts as seen."""
@@ -94,7 +99,10 @@ def columns_to_motion(
         notes.append(
             f"{counted(int((sure < limit).sum()), 'position')} less sure than {limit:g} not used"
         )
-    unit, up = options.unit or _unit(joints), options.up
+    unit, up = options.unit, options.up
+    if unit is None:
+        unit, said = _in_one_unit(content, joints, positions)
+        notes += said
     if flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")
         unit, up = unit or "pixel", up or "-y"
@@ -117,6 +125,11 @@ def joint_names(columns: Iterable[str]) -> list[str]:
 def is_timing(column: str) -> bool:
     """Whether a column of this name tells a time or a rate."""
     return any(pattern.fullmatch(column.strip()) for pattern in (_TIME, _RATE))
+
+
+def is_rate(column: str) -> bool:
+    """Whether a column of this name tells a rate."""
+    return _RATE.fullmatch(column.strip()) is not None
 
 
 def dated(names: Sequence[str], cells: Sequence[str]) -> list[int]:
@@ -175,11 +188,39 @@ def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
     return joints
 
 
-def _unit(joints: Joints) -> str | None:
-    """The unit that all of the columns' names tell."""
-    columns = [column.strip() for axes in joints.values() for column in axes.values()]
-    told = {match[5] for column in columns if (match := COORDINATE.fullmatch(column))}
-    return told.pop() if len(told) == 1 else None
+def _in_one_unit(
+    content: FileContent, joints: Joints, positions: Floats
+) -> tuple[str | None, list[str | Note]]:
+    """The unit that the columns' names tell, and notes; None where none does.
+
+    Where they tell several, ``positions`` are brought to metres in place, and the unit is that.
+    """
+    told = {joint: _told(axes) for joint, axes in joints.items()}
+    units = sorted({unit for axes in told.values() for unit in axes.values() if unit})
+    silent = [joint for joint, axes in told.items() if None in axes.values()]
+    if len(units) < 2:
+        said = f"columns of {counted(len(silent), 'point')} tell no unit, and are taken in that of"
+        notes = [Note(f"{said} the others, {units[0]}", "warning")] if units and silent else []
+        return (units[0] if units else None), [*notes]
+    listed = " and ".join(units)
+    if silent:
+        column = next(iter(joints[silent[0]].values()))
+        raise content.error(
+            f"columns are in {listed}, and {column!r} tells no unit: add it to the name, as in "
+            f"'{column} [{units[0]}]', or give unit= (--unit) for all of them"
+        )
+    for j, axes in enumerate(told.values()):
+        for axis, unit in axes.items():
+            positions[:, j, "xyz".index(axis)] *= metres(unit or "m")
+    return "m", [f"columns are in {listed}, each taken in its own"]
+
+
+def _told(axes: Mapping[str, str]) -> dict[str, str | None]:
+    """The unit of each axis of a point; where one tells none, that of the others if it is one."""
+    matches = {axis: COORDINATE.fullmatch(column.strip()) for axis, column in axes.items()}
+    told = {axis: match[5] if match else None for axis, match in matches.items()}
+    known = {unit for unit in told.values() if unit}
+    return {axis: unit or (min(known) if len(known) == 1 else None) for axis, unit in told.items()}
 
 
 def _positions(

@@ -19,6 +19,9 @@ EMPTY = frozenset(
 )
 """What stands in a cell without a number, in lower case; the last are those of spreadsheets."""
 
+_RUNS = re.compile(r"'*[=+\-@]")
+"""A text that spreadsheets would run as a formula, or one that was kept from it."""
+
 _COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 
 
@@ -122,3 +125,25 @@ def _numbers(content: FileContent, cells: list[str], line: int) -> list[float]:
     except ValueError as error:
         raise content.error(str(error), line) from None
     return [nan if hole else next(found) for hole in empty]
+
+
+def as_text(text: str) -> str:
+    """A cell that no spreadsheet runs: one that begins like a formula gets a ``'`` before it.
+
+    Examples
+    --------
+    >>> as_text("=HYPERLINK(1)"), as_text("walk")
+    ("'=HYPERLINK(1)", 'walk')
+    """
+    return f"'{text}" if _RUNS.match(text) else text
+
+
+def from_text(cell: str) -> str:
+    """The text that `as_text` made a cell of.
+
+    Examples
+    --------
+    >>> from_text("'=HYPERLINK(1)"), from_text("'til")
+    ('=HYPERLINK(1)', "'til")
+    """
+    return cell[1:] if cell.startswith("'") and _RUNS.match(cell) else cell

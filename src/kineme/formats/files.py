@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import is_text
-from kineme._files import atomic_write
+from kineme._files import atomic_write, refuse_pipe
 from kineme.errors import KinemeWarning, ReadError, WriteError
 from kineme.recordings import Note, Provenance
 
@@ -106,6 +106,7 @@ class FileContent:
 def load(path: str | PathLike[str]) -> FileContent:
     """The file as it is on disk; ReadError if there is none or it may not be read."""
     try:
+        refuse_pipe(path)
         return FileContent(Path(path), Path(path).read_bytes())
     except OSError as error:
         raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error

@@ -17,6 +17,7 @@ the reason; it never ends the listing.
 from __future__ import annotations
 
 import os
+import re
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -159,8 +160,8 @@ def _is_recording(path: Path) -> bool:
 
 
 def _names_spans(head: bytes) -> bool:
-    first = head.removeprefix(b"\xef\xbb\xbf").split(b"\n", 1)[0].lower().replace(b"\t", b",")
-    return any(name.strip(b' "\r') in SPANS for name in first.split(b","))
+    first = head.removeprefix(b"\xef\xbb\xbf").split(b"\n", 1)[0].lower()
+    return any(name.strip(b' "\r') in SPANS for name in re.split(rb"[,;\t]", first))
 
 
 def _names_motion(path: Path) -> bool:

@@ -14,6 +14,7 @@ tells: those of the years 2001 to 2100 in one unit are none of these years in an
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from datetime import UTC, datetime, time
 from typing import Any, NamedTuple
@@ -42,6 +43,9 @@ _MOST = 2 / 3  # share of steps that are ordinary, else the rate is that of the 
 _ADDS_UP = 0.1  # share by which steps of whole periods may miss the duration
 _SHUFFLED = 0.25  # share of steps backward from which on the rows are in no order of time
 _EPOCH = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
+
+
+_LEAP = re.compile(r"(?<=:\d\d:)60(?!\d)")
 
 
 class Timing(NamedTuple):
@@ -145,9 +149,14 @@ def is_date(text: str) -> bool:
 
 
 def date_seconds(text: str) -> float:
-    """Seconds since 1970, or since midnight for a time of day; ValueError if it is neither."""
+    """Seconds since 1970, or since midnight for a time of day; ValueError if it is neither.
+
+    A leap second, ``23:59:60``, is the first of the next minute, as clocks since 1970 count.
+    """
     if not any(mark in text for mark in "-:"):
         raise ValueError(f"{text[:40]!r} is no ISO date")
+    if leap := _LEAP.search(text):
+        return date_seconds(f"{text[: leap.start()]}59{text[leap.end() :]}") + 1
     try:
         when = datetime.fromisoformat(text)
     except ValueError:

@@ -23,6 +23,7 @@ from typing import Any
 
 from kineme._counts import counted
 from kineme._files import atomic_write
+from kineme._json import loaded
 from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
@@ -60,10 +61,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 def read(path: Path) -> Labels:
     """The labels of the one recording at ``path``."""
-    try:
-        content: Any = json.loads(path.read_text(encoding="utf-8-sig"))
-    except (ValueError, RecursionError) as error:
-        raise ReadError(path, "is not valid JSON, or is cut short") from error
+    content = loaded(path)
     if isinstance(content, dict) and "dur" not in content:
         if len(content) > 1:
             raise ReadError(

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write
+from kineme._json import loaded
 from kineme.errors import ReadError, WriteError
 from kineme.labels import pairs
 from kineme.labels.delimited import number, read_rows, whole, write_rows
@@ -148,10 +149,7 @@ def _sidecar_to_keep(beside: Path) -> dict[str, Any]:
 def _parsed(beside: Path) -> dict[str, Any]:
     if not beside.is_file():
         return {}
-    try:
-        found: Any = json.loads(beside.read_text(encoding="utf-8-sig"))
-    except (ValueError, RecursionError) as error:
-        raise ReadError(beside, "is not valid JSON, or is cut short") from error
+    found = loaded(beside)
     if not isinstance(found, dict):
         raise ReadError(beside, "a sidecar must be a JSON object")
     return found

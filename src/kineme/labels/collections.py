@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, isclose
 from os import PathLike
 from pathlib import Path
 
@@ -25,8 +25,9 @@ from kineme.labels import csv_table
 from kineme.labels.clock_times import by_clock, lost_labels
 from kineme.labels.files import read_content, read_segments
 from kineme.labels.heads import columns
+from kineme.labels.pairs import SAME
 from kineme.labels.registry import format_to_read, holds_labels
-from kineme.labels.spans import Labels, Span, as_segmentation
+from kineme.labels.spans import TOO_FAR, Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
 
 SLACK = 1e-6
@@ -81,6 +82,11 @@ class LabelSource:
         if content.n_frames != n_frames:
             raise ReadError(
                 self.path, f"is of {content.n_frames} frames, but the recording has {n_frames}"
+            )
+        if not isclose(content.fps, fps, rel_tol=SAME):
+            raise ReadError(
+                self.path,
+                f"is of {content.fps:g} frames per second, but the recording has {fps:g}",
             )
         return content
 
@@ -206,8 +212,8 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     backward = sum(span.stop < span.start for span in labels.spans)
     whole = [
         span._replace(
-            start=max(0, ceil(span.start * rate - SLACK)),
-            stop=min(n_frames, ceil(span.stop * rate - SLACK)),
+            start=max(0, _first_frame(span.start * rate, n_frames)),
+            stop=_first_frame(span.stop * rate, n_frames),
         )
         for span in labels.spans
     ]
@@ -215,6 +221,7 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     pairs = list(zip(labels.spans, whole, strict=True))
     lost = [old for old, new in pairs if old.start <= old.stop and new.start >= new.stop]
     beyond = sum(old.stop * rate > n_frames + 1 for old, new in pairs if new.start < new.stop)
+    before = sum(old.start * rate < -1 for old, new in pairs if new.start < new.stop)
     kept: list[Span] = []
     overlaps = 0
     for new in forward:
@@ -224,11 +231,17 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     told = {
         "overlapping others": overlaps,
         "running backwards, left out": backward,
+        "beginning before the start, cut off there": before,
         "reaching beyond the end, cut off there": beyond,
     }
     notes = [f"{what}: {counted(count, 'label')}" for what, count in told.items() if count]
     notes += lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
     return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
+
+
+def _first_frame(time: float, n_frames: int) -> int:
+    """The first frame at or after a time in frames; the end for times beyond, however far."""
+    return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
 
 def _cut(old: Span, new: Span) -> list[Span]:

@@ -28,10 +28,10 @@ from typing import Any, Literal
 
 from kineme._files import atomic_write
 from kineme.errors import ReadError
-from kineme.formats.delimited import dotted
+from kineme.formats.delimited import dotted, from_text
 from kineme.formats.timing import date_seconds, is_date
 from kineme.labels import pairs
-from kineme.labels.delimited import as_text, from_text, number, read_rows, write_rows
+from kineme.labels.delimited import number, read_rows, write_rows
 from kineme.labels.heads import columns as columns_of
 from kineme.labels.heads import separator
 from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
@@ -152,7 +152,7 @@ def _second(cell: str, name: str, path: Path, line: int) -> float:
 
 
 def _text(row: dict[str, str]) -> str:
-    return "transition" if row.get("kind") == "transition" else from_text(row["label"])
+    return "transition" if row.get("kind") == "transition" else row["label"]
 
 
 def _level(row: dict[str, str]) -> Level:
@@ -226,12 +226,11 @@ def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
 
 
 def _cells(row: Segment) -> list[Any]:
-    cells = astuple(replace(row, label=as_text(row.label)))
-    return ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in cells]
+    return ["" if isinstance(cell, float) and math.isnan(cell) else cell for cell in astuple(row)]
 
 
 def _with_text(cells: list[Any], text: str) -> list[Any]:
-    return [*cells, as_text(text)]
+    return [*cells, text]
 
 
 def _recognises(path: Path) -> bool:

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import csv
 import math
-import re
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import TextIO
 
 from kineme.errors import ReadError
-
-_RUNS = re.compile(r"'*[=+\-@]")
-"""A text that spreadsheets would run as a formula, or one that was kept from it."""
+from kineme.formats.delimited import as_text, from_text
 
 
 def read_rows(
@@ -28,10 +26,8 @@ def read_rows(
     try:
         for cells in rows:
             if names and any(cells):
-                yield (
-                    rows.line_num,
-                    dict.fromkeys(names, "") | dict(zip(names, cells, strict=False)),
-                )
+                texts = dict(zip(names, map(from_text, cells), strict=False))
+                yield rows.line_num, dict.fromkeys(names, "") | texts
             elif not names and any(set(wanted) <= set(cells) for wanted in header):
                 names = cells
     except csv.Error as error:
@@ -44,32 +40,13 @@ def read_rows(
 def write_rows(
     file: TextIO, header: Sequence[str], rows: Iterable[Sequence[object]], *, delimiter: str = ","
 ) -> None:
-    """A header line and one line per row; cells in quotes only where they must be."""
+    """A header line and one line per row; cells in quotes only where they must be.
+
+    No spreadsheet runs a text in it, see `as_text`; `read_rows` gives the text back.
+    """
     writer = csv.writer(file, delimiter=delimiter, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
-
-
-def as_text(text: str) -> str:
-    """A cell that no spreadsheet runs: one that begins like a formula gets a ``'`` before it.
-
-    Examples
-    --------
-    >>> as_text("=HYPERLINK(1)"), as_text("walk")
-    ("'=HYPERLINK(1)", 'walk')
-    """
-    return f"'{text}" if _RUNS.match(text) else text
-
-
-def from_text(cell: str) -> str:
-    """The text that `as_text` made a cell of.
-
-    Examples
-    --------
-    >>> from_text("'=HYPERLINK(1)"), from_text("'til")
-    ('=HYPERLINK(1)', "'til")
-    """
-    return cell[1:] if cell.startswith("'") and _RUNS.match(cell) else cell
+    for cells in chain([header], rows):
+        writer.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in cells])
 
 
 def number(text: str, name: str, path: Path, line: int) -> float:

@@ -37,7 +37,8 @@ from pathlib import Path
 from typing import Any
 
 from kineme._files import atomic_write
-from kineme.errors import ParameterError, ReadError
+from kineme._json import decoded
+from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
 from kineme.segments.hierarchy import Hierarchy
@@ -102,11 +103,7 @@ def head_of(segmentation: Segmentation) -> dict[str, Any]:
 
 def parse(text: str, path: Path) -> dict[str, Any]:
     """The object in ``text``, if it is of a schema this version reads."""
-    try:
-        data: Any = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        line = error.lineno if isinstance(error, json.JSONDecodeError) else None
-        raise ReadError(path, "is not valid JSON, or is cut short", line=line) from error
+    data = decoded(text, path)
     schema = data.get("schema") if isinstance(data, dict) else None
     if not isinstance(data, dict) or not str(schema).startswith("kineme.segments/"):
         raise ReadError(path, 'is not a segment table: it has no "schema": "kineme.segments/..."')
@@ -134,7 +131,7 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
         return found
     try:
         return replace(found, hierarchy=_hierarchy(head["hierarchy"], found))
-    except (ParameterError, KeyError, TypeError) as error:
+    except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise ReadError(path, f'"hierarchy" is none: {error}') from error
 
 

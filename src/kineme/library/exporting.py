@@ -11,7 +11,7 @@ import numpy as np
 
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ParameterError, WriteError
-from kineme.labels.delimited import as_text, write_rows
+from kineme.labels.delimited import write_rows
 from kineme.library.clusters import cluster_table, clusters_of
 from kineme.library.opened import OpenTables
 from kineme.library.searching import Hit
@@ -131,9 +131,7 @@ def write_hits(tables: OpenTables, hits: Sequence[Hit], folder: str | PathLike[s
 
 
 def _cell(value: object) -> object:
-    """What stands in a table of text: nothing where nothing is known, and nothing that runs."""
-    if isinstance(value, str):
-        return as_text(value)
+    """What stands in a table of text: nothing where nothing is known."""
     return "" if value is None or value != value else value  # noqa: PLR0124 (nan)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from threading import Thread
 
 from kineme._checks import is_text
-from kineme.errors import WriteError
+from kineme.errors import ReadError, WriteError
 from kineme.library.duplicates import by_content
 from kineme.library.executors import Executor
 from kineme.library.executors.here import Here
@@ -19,6 +19,7 @@ from kineme.library.sources import Glances
 from kineme.library.storage.layout import SEEN, read_json, write_json
 from kineme.library.work import Outcome, Task, outcomes_of, tasks_for
 
+Seen = dict[str, tuple[str, str]]
 UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
 """What is said of such a file."""
 
@@ -62,7 +63,7 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     WriteError
         The folder cannot be written.
     """
-    seen = read_json(plan.folder / SEEN)
+    seen = _seen(plan.folder / SEEN, progress)
     glances = Glances(plan.settings.options().skeleton)
     named = [path for path in found if is_text(str(path))]
     looks = {path: glances.at(path) for path in named}
@@ -71,15 +72,22 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     waiting = [path for path in named if path not in there.digests]
     if waiting:
         _make(plan, waiting, executor, progress, there)
-    told = {str(path): [looks[path], digest] for path, digest in there.digests.items()}
+    told = {str(path): (looks[path], digest) for path, digest in there.digests.items()}
     if told != seen:
         write_json(plan.folder / SEEN, told)
     return there
 
 
-def _unchanged(
-    plan: Plan, looks: Mapping[Path, str], seen: Mapping[str, tuple[str, str]]
-) -> dict[Path, str]:
+def _seen(path: Path, progress: Progress) -> Seen:
+    """Look and digest of each recording when it was last read; none where the file is damaged."""
+    try:
+        return read_json(path, tuple[str, str])
+    except ReadError as error:
+        progress(f"{path.name} is left alone, all recordings are looked at anew: it {error.reason}")
+        return {}
+
+
+def _unchanged(plan: Plan, looks: Mapping[Path, str], seen: Seen) -> dict[Path, str]:
     """Digests of recordings that look as they did, and have a piece."""
     digests = {}
     whole = {piece.stem for piece in plan.pieces.glob("*.parquet")}

@@ -6,7 +6,6 @@ Krüger, Klein 2014. Frame f counted from 1 is frame f - 1 here.
 
 from __future__ import annotations
 
-import json
 import math
 import re
 import warnings
@@ -15,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from kineme._json import decoded
 from kineme.datasets.annotated_trials import MARKS_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.annotation import Annotation
@@ -93,8 +93,8 @@ def is_annotations(path: Path) -> bool:
         text = path.read_text(encoding="utf-8-sig")
         if suffix == ".txt":
             return re.match(r"\s*\S*\b\d+_\d+\b", text) is not None
-        content = json.loads(text)
-    except ValueError:
+        content = decoded(text, path)
+    except (OSError, ValueError, ReadError):
         return False
     return isinstance(content, dict) and "trials" in content
 

@@ -7,15 +7,15 @@ puts the published accuracies beside.
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, TypedDict
 
 import numpy as np
 
+from kineme._json import loaded
 from kineme.errors import ReadError
 from kineme.evaluation.annotated_scores import evaluate_segmentation
 from kineme.evaluation.annotation import Annotation
@@ -114,6 +114,15 @@ class PublishedCuts:
     printed: Scores
 
 
+class _Stored(TypedDict):
+    """What is read of ``published.json``: by trial."""
+
+    aca_cuts_30hz: dict[str, list[int]]
+    haca_cuts_30hz: dict[str, list[int]]
+    aca_cluster_ids: dict[str, list[int]]
+    haca_cluster_ids: dict[str, list[int]]
+
+
 def score_published_cuts(folder: Path) -> list[PublishedCuts]:
     """ACA's and HACA's published cuts of all trials under the authors' functions.
 
@@ -129,22 +138,24 @@ def score_published_cuts(folder: Path) -> list[PublishedCuts]:
     """
     path = folder / "published.json"
     truths = read_truths(folder)
+    stored = loaded(path, _Stored)
     try:
-        stored = json.loads(path.read_text(encoding="utf-8"))
         return [
             _published_cuts(method, trial, truth, stored)
             for method in ("aca", "haca")
             for trial, truth in truths.items()
         ]
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError) as error:  # no such trial, or cuts that do not rise
         raise ReadError(path, f"no published cuts here: {error}") from error
 
 
 def _published_cuts(
-    method: str, trial: str, truth: Annotation, stored: Mapping[str, Any]
+    method: Literal["aca", "haca"], trial: str, truth: Annotation, stored: _Stored
 ) -> PublishedCuts:
-    cuts = np.array(stored[f"{method}_cuts_30hz"][trial], np.int64) - 1  # counted from 1
-    clusters = stored[f"{method}_cluster_ids"][trial]
+    aca = method == "aca"
+    marks = stored["aca_cuts_30hz" if aca else "haca_cuts_30hz"][trial]
+    cuts = np.array(marks, np.int64) - 1  # counted from 1
+    clusters = stored["aca_cluster_ids" if aca else "haca_cluster_ids"][trial]
     fits = len(clusters) == cuts.size + 1  # HACA's of three trials do not
     found = Labelling.from_cuts(
         cuts, clusters if fits else None, frames=truth.frames, fps=truth.fps

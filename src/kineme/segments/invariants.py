@@ -4,21 +4,60 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypedDict
 
+import msgspec
 import numpy as np
 
 from kineme._checks import is_number
+from kineme._json import fault_of, sentence
 from kineme.errors import ParameterError
 from kineme.segments.table import Level, SegmentTable
+
+FASTEST, LONGEST = 1e9, 1e11
+"""Frames per second and seconds, below which every label format can tell them."""
+
+
+class Input(TypedDict, total=False):
+    """The file that a recording was read from."""
+
+    path: str | None
+    format: str | None
+    sha256: str | None
+
+
+class LabelFile(TypedDict, total=False):
+    """The file that labels were read from, and repetitions of each activity where it has some."""
+
+    path: str | None
+    format: str | None
+    counts: list[int | None]
+
+
+class Provenance(TypedDict, total=False):
+    """What is read again of a provenance, as the package writes it; people may add to it."""
+
+    input: Input | None
+    labels: LabelFile
+    preset: str | None
+    parameters: dict[str, Any]
+    notes: list[str]
+    gaps: list[tuple[int, int]]
+    by_hand: list[tuple[str, int, int]]
+    checked: list[tuple[str, int, int]]
+    comments: list[tuple[str, int, str]]
+    cluster_names: dict[str, str]
+    corrections: int
 
 
 def check_recording(n_frames: int, fps: float) -> None:
     """ParameterError where no recording has this length or rate."""
     if not (is_number(n_frames) and n_frames >= 1):
         raise ParameterError(f"a recording has at least 1 frame, not {n_frames!r:.60}")
-    if not (is_number(fps) and fps > 0):
+    if not (is_number(fps) and 0 < fps < FASTEST):
         raise ParameterError(f"the frame rate must be a positive number, not {fps!r:.60}")
+    if not n_frames / fps < LONGEST:
+        raise ParameterError(f"no recording lasts {n_frames / fps:.3g} s, as this would")
 
 
 def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
@@ -62,6 +101,19 @@ def plain_json(value: Mapping[str, Any], name: str) -> dict[str, Any]:
     """A copy made of what JSON has: dicts, lists, texts, finite numbers, booleans, None."""
     try:
         copy: dict[str, Any] = json.loads(json.dumps(dict(value), allow_nan=False))
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, RecursionError) as error:
         raise ParameterError(f"{name} cannot be written as JSON: {error}") from error
+    if fault := fault_of(copy):  # which nobody could read again
+        raise ParameterError(f"{name} {fault}")
     return copy
+
+
+def check_provenance(provenance: Mapping[str, Any]) -> None:
+    """ParameterError where something that the package writes there is of another shape."""
+    try:
+        msgspec.convert(provenance, Provenance)
+    except msgspec.ValidationError as error:
+        said = sentence(str(error))
+        raise ParameterError(f"the provenance is not as kineme writes it: {said}") from error
+    except ValueError as error:  # half of a pair of surrogates for a name
+        raise ParameterError("the provenance has a name that is no text") from error

@@ -15,7 +15,13 @@ from kineme._checks import check_type
 from kineme._clock import Clock
 from kineme.segments.columns import segment_table
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
-from kineme.segments.invariants import check_parents, check_recording, check_tiles, plain_json
+from kineme.segments.invariants import (
+    check_parents,
+    check_provenance,
+    check_recording,
+    check_tiles,
+    plain_json,
+)
 from kineme.segments.levels import Levels
 from kineme.segments.row import START_TIME
 from kineme.segments.table import Level, SegmentTable
@@ -79,6 +85,7 @@ class Segmentation(Levels):
         check_tiles(primitives, "primitive", self.n_frames)
         check_parents(activities, primitives)
         object.__setattr__(self, "provenance", plain_json(self.provenance, "provenance"))
+        check_provenance(self.provenance)
         object.__setattr__(self, "timings", plain_json(self.timings, "timings"))
         if self.hierarchy is not None:
             looked_at = self.hierarchy.table

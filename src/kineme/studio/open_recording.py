@@ -20,9 +20,10 @@ from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.first_segments import FirstSegments
 from kineme.studio.kept.journal import Change, Journal
-from kineme.studio.kept.reading_of_one import said_of
+from kineme.studio.kept.reading_of_one import notes_on_reading, said_of
 from kineme.studio.kept.storage import ChangedOnDiskError, saved_table
-from kineme.studio.kept.videos import video_message
+from kineme.studio.kept.videos import notes_on_video, video_message
+from kineme.studio.kept.vocabulary import notes_on_labels
 from kineme.studio.loading import LoadedRecording, digest_in
 from kineme.studio.looks import preview_of, versions_of
 from kineme.studio.reading import RecordingCache
@@ -142,7 +143,7 @@ class OpenRecording:
                 video=video_message(self.path),
                 reading=said_of(self.path),
                 finding=self.finding,
-                warnings=[*shown.warnings, *self._notes],
+                warnings=[*shown.warnings, *self._notes, *self._side_notes()],
             )
             return message, anew
 
@@ -243,6 +244,12 @@ class OpenRecording:
             saved=self._saved,
             notes=notes,
         )
+
+    def _side_notes(self) -> list[str]:
+        """What people should know of the files of ``.kineme``: those that were left alone."""
+        path = self.path
+        files = [*notes_on_reading(path), *notes_on_video(path), *notes_on_labels(path.parent)]
+        return [*self._journal.notes, *files]
 
     @property
     def _saved(self) -> str:

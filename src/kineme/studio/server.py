@@ -17,6 +17,7 @@ import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.http.events import Hub
+from kineme.studio.http.headers import HeadersInTime
 from kineme.studio.http.security import new_token
 
 if TYPE_CHECKING:
@@ -107,6 +108,7 @@ def serve(
             ws="none",
             proxy_headers=False,
             timeout_graceful_shutdown=PATIENCE,
+            http=HeadersInTime,
         )
         ended = threading.Event()
         threading.Thread(

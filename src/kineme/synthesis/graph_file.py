@@ -29,6 +29,7 @@ from typing import Any
 
 from kineme._doors import reading
 from kineme._files import atomic_write
+from kineme._json import loaded
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import read_motion
 from kineme.recordings import Motion
@@ -89,12 +90,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     ReadError
         Missing, damaged or of another version.
     """
-    try:
-        with reading(path):
-            text = Path(path).read_text(encoding="utf-8")
-        data = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise ReadError(path, "is not valid JSON, or is cut short: build it anew") from error
+    data = loaded(Path(path))
     schema = data.get("schema") if isinstance(data, dict) else None
     if not str(schema).startswith("kineme.motion-graph/"):
         raise ReadError(path, "is not a motion graph: make one with kineme graph FILES")
@@ -128,10 +124,13 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     motions = []
     for source in graph.sources:
         path = Path(source.path or "")
-        if not path.is_file():
+        with reading(path):
+            there = path.is_file()
+            digest = sha256(path.read_bytes()).hexdigest() if there else ""
+        if not there:
             raise ReadError(path, "is not there, and the graph was built on it: put it back, "
                             "or build the graph anew")  # fmt: skip
-        if sha256(path.read_bytes()).hexdigest() != source.sha256:
+        if digest != source.sha256:
             raise ReadError(path, "has changed since the graph was built on it: build it anew")
         motions.append(read_motion(path, **source.options))
     return motions

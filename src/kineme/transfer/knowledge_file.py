@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._files import atomic_write
+from kineme._json import decoded
 from kineme._version import __version__
 from kineme.errors import ReadError, WriteError
 from kineme.formats.arrays.numpy_files import members
@@ -65,10 +66,10 @@ def read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDArr
     content = load(path)
     try:
         found = members(content)
-        head = json.loads(str(found["head"]))
+        head = decoded(str(found["head"]), path)
     except KeyError as error:
         raise ReadError(path, "is not a knowledge base: it has no head") from error
-    except (ReadError, ValueError, RecursionError) as error:
+    except (ReadError, ValueError) as error:
         reason = f": {error.reason}" if isinstance(error, ReadError) else ""
         raise ReadError(path, f"is not a knowledge base, or is damaged{reason}") from error
     _check_head(head, settings, path)

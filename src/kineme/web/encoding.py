@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any, TypeVar
 
 import msgspec
 
+from kineme._json import sentence
 from kineme.errors import ParameterError
 
 Message = TypeVar("Message")
@@ -65,16 +65,9 @@ def from_json(body: bytes, kind: type[Message]) -> Message:
     try:
         return msgspec.json.decode(body, type=kind)
     except msgspec.ValidationError as error:
-        raise ParameterError(_sentence(str(error))) from error
+        raise ParameterError(sentence(str(error), "the request")) from error
     except (ValueError, RecursionError) as error:  # ValueError: also what is not UTF-8
         raise ParameterError("the request does not hold JSON") from error
-
-
-def _sentence(problem: str) -> str:
-    """What msgspec says of a message, with the place first and no signs of its own."""
-    what, _, place = problem.partition(" - at ")
-    where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or "the request"
-    return f"{where}: {what[:1].lower()}{what[1:].replace('`', '')}"
 
 
 def _unicode(value: Any) -> Any:

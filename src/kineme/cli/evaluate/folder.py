@@ -9,6 +9,7 @@ from typing import Any
 import typer
 
 from kineme.cli.evaluate.tables import show_table
+from kineme.cli.harmless import harmless
 from kineme.cli.messages import progress
 from kineme.errors import ParameterError
 from kineme.evaluation.folder import FolderScores, Mapped, evaluate_folder
@@ -70,7 +71,7 @@ def run_folder(
 def _tell(what: str, names: Sequence[str]) -> None:
     if names:
         more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
-        typer.echo(f"{what}: {', '.join(names[:NAMED])}{more}", err=True)
+        typer.echo(harmless(f"{what}: {', '.join(names[:NAMED])}{more}"), err=True)
 
 
 def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:
@@ -78,10 +79,10 @@ def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:
     for name, ones in result.methods.items():
         for one in ones:
             if one.error:
-                typer.echo(f"{one.recording}, {name}: {one.error}", err=True)
+                typer.echo(harmless(f"{one.recording}, {name}: {one.error}"), err=True)
     for one in next(iter(result.methods.values())):
         if one.notes and not quiet:
-            typer.echo(f"{one.recording}: {'; '.join(one.notes)}", err=True)
+            typer.echo(harmless(f"{one.recording}: {'; '.join(one.notes)}"), err=True)
 
 
 def _show(result: FolderScores) -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from rich import box
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from kineme._counts import counted
+from kineme.cli.console import Console
 from kineme.evaluation.tables import score_rows
 from kineme.reproduction.benchmark import Result, mean_scores
 

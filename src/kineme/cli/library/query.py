@@ -36,9 +36,9 @@ def query(
 
 
 def _show(answer: Any) -> None:
-    from rich.console import Console
     from rich.text import Text
 
+    from kineme.cli.console import Console
     from kineme.cli.tables import new_table
 
     console = Console(highlight=False)

@@ -117,9 +117,9 @@ def _example_of(take: str, start: float, stop: float | None) -> Example:
 
 
 def _show(hits: list[Hit]) -> None:
-    from rich.console import Console
     from rich.text import Text
 
+    from kineme.cli.console import Console
     from kineme.cli.tables import cluster_cell, new_table
 
     console = Console(highlight=False)

@@ -52,9 +52,9 @@ def _facts(library: Library) -> dict[str, Any]:
 
 
 def _show(library: Library) -> None:
-    from rich.console import Console
     from rich.text import Text
 
+    from kineme.cli.console import Console
     from kineme.cli.tables import cluster_cell, new_table
 
     console = Console(highlight=False)

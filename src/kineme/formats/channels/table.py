@@ -84,27 +84,31 @@ def asked_for(
     """
     if columns is None:
         return None
-    plain = [name for name in columns if name in names]
+    known = set(names)
+    plain = [name for name in columns if name in known]
     if len(set(plain)) < len(plain):
         raise content.error("a column is asked for twice")
     found: dict[str, None] = {}
     for pattern in columns:
+        if pattern in known:
+            found[pattern] = None
+            continue
         fitting = [
             name
             for name in numeric
             if fnmatchcase(name.lower(), pattern.lower()) and not is_timing(name)
         ]
-        if pattern not in names and not (fitting and WILD & set(pattern)):
+        if not (fitting and WILD & set(pattern)):
             raise content.error(f"no column {pattern!r}; there are {', '.join(names)}")
-        found |= dict.fromkeys([pattern] if pattern in names else fitting)
+        found |= dict.fromkeys(fitting)
     return list(found)
 
 
 def wanted_columns(names: Sequence[str] | None, numeric: Iterable[str]) -> list[str]:
     """The columns to read: those asked for, or all that hold numbers, and those of times."""
     timing = [name for name in numeric if is_timing(name)]
-    chosen = list(numeric) if names is None else list(names)
-    return [*chosen, *(name for name in timing if name not in chosen)]
+    chosen = numeric if names is None else names
+    return [*dict.fromkeys([*chosen, *timing])]
 
 
 def channel_table(
@@ -120,11 +124,12 @@ def channel_table(
         chosen, notes = list(columns), []
     else:
         chosen = [name for name in values if name not in timing and not _is_told(name)]
-        clocks = [name for name in chosen if _is_clock(values[name])]
+        clocks = {name: None for name in chosen if _is_clock(values[name])}
         if len(clocks) < len(chosen):
             chosen = [name for name in chosen if name not in clocks]
             hints += [f"; {name!r} rises by {_step(values[name]):g} a row" for name in clocks]
-        left = [name for name in names if name not in chosen and name not in timing]
+        used = {*chosen, *timing}
+        left = [name for name in names if name not in used]
         notes = [f"columns that are no channels: {', '.join(left)}"] if left else []
     if not chosen:
         raise content.error(f"none of its columns is a channel ({', '.join(names)})")

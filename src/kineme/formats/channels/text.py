@@ -14,7 +14,7 @@ from kineme.formats.channels.table import (
     wanted_columns,
 )
 from kineme.formats.columns import dated, is_timing
-from kineme.formats.delimited import EMPTY, dotted, rows_of
+from kineme.formats.delimited import EMPTY, dotted, from_text, rows_of
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.interleaved import refuse_interleaved
 from kineme.formats.keypoints.deeplabcut import is_deeplabcut
@@ -67,7 +67,7 @@ class TextTable:
         if any(map(_is_number, cells)) and not any(map(is_timing, cells)):
             names, below = [str(i) for i in range(1, len(cells) + 1)], first
         else:
-            names = named(cells)
+            names = named(map(from_text, cells))
         return cls(names, lines[below:], below + 1, separator, cells, layout.notes)
 
     @cached_property
@@ -117,7 +117,8 @@ def text_channels(
     refuse_interleaved(content, text.names, text.rows, text.separator)
     columns = asked_for(content, text.names, columns, text.numeric())
     wanted = wanted_columns(columns, text.numeric())
-    at = [text.names.index(name) for name in wanted]
+    places = {name: i for i, name in enumerate(text.names)}  # each is there once
+    at = [places[name] for name in wanted]
     values = rows_of(
         content,
         text.rows,

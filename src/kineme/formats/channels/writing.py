@@ -3,7 +3,9 @@
 Where the file of a recording still holds what was read, its own rows are written: every
 column, channel or not, in the file's format and with its cells untouched. Elsewhere (channels
 of a C3D or MAT, arrays, channels that were changed or brought to even times) a CSV is, of
-``time`` in seconds and one column per channel, empty in gaps.
+``time`` in seconds and one column per channel, empty in gaps. Where the columns of a file do not
+tell the rate that the recording has, as when people gave it, or one row alone tells none, a column
+``fps`` does, so that everything that is written is read again as it was.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from itertools import islice
+from math import isclose
 from os import PathLike
 from pathlib import Path
 from typing import Any, Protocol
@@ -23,10 +26,10 @@ import numpy as np
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
-from kineme.formats.channels.table import named
+from kineme.formats.channels.table import ChannelTable, named
 from kineme.formats.channels.text import TextTable, text_channels
-from kineme.formats.columns import is_timing
-from kineme.formats.delimited import dotted
+from kineme.formats.columns import RATE, is_rate, is_timing
+from kineme.formats.delimited import as_text, dotted
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import covered
 from kineme.recordings import Signals
@@ -81,19 +84,32 @@ def write_signals(
         _ParquetRows.of_values(signals).write(target)
     else:
         known = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS, ".parquet")))
-        raise WriteError(target, f"signals are written as {known}, not {suffix or 'that'!r}")
+        own = Path(signals.provenance.path or "").suffix.lower()
+        why = ": its own times tell another rate" if suffix and suffix == own else ""
+        raise WriteError(target, f"signals are written as {known}, not {suffix or 'that'!r}{why}")
 
 
-def rows_of(signals: Signals) -> Rows:
-    """The frames of signals as rows of their own file, or of a CSV where these are others."""
+def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
+    """The frames of signals as rows of their own file, or of a CSV where these are others.
+
+    Parameters
+    ----------
+    signals : Signals
+    shortest : int, optional
+        How many rows are written at once at least; all by default.
+    """
+    alone = min(signals.n_frames, shortest or signals.n_frames) < 2
     path = signals.provenance.path
     if path is not None and Path(path).is_file():
         content = load(path)
-        if content.digest == signals.provenance.sha256 and _holds(content, signals):
+        table = _held(content, signals) if content.digest == signals.provenance.sha256 else None
+        if table is not None:
+            fps = None if not alone and _tells(table, content, signals.fps) else signals.fps
             if signals.provenance.format == PARQUET:
-                return _ParquetRows.of(content)
-            return _TextRows.of(content, signals.n_frames)
-    return _of_values(signals)
+                return _ParquetRows.of(content, fps)
+            rows = _TextRows.of(content, signals.n_frames)
+            return rows if fps is None else _at_rate(rows, fps)
+    return _of_values(signals, with_rate=alone)
 
 
 @dataclass(frozen=True)
@@ -156,8 +172,15 @@ class _ParquetRows:
     suffix: str = ".parquet"
 
     @classmethod
-    def of(cls, content: FileContent) -> _ParquetRows:
+    def of(cls, content: FileContent, fps: float | None) -> _ParquetRows:
+        """All of a file, with a column of the rate where one is given."""
         table = parquet_file(content).read()
+        if fps is not None:
+            import pyarrow as pa
+
+            timeless = [name for name in table.column_names if not is_rate(name)]
+            rates = pa.array([fps] * table.num_rows, pa.float64())
+            table = table.select(timeless).add_column(0, RATE, rates)
         return cls(named(table.column_names), table)
 
     @classmethod
@@ -168,7 +191,8 @@ class _ParquetRows:
         except ImportError as error:
             raise MissingDependencyError("pyarrow", "tables") from error
         missing = covered(signals.gaps, signals.n_frames)
-        columns = {"time": pa.array(signals.times)} | {
+        rate = {RATE: pa.array([signals.fps])} if signals.n_frames < 2 else {}
+        columns = {**rate, "time": pa.array(signals.times)} | {
             name: pa.array(values, mask=missing)
             for name, values in zip(signals.names, signals.values.T, strict=True)
         }
@@ -187,24 +211,49 @@ class _ParquetRows:
             yield ["" if cell is None else str(cell) for cell in row]
 
 
-def _holds(content: FileContent, signals: Signals) -> bool:
-    """Whether the rows of a table on disk are the frames of signals, holes aside."""
+def _held(content: FileContent, signals: Signals) -> ChannelTable | None:
+    """The table on disk whose rows are the frames of signals, holes aside; None for another."""
     try:
         if signals.provenance.format == PARQUET:
-            values = parquet_channels(content, parquet_file(content), signals.names).values
+            table = parquet_channels(content, parquet_file(content), signals.names)
         elif signals.provenance.format in TEXT:
-            values = text_channels(content, TextTable.of(content), signals.names).values
+            table = text_channels(content, TextTable.of(content), signals.names)
         else:
-            return False
+            return None
     except ReadError:  # channels of other names
-        return False
+        return None
+    values = table.values
     if values.shape != signals.values.shape:
+        return None
+    same = ((values == signals.values) | ~np.isfinite(values)).all()
+    return table if same else None
+
+
+def _tells(table: ChannelTable, content: FileContent, fps: float) -> bool:
+    """Whether a table says by itself that it is of this rate."""
+    try:
+        return isclose(table.timed(content, None).fps, fps)
+    except ReadError:
         return False
-    return bool(((values == signals.values) | ~np.isfinite(values)).all())
 
 
-def _of_values(signals: Signals) -> _TextRows:
+def _at_rate(rows: _TextRows, fps: float) -> _TextRows:
+    """The cells of rows as a CSV or TSV, below a rate in place of any of their own."""
+    numbered = (str(i) for i in range(1, len(next(rows.cells(), ())) + 1))
+    names = list(rows.names or numbered)
+    at = [i for i, name in enumerate(names) if not is_rate(name)]
+    suffix = rows.suffix if rows.suffix in SEPARATORS else ".csv"
+    cells = ([repr(float(fps)), *(row[i] for i in at)] for row in rows.cells())
+    return _rendered(suffix, [RATE, *(names[i] for i in at)], cells)
+
+
+def _of_values(signals: Signals, *, with_rate: bool) -> _TextRows:
     """Times and channels as a CSV that reads back to the same numbers."""
+    rows = _values_of(signals)
+    return _at_rate(rows, signals.fps) if with_rate else rows
+
+
+def _values_of(signals: Signals) -> _TextRows:
     missing = covered(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels
     rows = (
@@ -230,7 +279,7 @@ def _table(rows: Rows, suffix: str, columns: Sequence[str] | None) -> _TextRows:
 
 def _rendered(suffix: str, names: Sequence[str] | None, rows: Iterable[Sequence[str]]) -> _TextRows:
     separator = SEPARATORS[suffix]
-    head = "" if names is None else _line(names, separator)
+    head = "" if names is None else _line([*map(as_text, names)], separator)
     lines = [_line(row, separator) for row in rows]
     return _TextRows(suffix, names, head, lines, lines, separator)
 

@@ -105,7 +105,11 @@ def _nexus(content: FileContent, lines: Sequence[str]) -> CaptureTable:
     separator = separator_of(lines[axes])
     names = cells_of(lines[axes - 1], separator)
     columns = _named(content, names, cells_of(lines[axes], separator), axes)
-    units = [cell for cell in cells_of(lines[axes + 1], separator) if cell]
+    cells = cells_of(lines[axes + 1], separator)
+    units = [cell for first in columns.values() for cell in cells[first : first + 3] if cell]
+    if len(set(units)) > 1:
+        said = " and ".join(sorted(set(units)))
+        raise content.error(f"markers are in {said}: export all of them in one unit", axes + 2)
     rate = cells_of(lines[at + 1], separator)[0]
     return CaptureTable("Nexus", axes, axes + 2, columns, rate, units[0] if units else "")
 

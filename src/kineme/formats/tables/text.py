@@ -16,8 +16,8 @@ from kineme.formats.channels.reading import to_signals
 from kineme.formats.channels.sensors import hold_channels
 from kineme.formats.channels.text import TextTable, text_channels
 from kineme.formats.channels.writing import write_signals
-from kineme.formats.columns import columns_to_motion, dated, is_timing, is_used
-from kineme.formats.delimited import EMPTY, rows_of
+from kineme.formats.columns import RATE, columns_to_motion, dated, is_timing, is_used
+from kineme.formats.delimited import EMPTY, as_text, from_text, rows_of
 from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
 from kineme.formats.gaps import unseen
 from kineme.formats.interleaved import refuse_interleaved
@@ -47,10 +47,13 @@ def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
 def write_csv(motion: Motion, path: Path) -> None:
     """Leave the joints' positions in a CSV file, in metres with y up."""
     joints = spelled(path, motion.skeleton.names, lambda n: in_a_cell(n.replace('"', "'")))
-    names = ["time", *(f"{joint}_{axis}" for joint in joints for axis in "xyz")]
-    head = ",".join(f'"{name}"' if "," in name else name for name in names) + "\n"
-    row = "%.9f" + ",%.9f" * (len(names) - 1) + "\n"
-    empty = "%.9f" + "," * (len(names) - 1) + "\n"
+    rate = [RATE] if motion.n_frames < 2 else []  # which the time of one row does not tell
+    names = [*rate, "time", *(f"{joint}_{axis}" for joint in joints for axis in "xyz")]
+    head = ",".join(f'"{name}"' if "," in name else name for name in map(as_text, names)) + "\n"
+    told = "".join(f"{motion.fps!r}," for _ in rate)
+    cells = 3 * len(joints)
+    row = f"{told}%.9f{',%.9f' * cells}\n"
+    empty = f"{told}%.9f{',' * cells}\n"
     values = motion.positions.reshape(motion.n_frames, -1).tolist()
     rows = zip(motion.times.tolist(), values, unseen(motion), strict=True)
     save(path, [head, *(empty % t if gap else row % (t, *line) for t, line, gap in rows)])
@@ -75,7 +78,7 @@ def _read_motion(content: FileContent, options: ReadOptions) -> Motion:
     first, separator = layout.names, layout.separator
     if is_deeplabcut(lines[first]):
         return read_deeplabcut(content, lines[first:], first + 1, options)
-    names = unique(_cells(lines[first], separator, content))
+    names = unique(map(from_text, _cells(lines[first], separator, content)))
     table = PoseTable(content, names, lines[first + 1 :], first + 2, separator)
     for recognises, reader in POSE_TABLES:
         if recognises(names):

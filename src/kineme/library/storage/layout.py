@@ -16,6 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._checks import is_number
+from kineme._files import refuse_link
+from kineme._json import loaded
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.library.storage.places import is_remote, place, written
 
@@ -91,19 +93,14 @@ def _is_whole(head: Mapping[str, Any]) -> bool:
     )
 
 
-def read_json(path: Path) -> dict[str, Any]:
-    """The object in a JSON file; an empty one where there is no file."""
+def read_json(path: Path, values: Any = Any) -> dict[str, Any]:
+    """The object in a JSON file, whose values are of a type; an empty one where there is none."""
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        return {}
-    except OSError as error:
-        raise ReadError(path, f"cannot be read: {error.strerror or error}") from error
-    except (ValueError, RecursionError) as error:
-        raise ReadError(path, "is damaged: it is not JSON") from error
-    if not isinstance(found, dict):
-        raise ReadError(path, "is damaged: it is no JSON object")
-    return found
+        return loaded(path, dict[str, values])
+    except ReadError as error:
+        if isinstance(error.__cause__, FileNotFoundError):
+            return {}
+        raise
 
 
 def write_json(path: Path, content: dict[str, Any]) -> None:
@@ -135,6 +132,7 @@ def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
         yield
         return
     try:
+        refuse_link(folder / name)
         lock = os.open(folder / name, os.O_CREAT | os.O_RDWR | getattr(os, "O_CLOEXEC", 0), 0o666)
     except OSError as error:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error

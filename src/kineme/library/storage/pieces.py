@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._doors import reading
+from kineme._json import decoded
 from kineme.errors import ReadError
 from kineme.library.index.windows import all_windows
 from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_column
@@ -106,7 +107,7 @@ def read_piece(folder: Path, key: str) -> Piece:
     with reading(path):
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
-        facts = json.loads(table.schema.metadata[METADATA])
+        facts = decoded(table.schema.metadata[METADATA], path, dict[str, Any])
         columns = {name: _column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
     return Piece(facts, SegmentTable(**columns), flat.reshape(-1, EMBEDDED))

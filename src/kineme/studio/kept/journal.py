@@ -23,7 +23,7 @@ from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
 
-from kineme.errors import ParameterError, WriteError
+from kineme.errors import ParameterError
 from kineme.labels import json_table, read_segments
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
@@ -61,11 +61,16 @@ class Journal:
     table : Segmentation
         What is in it; or was found, if it is not there. Where the history ends with another
         table, that one is kept. Nothing is written before the first change.
+
+    Attributes
+    ----------
+    notes : list of str
+        What people should know: that a damaged history was left alone.
     """
 
     def __init__(self, table_path: Path, table: Segmentation):
         self.folder = table_path.parent / FOLDER / table_path.name.removesuffix(".json")
-        self._record = read_record(self.folder)
+        self._record, self.notes = read_record(self.folder)
         self._unsaved: dict[int, Segmentation] = {}
         history, steps = self._record.history, self._record.steps
         digest = _digest(table)
@@ -192,9 +197,10 @@ class Journal:
             self._write(record)
             save(change.table)
         finally:
-            for place in (self.folder, self.folder.parent):  # empty where nothing was written
-                with suppress(OSError):
-                    place.rmdir()
+            if not self.folder.parent.is_symlink():
+                for place in (self.folder, self.folder.parent):  # empty where nothing was written
+                    with suppress(OSError):
+                        place.rmdir()
         forgotten = self._record.steps.keys() - record.steps.keys()
         self._record, self._unsaved = record, {}
         for number in forgotten:
@@ -202,13 +208,6 @@ class Journal:
                 self._place(number).unlink()
 
     def _write(self, record: Record) -> None:
-        for place in (self.folder.parent, self.folder):
-            if place.is_symlink():
-                raise WriteError(place, "is a link, which could lead out of the folder: remove it")
-            try:
-                place.mkdir(exist_ok=True)
-            except OSError as error:
-                raise WriteError(place, f"cannot be made: {error.strerror or error}") from error
         for number in self._unsaved.keys() & record.steps.keys():
             table = self._unsaved[number]
             write_file(self._place(number), json_table.dumps(table).encode())

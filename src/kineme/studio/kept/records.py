@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TypeVar
 
 import msgspec
 
-from kineme._files import atomic_write
-from kineme.errors import WriteError
+from kineme._files import atomic_write, refuse_link
+from kineme._json import loaded
+from kineme.errors import ReadError, WriteError
 from kineme.segments.history import History
 from kineme.web.edits import Edit
 
 SCHEMA = "kineme.history/1"
 FOLDER = ".kineme"
 HISTORY = "history.json"
+Kept = TypeVar("Kept")
 
 
 @dataclass(frozen=True)
@@ -54,15 +57,51 @@ class Record:
     steps: dict[int, Step] = field(default_factory=dict)
 
 
-def read_record(folder: Path) -> Record:
-    """The history in a folder; an empty one where there is none that can be read."""
+def read_record(folder: Path) -> tuple[Record, list[str]]:
+    """The history in a folder, and what people should know of it.
+
+    Parameters
+    ----------
+    folder : Path
+
+    Returns
+    -------
+    record : Record
+        An empty one where there is none that can be read.
+    notes : list of str
+        That a damaged one was left alone.
+    """
+    record, notes = kept_beside(folder / HISTORY, Record, Record())
+    whole = record.schema == SCHEMA and needed_by(record) <= record.steps.keys()
+    if whole or record == Record():
+        return record, notes
+    return Record(revision=record.revision), [*notes, f"{HISTORY} was left alone: it is not whole"]
+
+
+def kept_beside(path: Path, shape: type[Kept], otherwise: Kept) -> tuple[Kept, list[str]]:
+    """What a side file holds, and what people should know of it.
+
+    Parameters
+    ----------
+    path : Path
+        It need not be there.
+    shape : type
+        Of what it holds.
+    otherwise : object
+        What counts where there is none, or none that can be read.
+
+    Returns
+    -------
+    kept : object
+    notes : list of str
+        That a damaged file was left alone, and why.
+    """
     try:
-        record = msgspec.json.decode((folder / HISTORY).read_bytes(), type=Record)
-    except (OSError, ValueError, RecursionError):
-        return Record()
-    needed = needed_by(record)
-    whole = record.schema == SCHEMA and needed <= record.steps.keys()
-    return record if whole else Record(revision=record.revision)
+        return loaded(path, shape), []
+    except ReadError as error:
+        if isinstance(error.__cause__, FileNotFoundError | NotADirectoryError):
+            return otherwise, []
+        return otherwise, [f"{path.name} was left alone: it {error.reason}"]
 
 
 def write_record(folder: Path, record: Record) -> None:
@@ -72,27 +111,26 @@ def write_record(folder: Path, record: Record) -> None:
 
 
 def write_file(path: Path, content: bytes) -> None:
-    """Have a file on the disk: whole or not at all."""
-    with atomic_write(path) as draft:
-        draft.write_bytes(content)
-
-
-def keep(path: Path, content: bytes) -> None:
-    """Have a file in a ``.kineme`` on the disk, which is made if need be.
+    """Have a file of ``.kineme`` on the disk, whole or not at all, with the folders around it.
 
     Raises
     ------
     WriteError
-        It cannot be made, written, or is a link to elsewhere.
+        It cannot be written; it, ``.kineme`` or a folder between is a link.
     """
-    home = path.parent
-    if home.is_symlink():
-        raise WriteError(home, "is a link, which could lead out of the folder: remove it")
+    _make(path.parent)
+    with atomic_write(path) as draft:
+        draft.write_bytes(content)
+
+
+def _make(folder: Path) -> None:
+    if folder.name != FOLDER:
+        _make(folder.parent)
+    refuse_link(folder)
     try:
-        home.mkdir(exist_ok=True)
+        folder.mkdir(exist_ok=True)
     except OSError as error:
-        raise WriteError(home, f"cannot be made: {error.strerror or error}") from error
-    write_file(path, content)
+        raise WriteError(folder, f"cannot be made: {error.strerror or error}") from error
 
 
 def pruned(record: Record) -> Record:

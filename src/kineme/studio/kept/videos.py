@@ -7,8 +7,12 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Annotated
 
-from kineme.studio.kept.records import FOLDER, keep
+from msgspec import Meta, Struct
+
+from kineme.studio.kept.records import FOLDER, kept_beside, write_file
+from kineme.web.edits import LARGEST
 from kineme.web.messages import Video
 
 SUFFIXES = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
@@ -23,13 +27,22 @@ def video_of(recording: Path) -> Path | None:
     return None
 
 
+class _Said(Struct):
+    offset_s: Annotated[float, Meta(ge=-LARGEST, le=LARGEST)] = 0.0
+
+
 def offset_of(recording: Path) -> float:
     """Seconds of the video at the start of the recording; 0 where nobody said."""
-    try:
-        said = json.loads(_place(recording).read_text(encoding="utf-8"))
-        return float(said["offset_s"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return 0.0
+    return _read(recording)[0].offset_s
+
+
+def notes_on_video(recording: Path) -> list[str]:
+    """That the offset of a video cannot be read, where it cannot."""
+    return _read(recording)[1]
+
+
+def _read(recording: Path) -> tuple[_Said, list[str]]:
+    return kept_beside(_place(recording), _Said, _Said())
 
 
 def video_message(recording: Path) -> Video | None:
@@ -39,8 +52,8 @@ def video_message(recording: Path) -> Video | None:
 
 
 def set_offset(recording: Path, seconds: float) -> None:
-    """Keep the offset of the video."""
-    keep(_place(recording), json.dumps({"offset_s": seconds}).encode())
+    """Keep the offset of the video; WriteError where it cannot be written."""
+    write_file(_place(recording), json.dumps({"offset_s": seconds}).encode())
 
 
 def _place(recording: Path) -> Path:

@@ -9,18 +9,23 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from kineme.studio.kept.records import FOLDER, keep
+from kineme.studio.kept.records import FOLDER, kept_beside, write_file
 
 FILE = "labels.json"
 
 
 def shared_labels(root: Path) -> list[str]:
     """The labels of a folder; none where nobody chose any."""
-    try:
-        said = json.loads((root / FOLDER / FILE).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return []
-    return [label for label in said if isinstance(label, str)] if isinstance(said, list) else []
+    return _read(root)[0]
+
+
+def notes_on_labels(root: Path) -> list[str]:
+    """That the labels of a folder cannot be read, where they cannot."""
+    return _read(root)[1]
+
+
+def _read(root: Path) -> tuple[list[str], list[str]]:
+    return kept_beside(root / FOLDER / FILE, list[str], [])
 
 
 def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
@@ -32,5 +37,5 @@ def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
         They cannot be written.
     """
     kept = list(dict.fromkeys(label.strip() for label in labels if label.strip()))
-    keep(root / FOLDER / FILE, json.dumps(kept, ensure_ascii=False, indent=1).encode())
+    write_file(root / FOLDER / FILE, json.dumps(kept, ensure_ascii=False, indent=1).encode())
     return kept

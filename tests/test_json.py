@@ -1,0 +1,163 @@
+"""Damaged JSON beside recordings: whatever it holds, what comes out is sound, or one sentence."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+from msgspec import Struct
+
+import kineme
+from kineme._json import DEEPEST, decoded, loaded
+from kineme.datasets import bundled_truth
+from kineme.errors import ParameterError, ReadError
+from kineme.evaluation.annotation import Annotation
+from kineme.labels.collections import labels_of
+from kineme.reproduction.annotations import is_annotations, read_trials
+from kineme.synthesis import MotionGraph
+from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
+
+DEEP = "[" * 100_000 + "]" * 100_000
+SOUND = {"label": "walk", "end_earliest": 10, "end_mean": 20, "end_latest": 30}
+
+
+class Offset(Struct):
+    offset_s: float
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('{"offset_s": 1', "is not valid JSON"),
+        (DEEP, f"more than {DEEPEST}"),
+        ("[" * (DEEPEST + 1) + "]" * (DEEPEST + 1), f"more than {DEEPEST}"),
+        ('{"offset_s": 1e999}', "a number that is none, or too large"),
+        ('{"offset_s": NaN}', "a number that is none, or too large"),
+        ('{"other": [1' + "0" * 400 + '], "offset_s": 1}', "a number that is none, or too large"),
+        ("9" * 5000, "is not valid JSON"),
+        ('{"offset_s": "late"}', "offset_s: expected float, got str"),
+        ('{"offset_s": [1]}', "offset_s: expected float, got array"),
+        ("{}", "missing required field offset_s"),
+        ("null", "expected object, got null"),
+        ('{"\\ud800": 1, "offset_s": 1}', "a name is no text"),
+    ],
+)
+def test_what_is_no_such_thing_is_one_sentence(text: str, said: str) -> None:
+    with pytest.raises(ReadError, match=said) as caught:
+        decoded(text, "walk.bvh.video.json", Offset)
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 200
+
+
+def test_what_is_sound_comes_out_with_what_is_not_known_left_out() -> None:
+    assert decoded('{"offset_s": 2, "new": {"a": []}}', "a.json", Offset) == Offset(2.0)
+    deepest = "[" * DEEPEST + "]" * DEEPEST
+    assert json.dumps(decoded(deepest, "a.json")) == deepest
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
+def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "labels.json")
+    with pytest.raises(ReadError, match="is a pipe"):
+        loaded(tmp_path / "labels.json")
+
+
+PROVENANCES: list[dict[str, Any]] = [
+    {"input": 3},
+    {"input": ["x"]},
+    {"input": {"path": 5}},
+    {"notes": {"a": 1}},
+    {"by_hand": [[[], 0, 1]]},
+    {"checked": [["activity", {}, 1]]},
+    {"comments": [["activity", "x", 1]]},
+    {"cluster_names": {"0": []}},
+    {"labels": {"counts": 3}},
+    {"gaps": [[1]]},
+    {"corrections": []},
+]
+
+
+@pytest.mark.parametrize("provenance", PROVENANCES, ids=str)
+def test_a_provenance_of_another_shape_is_refused_where_it_comes_in(
+    tmp_path: Path, provenance: dict[str, Any]
+) -> None:
+    told = json.loads(bundled_truth().read_text()) if bundled_truth().suffix == ".json" else None
+    if told is None:
+        kineme.write_segments(kineme.read_segments(bundled_truth()), tmp_path / "a.json")
+        told = json.loads((tmp_path / "a.json").read_text())
+    told["provenance"] |= provenance
+    (tmp_path / "a.json").write_text(json.dumps(told))
+    (name,) = provenance
+    with pytest.raises(ReadError, match=f"provenance is not as kineme writes it: {name}"):
+        kineme.read_segments(tmp_path / "a.json")
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        SOUND | {"label": []},
+        SOUND | {"label": 3},
+        SOUND | {"end_mean": 10**400},
+        SOUND | {"end_mean": 1e300},
+        SOUND | {"end_mean": True},
+        SOUND | {"end_latest": -1},
+        {"label": "walk"},
+        [],
+        None,
+    ],
+    ids=str,
+)
+def test_a_damaged_annotation_of_the_benchmark(tmp_path: Path, row: Any) -> None:
+    path = tmp_path / "annotations.json"
+    path.write_text(json.dumps({"trials": {"86_01": [SOUND, row]}}))
+    with pytest.raises(ReadError, match="is not as it was written|a number that is none"):
+        read_trials(path)
+    path.write_text(json.dumps({"trials": {"86_01": []}}))
+    with pytest.raises(ReadError, match="is not as it was written"):
+        read_trials(path)
+
+
+def test_whether_it_is_the_benchmark_is_no_error(tmp_path: Path) -> None:
+    path = tmp_path / "annotations.json"
+    for text in (DEEP, "[", "9" * 5000, '{"trials": 1e999}'):
+        path.write_text(text)
+        assert not is_annotations(path)
+
+
+def test_marks_of_any_length_in_the_text(tmp_path: Path) -> None:
+    path = tmp_path / "mocap.txt"
+    path.write_text(f"86_01\nwalk 1 2 {'9' * 5000}\n")
+    with pytest.raises(ReadError, match="neither a trial's name"):
+        read_trials(path)
+
+
+def test_labels_of_an_annotation_are_texts() -> None:
+    with pytest.raises(ParameterError, match="labels must be a list of texts"):
+        Annotation((["walk"],), [], [], [], 10, 30.0)  # type: ignore[arg-type]
+
+
+def test_times_beyond_all_measure_are_cut_off(tmp_path: Path) -> None:
+    table = tmp_path / "labels.csv"
+    table.write_text("recording,start_s,stop_s,label\na.bvh,0,1e308,walk\na.bvh,-1e308,1,x\n")
+    (source,) = labels_of([Path("a.bvh")], table).values()
+    found = source.of(n_frames=90, fps=60.0)
+    assert found.activities.label.tolist() == ["x", "walk"]
+    assert found.activities.start_frame.tolist() == [0, 60]
+    assert any("before the start" in note for note in found.provenance.notes)
+    table.write_text("recording,start_s,stop_s,label\na.bvh,0,1e308,walk\na.bvh,2e307,1e308,x\n")
+    (source,) = labels_of([Path("a.bvh")], table).values()
+    assert source.of(n_frames=90, fps=60.0).activities.label.tolist() == ["walk"]
+
+
+@pytest.mark.parametrize("name", ["x" * 300 + ".bvh", "a\0b.bvh"])
+def test_a_graph_of_recordings_that_no_file_is_called_after(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "graph.json"
+    write_graph(MotionGraph((), (), (), 60.0, 0.1, 0.3), path)
+    told = json.loads(path.read_text())
+    told["sources"] = [{"path": name, "sha256": "0", "n_frames": 9, "options": {}}]
+    path.write_text(json.dumps(told))
+    with pytest.raises(ReadError):
+        load_sources(read_graph(path))
