@@ -2,7 +2,7 @@ import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { Edit, Edited, EditRequest, Recording } from "../../src/messages";
 import type { Api } from "../../src/studio/server/api";
 import { expected, storyOf } from "../../src/studio/editing/story";
-import { recording, starts } from "./tables";
+import { recording, row, starts } from "./tables";
 
 const stored = new Map<string, string>();
 const storage = new Proxy(
@@ -317,6 +317,24 @@ describe("when the server is gone", () => {
     expect(next.refused.value).toEqual([]);
     expect(server.got).toHaveLength(2);
     expect(next.shown.value.segmentation.segments[1]!.label).toBe("whole");
+  });
+
+  it("the next tab may find a server that is still looking for segments", async () => {
+    const edited = await open();
+    server.up = false;
+    edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
+    await settled();
+    edited.close();
+    server.up = true;
+    const bare = [row("activity", 0, 100), row("primitive", 0, 100)];
+    const segmentation = { ...server.now.segmentation, segments: bare };
+    const ids = ["a:0", "p:0"];
+    const finding = { ...server.now, segmentation, ids, finding: true, revision: -1 };
+    vi.spyOn(server, "recording").mockResolvedValueOnce(finding);
+    const next = await open();
+    await settled();
+    expect(next.refused.value).toEqual([]);
+    expect(server.got).toMatchObject([{ frame: 30, label: "hop" }]);
   });
 
   it("a tab that dies, too, leaves its edits to the next one", async () => {

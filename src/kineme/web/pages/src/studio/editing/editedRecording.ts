@@ -212,7 +212,8 @@ export class EditedRecording {
     const first = this.waiting.peek()[0]!;
     const { name, base, on = [] } = first;
     const before = this.confirmed.peek();
-    const edit = readdressed(first.edit, on, knownOf(before));
+    // Who is in a table that is still to be found, the server knows that waits for it.
+    const edit = before.finding ? first.edit : readdressed(first.edit, on, knownOf(before));
     try {
       const revision = edit ? (base ?? before.revision) : NO_REVISION;
       const edited = await this.around.api.edit(this.id, {
