@@ -4,11 +4,12 @@
 
 It edits at random, segments anew, undoes, reloads, kills the server and changes between two
 tabs and three recordings, on a line that is slow by 0 to 800 ms, now more, now less. It makes
-several edits without waiting for an answer, and goes on editing while the server is gone. After each step the table on the disk is the one that the page
-shows; at the end every table that was replaced is a version, and undo and redo give the same
-tables. What is not so ends it. The figure is the one thing that takes a graphics card, and
-no table depends on it: without ``--figure`` the browser has none, which halves the time.
-``--quick`` is a dozen edits with one seed.
+several edits without waiting for an answer, and goes on editing while the server is gone.
+After each step the table on the disk is the one that the page shows; at the end every table
+that was replaced is a version, and undo and redo give the same tables. What is not so ends
+it. The figure is the one thing that takes a graphics card, and no table depends on it:
+without ``--figure`` the browser has none, which halves the time. ``--quick`` is one seed and
+a step of each kind in which something could be lost.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from conftest import ARGUMENTS
 
 RECORDINGS = 3
 LATENCY = 800.0  # milliseconds, at most
-QUICK = 12  # edits
+QUICK = ("nudge", "burst", "outage", "kill", "undo")
 SIZE = {"width": 640, "height": 480}  # what is drawn in software takes most of the time
 NO_FIGURE = ["--no-sandbox", "--disable-gpu", "--disable-3d-apis"]
 PATIENCE = 300.0  # seconds; a busy machine loses nothing, either
@@ -46,10 +47,10 @@ def main() -> None:
     parser.add_argument("--edits", type=int, default=500)
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2, 3, 4])
     parser.add_argument("--figure", action="store_true", help="draw it, in software")
-    parser.add_argument("--quick", action="store_true", help="a dozen edits with one seed")
+    parser.add_argument("--quick", action="store_true", help="a few steps with one seed")
     options = parser.parse_args()
     if options.quick:
-        options.edits, options.seeds = QUICK, options.seeds[:1]
+        options.edits, options.seeds = 0, options.seeds[:1]
     screen.PATIENCE = PATIENCE
     program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
     with sync_playwright() as playwright:
@@ -65,6 +66,8 @@ def main() -> None:
                     for i in range(RECORDINGS)
                 ]
                 robot = Robot(context, server, takes, seed, latency=LATENCY)
+                for what in QUICK if options.quick else ():
+                    steps[robot.step(what)] += 1
                 for wanted in [*range(100, options.edits, 100), options.edits]:
                     while robot.edits < wanted:
                         steps[robot.step()] += 1

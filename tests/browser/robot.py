@@ -70,9 +70,9 @@ class Robot:
             tab.opened()
         self.screen.wait("k.unsent.length === 0")
 
-    def step(self) -> str:
-        """Do something at random; what it was."""
-        what = self.chance.choice(STEPS)
+    def step(self, what: str = "") -> str:
+        """Do something, at random unless told what; what it was."""
+        what = what or self.chance.choice(STEPS)
         self.steps.append(what)
         if self.latency:
             self.screen.slow_down(self.chance.choice([0.0, self.chance.uniform(0, self.latency)]))
@@ -285,6 +285,8 @@ class Robot:
 
     def finish(self) -> None:
         """Everything that was replaced is a version; undo and redo give the same tables."""
+        for tab in self.tabs:
+            tab.slow_down(0)
         for take in self.takes:
             self.take = take
             self.open()

@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 import random
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +40,7 @@ def chains() -> list[dict[str, Any]]:
     list of dict
         ``after`` is null where an edit cannot be made.
     """
-    return [_chain(random.Random(seed), seed) for seed in range(CHAINS)]
+    return [_chain(random.Random(seed), seed) for seed in range(CHAINS)]  # noqa: S311
 
 
 def edits_json() -> str:
@@ -84,12 +85,12 @@ def _table(chance: Chance, *, primitives: bool) -> Segmentation:
     clusters = [0, -1, 1, 0]
     rows = [
         ("activity", *span, cluster)
-        for span, cluster in zip(zip(borders, borders[1:], strict=False), clusters, strict=True)
+        for span, cluster in zip(pairwise(borders), clusters, strict=True)
     ]
     for _, start, stop, cluster in [*rows] if primitives else []:
         inner = sorted(chance.sample(range(start + 1, stop), 2)) if cluster >= 0 else []
         cuts = [start, *inner, stop]
-        for span in zip(cuts, cuts[1:], strict=False):
+        for span in pairwise(cuts):
             rows.append(("primitive", *span, chance.choice([cluster, cluster, 2])))
             rows[-1] = rows[-1] if cluster >= 0 else ("primitive", *span, -1)
     columns: dict[str, list[Any]] = {
