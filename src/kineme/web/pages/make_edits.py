@@ -22,9 +22,9 @@ from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import edited
 from kineme.studio.kept.identities import Identities
-from kineme.web.edits import Edit
 from kineme.web.encoding import from_json, to_json
 from kineme.web.page_data import segments_message
+from kineme.web.requests import EditRequest
 
 TARGET = Path(__file__).parent / "tests" / "studio" / "edits.json"
 CHAINS, LENGTH = 6, 24
@@ -45,8 +45,8 @@ def chains() -> list[dict[str, Any]]:
 
 def edits_json() -> str:
     """The file: a line for each edit."""
-    dense = {"ensure_ascii": False, "separators": (",", ":")}
-    lines = ",\n".join(json.dumps(each, **dense) for each in chains())
+    dense = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"))
+    lines = ",\n".join(map(dense.encode, chains()))
     return f"[\n{lines}\n]\n".replace('{"edit":{"kind"', '\n{"edit":{"kind"')
 
 
@@ -55,7 +55,8 @@ def _chain(chance: Chance, seed: int) -> dict[str, Any]:
     start, steps = _told(table, ids), []
     for number in range(LENGTH):
         said, name = _edit(chance, table), f"{seed}-{number} and more"
-        edit = from_json(json.dumps(said).encode(), Edit)
+        sent = json.dumps({"revision": 0, "edit": said}).encode()
+        edit = from_json(sent, EditRequest).edit
         after: dict[str, Any] | None = None
         try:
             made = edited(table, edit, None, None, None).table  # type: ignore[arg-type]
