@@ -125,10 +125,10 @@ class Robot:
         keys.press("Enter")
         if what == "name":
             keys.press("n")
-            self.type_name(f"n{self.chance.randrange(1000)}")
+            self.type_name(f"n{self.chance.randrange(10**6)}")
         elif what == "cluster name":
             keys.press("Shift+N")
-            self.type_name(f"c{self.chance.randrange(1000)}")
+            self.type_name(f"c{self.chance.randrange(10**6)}")
         elif what == "kind":
             kind = self.chance.choice(["activity", "transition"])
             page.locator(".segment-panel select").first.select_option(kind)
@@ -166,12 +166,12 @@ class Robot:
             self.server.kill()
         made, made_before = [], self.asked_for()
         for _ in range(self.chance.randrange(2, 7)):
-            rows = self.rows()
-            self.begin(self.chance.choice(BY_KEY))
+            rows, what = self.rows(), self.chance.choice(BY_KEY)
+            self.begin(what)
             self.screen.page.wait_for_timeout(30)
-            if (now := self.asked_for()) > made_before:
-                made.append(rows)
-                made_before = now
+            if self.rows() != rows or (what == "check" and self.asked_for() > made_before):
+                made.append(rows)  # what is not shown cannot be made: the server says why
+            made_before = self.asked_for()
         shown = self.rows()
         if outage:
             self.server.start()
@@ -199,7 +199,7 @@ class Robot:
         hasty = self.chance.random() < 0.5
         if hasty:
             page.keyboard.press("n")
-            self.type_name(f"k{self.chance.randrange(1000)}")
+            self.type_name(f"k{self.chance.randrange(10**6)}")
         self.server.kill()
         self.server.start()
         page.goto(self.server.address_of(self.take))

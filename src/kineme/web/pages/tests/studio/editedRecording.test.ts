@@ -30,6 +30,8 @@ const MOVE: Edit = { kind: "move_border", level: "primitive", frame: 30, to: 40 
 class Server {
   now: Recording = recording();
   up = true;
+  /** What it cannot make, for reasons of its own. */
+  refuses: (edit: Edit) => boolean = () => false;
   dieAfterSaving = false;
   /** Milliseconds until it answers. */
   latency = 0;
@@ -48,7 +50,8 @@ class Server {
     if (this.known.has(name)) return this.answer();
     if (revision !== this.now.revision) throw new Refused(409, "The table has changed.", {});
     const after = expected(this.story, edit, name || crypto.randomUUID());
-    if (!after || after === this.story) throw new Refused(400, "It cannot be made.", {});
+    if (!after || after === this.story || this.refuses(edit))
+      throw new Refused(400, "It cannot be made.", {});
     this.story = after;
     this.got.push(edit);
     if (name) this.known.add(name);
@@ -226,15 +229,18 @@ describe("however late the server answers", () => {
 });
 
 describe("what the server refuses", () => {
-  const NOWHERE: Edit = { kind: "delete_border", level: "primitive", frame: 31 };
+  const GONE: Edit = { kind: "delete_border", level: "primitive", frame: 30 };
+  beforeEach(() => {
+    server.refuses = ({ kind }) => kind === "delete_border";
+  });
 
   it("stays until somebody decides, and holds up nothing else", async () => {
     const edited = await open();
-    edited.edit(NOWHERE);
+    edited.edit(GONE);
     edited.edit(SPLIT);
     await settled();
     expect(server.got).toEqual([SPLIT]);
-    expect(edited.refused.value).toMatchObject([{ edit: NOWHERE, refused: "It cannot be made." }]);
+    expect(edited.refused.value).toMatchObject([{ edit: GONE, refused: "It cannot be made." }]);
     edited.dropRefused();
     expect(edited.refused.value).toEqual([]);
     expect(stored.size).toBe(0);
@@ -242,28 +248,36 @@ describe("what the server refuses", () => {
 
   it("outlives the tab, and can be tried again", async () => {
     const first = await open();
-    first.edit(NOWHERE);
+    first.edit(GONE);
     await settled();
     first.close();
     const edited = await open();
     expect(edited.refused.value).toHaveLength(1);
-    edited.edit({ kind: "split", level: "primitive", frame: 31 });
-    await settled();
+    await edited.edit(MOVE);
+    server.refuses = () => false;
     edited.retryRefused();
     await settled();
     expect(edited.refused.value).toEqual([]);
-    expect(server.got.at(-1)).toEqual(NOWHERE);
-    expect(starts(server.now.segmentation)).toEqual([0, 30, 60]);
+    expect(server.got.at(-1)).toEqual({ ...GONE, frame: 40 }); // where that border is now
+    expect(starts(server.now.segmentation)).toEqual([0, 60]);
   });
 
   it("and was taken back by its author is no edit at all: undo does not reach the one before", async () => {
     const edited = await open();
     await edited.edit(MOVE);
     server.latency = 2;
-    edited.edit(NOWHERE);
+    edited.edit(GONE);
     edited.undo();
     await edited.settled();
     expect(server.got).toEqual([MOVE]);
+    expect(edited.refused.value).toEqual([]);
+  });
+
+  it("and was never shown as made is told of at once, and nothing to decide", async () => {
+    const edited = await open();
+    edited.edit({ kind: "delete_border", level: "primitive", frame: 31 });
+    await settled();
+    expect(told).toEqual(["It cannot be made."]);
     expect(edited.refused.value).toEqual([]);
   });
 });

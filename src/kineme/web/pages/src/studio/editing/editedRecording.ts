@@ -93,7 +93,10 @@ export class EditedRecording {
     const name = crypto.randomUUID();
     const on = madeOn(edit, knownOf(this.shown.peek()));
     if (made) this.whenMade.set(name, made);
-    this.waiting.value = [...queue, { name, edit, base, on }];
+    const one: Unsent = { name, edit, base, on };
+    const shown = [...this.onTheirWay.peek(), one];
+    const hopeless = this.outlook.isHopeless(this.confirmed.peek(), shown);
+    this.waiting.value = [...queue, { ...one, hopeless }];
     return this.send();
   }
 
@@ -246,14 +249,17 @@ export class EditedRecording {
     this.waiting.value = this.waiting.peek().slice(1);
   }
 
-  /** An edit that cannot be made is kept until somebody decides; undo of it is no edit at all. */
+  /**
+   * An edit that cannot be made is kept until somebody decides. One that was never shown as made is
+   * only told of, and undo of one is no edit at all.
+   */
   private layAside(first: Unsent, reason: string): boolean {
     const rest = this.waiting.peek().slice(1);
     const back = takenBackBy(rest.map(({ edit }) => edit));
     const isStep = first.edit.kind === "undo" || first.edit.kind === "redo";
     batch(() => {
       this.waiting.value = isStep ? rest : rest.filter((_, i) => i !== back);
-      if (isStep || back >= 0) this.around.tell(reason);
+      if (isStep || back >= 0 || first.hopeless) this.around.tell(reason);
       else this.refused.value = [...this.refused.peek(), { ...first, refused: reason }];
     });
     this.whenMade.delete(first.name);

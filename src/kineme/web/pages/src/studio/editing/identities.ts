@@ -1,11 +1,12 @@
 /**
  * What an edit is made on, by the identities of segments: their frames move, with the edits that
- * are made before it. A border is the start of the segment after it.
+ * are made before it. A border is the start of the segment after it. Only a new border is made at a
+ * frame, whatever segment that lies in.
  *
  * `kineme/studio/kept/identities.py` hands the identities out; `idsAfter` says which they will be
  * after an edit that the server has not answered yet.
  */
-import type { Edit, Level, Segment, Segments } from "../../messages";
+import type { ByHand, Edit, Level, Segment, Segments } from "../../messages";
 import { levelOf } from "./foreseen/clusters";
 
 /** A table and who its rows are. */
@@ -48,11 +49,11 @@ export function descent(before: readonly number[], now: readonly number[]): Map<
   return found;
 }
 
-/** A place in a table that an edit names: where a segment starts, stops, or a frame inside it. */
+/** A place in a table that an edit names: where a segment starts or stops. */
 interface Place {
   level: Level;
   frame: number;
-  end: "start" | "stop" | "inside";
+  end: "start" | "stop";
 }
 
 /** Who an edit is made on, in the order of the frames it names; null where there is nobody. */
@@ -74,7 +75,6 @@ export function readdressed(
     if (id === null) return place.frame;
     const row = segmentation.segments[ids.indexOf(id)];
     if (!row) return null;
-    if (place.end === "inside") return isAt(row, place) ? place.frame : null;
     return place.end === "start" ? row.start_frame : row.stop_frame;
   });
   return frames.includes(null) ? null : withFrames(edit, frames as number[]);
@@ -89,8 +89,6 @@ function placesOf(edit: Edit, table: Segments): Place[] {
     case "set_kind":
     case "comment":
       return [{ level: edit.level, frame: edit.frame, end: "start" }];
-    case "split":
-      return [{ level: edit.level, frame: edit.frame, end: "inside" }];
     case "merge":
       return [
         { level: edit.level, frame: edit.start_frame, end: "start" },
@@ -120,7 +118,6 @@ function withFrames(edit: Edit, frames: readonly number[]): Edit {
     case "set_cluster":
     case "set_kind":
     case "comment":
-    case "split":
       return { ...edit, frame: first };
     case "merge":
       return { ...edit, start_frame: first, stop_frame: last };
@@ -130,8 +127,7 @@ function withFrames(edit: Edit, frames: readonly number[]): Edit {
     case "together": {
       let rest = frames;
       const edits = edit.edits.map((each) => {
-        const many = each.kind === "merge" ? 2 : "frames" in each ? each.frames.length : 1;
-        const own = "level" in each || "frames" in each ? many : 0;
+        const own = countOf(each);
         const now = withFrames(each, rest.slice(0, own));
         rest = rest.slice(own);
         return now;
@@ -143,10 +139,15 @@ function withFrames(edit: Edit, frames: readonly number[]): Edit {
   }
 }
 
+/** How many frames of `placesOf` are those of an edit. */
+function countOf(edit: ByHand): number {
+  if ("frames" in edit) return edit.frames.length;
+  if (edit.kind === "merge") return 2;
+  return "level" in edit && edit.kind !== "split" ? 1 : 0;
+}
+
 function isAt(row: Segment, { level, frame, end }: Place): boolean {
-  if (row.level !== level) return false;
-  if (end === "inside") return row.start_frame < frame && frame < row.stop_frame;
-  return frame === (end === "start" ? row.start_frame : row.stop_frame);
+  return row.level === level && frame === (end === "start" ? row.start_frame : row.stop_frame);
 }
 
 function placeOf({ level, start_frame }: Segment): string {

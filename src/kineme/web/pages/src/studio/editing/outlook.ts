@@ -26,6 +26,12 @@ export class Outlook {
     return unsent.some(({ name }) => this.made.get(name)?.to === null);
   }
 
+  /** Whether the last of these edits is one that cannot be made. */
+  isHopeless(confirmed: Recording, unsent: readonly Unsent[]): boolean {
+    const [before, after] = this.stories(confirmed, unsent).slice(-2);
+    return before === after && this.made.get(unsent.at(-1)!.name)?.to !== null;
+  }
+
   /** The server has made an edit of a table; `now` is what it made. */
   confirm({ name, edit }: Unsent, before: Recording, now: Recording): void {
     const from = this.storyAt(before);
