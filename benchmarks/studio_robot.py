@@ -1,12 +1,15 @@
 """Whether the studio loses anything: a robot in Chromium, until it has made 500 edits.
 
-    python benchmarks/studio_robot.py [--edits 500] [--seeds 0 1 2 3 4] [--figure]
+    python benchmarks/studio_robot.py [--edits 500] [--seeds 0 1 2 3 4] [--figure] [--quick]
 
 It edits at random, segments anew, undoes, reloads, kills the server and changes between two
-tabs and three recordings. After each step the table on the disk is the one that the page
-shows; at the end every table that was replaced is a version, and undo and redo give the same
-tables. What is not so ends it. The figure is the one thing that takes a graphics card, and
-no table depends on it: without ``--figure`` the browser has none, which halves the time.
+tabs and three recordings, on a line that is slow by 0 to 800 ms, now more, now less. It makes
+several edits without waiting for an answer, and goes on editing while the server is gone.
+After each step the table on the disk is the one that the page shows; at the end every table
+that was replaced is a version, and undo and redo give the same tables. What is not so ends
+it. The figure is the one thing that takes a graphics card, and no table depends on it:
+without ``--figure`` the browser has none, which halves the time. ``--quick`` is one seed and
+a step of each kind in which something could be lost.
 """
 
 from __future__ import annotations
@@ -28,6 +31,8 @@ from robot import Robot
 from studio_server import StudioServer
 
 RECORDINGS = 3
+LATENCY = 800.0  # milliseconds, at most
+QUICK = ("nudge", "burst", "outage", "kill", "undo")
 SIZE = {"width": 640, "height": 480}  # what is drawn in software takes most of the time
 NO_FIGURE = ("--disable-gpu", "--disable-3d-apis")
 PATIENCE = 300.0  # seconds; a busy machine loses nothing, either
@@ -38,7 +43,10 @@ def main() -> None:
     parser.add_argument("--edits", type=int, default=few(500, 5))
     parser.add_argument("--seeds", type=int, nargs="+", default=few([0, 1, 2, 3, 4], [0]))
     parser.add_argument("--figure", action="store_true", help="draw it, in software")
+    parser.add_argument("--quick", action="store_true", help="a few steps with one seed")
     options = parser.parse_args()
+    if options.quick:
+        options.edits, options.seeds = 0, options.seeds[:1]
     screen.PATIENCE = PATIENCE
     with chromium(*(FLAGS if options.figure else NO_FIGURE)) as browser:
         for seed in options.seeds:
@@ -50,7 +58,9 @@ def main() -> None:
                     Path(shutil.copy(bundled_recording(), Path(name) / f"take_{i}.bvh"))
                     for i in range(RECORDINGS)
                 ]
-                robot = Robot(context, server, takes, seed)
+                robot = Robot(context, server, takes, seed, latency=LATENCY)
+                for what in QUICK if options.quick else ():
+                    steps[robot.step(what)] += 1
                 for wanted in [*range(100, options.edits, 100), options.edits]:
                     while robot.edits < wanted:
                         steps[robot.step()] += 1

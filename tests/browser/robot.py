@@ -1,4 +1,8 @@
-"""A robot that edits at random, and checks after each step that what was confirmed is there."""
+"""A robot that edits at random, and checks after each step that what was confirmed is there.
+
+Where the line is slow it edits without waiting for answers, and so it does while the server is
+gone: what the page shows then must be what it shows, and the server has, in the end.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +19,9 @@ from kineme.studio.folder import file_id
 
 Rows = list[dict[str, Any]]
 EDITS = ("split", "delete", "merge", "nudge", "name", "cluster name", "check", "kind", "segment")
-STEPS = (*EDITS, *EDITS, "undo", "undo", "redo", "reload", "kill", "other tab", "next")
+BY_KEY = ("nudge", "nudge", "nudge", "split", "delete", "merge", "name", "check", "kind")
+OTHERS = ("undo", "undo", "redo", "reload", "kill", "outage", "burst", "other tab", "next")
+STEPS = (*EDITS, *EDITS, *OTHERS)
 UNDO = 100
 """Steps that undo goes back."""
 
@@ -31,10 +37,20 @@ class Robot:
     takes : list of Path
         Recordings of its folder.
     seed : int
+    latency : float
+        Milliseconds that answers take at most; how long, changes with every step.
     """
 
-    def __init__(self, context: Any, server: StudioServer, takes: list[Path], seed: int):
-        self.chance = random.Random(seed)
+    def __init__(
+        self,
+        context: Any,
+        server: StudioServer,
+        takes: list[Path],
+        seed: int,
+        *,
+        latency: float = 0.0,
+    ):
+        self.chance, self.latency = random.Random(seed), latency
         self.server, self.takes, self.take = server, takes, takes[0]
         self.tabs = [Screen(context.new_page()) for _ in range(2)]
         self.screen = self.tabs[0]
@@ -54,10 +70,12 @@ class Robot:
             tab.opened()
         self.screen.wait("k.unsent.length === 0")
 
-    def step(self) -> str:
-        """Do something at random; what it was."""
-        what = self.chance.choice(STEPS)
+    def step(self, what: str = "") -> str:
+        """Do something, at random unless told what; what it was."""
+        what = what or self.chance.choice(STEPS)
         self.steps.append(what)
+        if self.latency:
+            self.screen.slow_down(self.chance.choice([0.0, self.chance.uniform(0, self.latency)]))
         before, revision = self.rows(), self.revision()
         self.nothing_late(revision)
         if what in EDITS:
@@ -81,6 +99,8 @@ class Robot:
             self.must_be(before, what)
         elif what == "kill":
             self.kill(before, revision)
+        elif what in ("burst", "outage"):
+            self.hasty(before, revision, outage=what == "outage")
         elif what == "other tab":
             self.screen = self.tabs[1 - self.tabs.index(self.screen)]
             self.screen.wait(f"k.revision === {self.revision()}")
@@ -93,6 +113,11 @@ class Robot:
         return what
 
     def edit(self, what: str) -> None:
+        """One edit, by keys or in the panels, until it is made or refused."""
+        self.begin(what)
+        self.settled()
+
+    def begin(self, what: str) -> None:
         """One edit, by keys or in the panels."""
         page, keys = self.screen.page, self.screen.page.keyboard
         frames = int(self.screen.state["duration"] * 60)
@@ -100,10 +125,10 @@ class Robot:
         keys.press("Enter")
         if what == "name":
             keys.press("n")
-            self.type_name(f"n{self.chance.randrange(1000)}")
+            self.type_name(f"n{self.chance.randrange(10**6)}")
         elif what == "cluster name":
             keys.press("Shift+N")
-            self.type_name(f"c{self.chance.randrange(1000)}")
+            self.type_name(f"c{self.chance.randrange(10**6)}")
         elif what == "kind":
             kind = self.chance.choice(["activity", "transition"])
             page.locator(".segment-panel select").first.select_option(kind)
@@ -114,7 +139,6 @@ class Robot:
             nudge = f"Alt+Shift+{way}"
             known = {"split": "s", "delete": "Delete", "merge": "m", "check": "Shift+K"}
             keys.press(known.get(what, nudge))
-        self.settled()
 
     def type_name(self, name: str) -> None:
         """A name into the field that waits for it; a segment may be in no cluster to be named."""
@@ -136,13 +160,46 @@ class Robot:
         page.get_by_role("button", name=button).click()
         self.screen.wait("k.other === null")
 
+    def hasty(self, before: Rows, revision: int, *, outage: bool) -> None:
+        """Some edits one after the other, none of which waits for an answer to the one before."""
+        if outage:
+            self.server.kill()
+        made, made_before = [], self.asked_for()
+        for _ in range(self.chance.randrange(2, 7)):
+            rows, what = self.rows(), self.chance.choice(BY_KEY)
+            self.begin(what)
+            self.screen.page.wait_for_timeout(30)
+            if self.rows() != rows or (what == "check" and self.asked_for() > made_before):
+                made.append(rows)  # what is not shown cannot be made: the server says why
+            made_before = self.asked_for()
+        shown = self.rows()
+        if outage:
+            self.server.start()
+            other = self.tabs[1 - self.tabs.index(self.screen)]
+            other.page.goto(self.server.address_of(self.take))  # it tells the new token
+            other.opened()
+        self.screen.wait("k.unsent.length === 0")
+        self.settled(revision + len(made))
+        self.must_be(shown, self.steps[-1])
+        if refused := self.screen.state["refused"]:
+            raise RuntimeError(f"refused, though the page had foreseen it: {refused}")
+        if (now := self.revision()) != revision + len(made):
+            raise RuntimeError(f"of {len(made)} edits {now - revision} were made")
+        for rows in made:
+            self.counted(rows)
+
+    def asked_for(self) -> int:
+        """How many edits of the table were made, or wait."""
+        state = self.screen.state
+        return int(state["revision"]) + len(state["unsent"])
+
     def kill(self, before: Rows, revision: int) -> None:
         """End the server without warning, sometimes with an edit on its way."""
         page = self.screen.page
         hasty = self.chance.random() < 0.5
         if hasty:
             page.keyboard.press("n")
-            self.type_name(f"k{self.chance.randrange(1000)}")
+            self.type_name(f"k{self.chance.randrange(10**6)}")
         self.server.kill()
         self.server.start()
         page.goto(self.server.address_of(self.take))
@@ -193,11 +250,15 @@ class Robot:
             return
         if now != revision + 1:
             raise RuntimeError(f"{what} was made {now - revision} times")
+        if what == "segment":
+            self.left[self.take].append(before)
+        self.counted(before)
+
+    def counted(self, before: Rows) -> None:
+        """Count an edit of a table; what had been undone cannot be redone any more."""
         self.edits += 1
         if self.future[self.take]:
             self.left[self.take].append(self.future[self.take][0])
-        if what == "segment":
-            self.left[self.take].append(before)
         self.future[self.take].clear()
         self.past[self.take] = [*self.past[self.take], before][-UNDO:]
 
@@ -224,6 +285,8 @@ class Robot:
 
     def finish(self) -> None:
         """Everything that was replaced is a version; undo and redo give the same tables."""
+        for tab in self.tabs:
+            tab.slow_down(0)
         for take in self.takes:
             self.take = take
             self.open()

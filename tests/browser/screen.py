@@ -14,6 +14,7 @@ PLACES = {"figure": ".place-viewer", "lanes": ".place-timeline", "matrix": ".pla
 class Screen:
     def __init__(self, page: Any):
         self.page = page
+        self._line: Any = None  # to the browser's network
 
     @property
     def state(self) -> dict[str, Any]:
@@ -82,3 +83,12 @@ class Screen:
     def saved(self) -> None:
         """Until the server has confirmed everything."""
         self.wait("k.unsent.length === 0 && k.saved !== ''")
+
+    def slow_down(self, milliseconds: float) -> None:
+        """Let every answer to the page take so much longer, from now on."""
+        if self._line is None:
+            self._line = self.page.context.new_cdp_session(self.page)
+            self._line.send("Network.enable")
+        unlimited = {"downloadThroughput": -1, "uploadThroughput": -1, "offline": False}
+        conditions = {"latency": milliseconds, **unlimited}
+        self._line.send("Network.emulateNetworkConditions", conditions)

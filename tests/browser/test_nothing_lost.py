@@ -1,4 +1,4 @@
-"""A robot edits, segments anew, reloads, kills the server and changes tabs: nothing is lost.
+"""A robot edits on a slow line, reloads, kills the server and changes tabs: nothing is lost.
 
 benchmarks/studio_robot.py lets it do so 500 times on three recordings, with five seeds.
 """
@@ -20,9 +20,9 @@ def test_a_robot_loses_nothing(chromium, tmp_path: Path) -> None:
     context = chromium.new_context(viewport=DESKTOP)
     context.set_default_timeout(30_000)
     with StudioServer(tmp_path) as server:
-        robot = Robot(context, server, takes, seed=1)
-        for _ in range(STEPS):
-            robot.step()
+        robot = Robot(context, server, takes, seed=1, latency=200)
+        for what in ("nudge", "outage", "burst", *[""] * STEPS):
+            robot.step(what)
         robot.finish()
     context.close()
     assert robot.edits > 3

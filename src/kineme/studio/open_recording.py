@@ -2,7 +2,8 @@
 
 A table has a revision, which grows with every change and outlives the server.
 An edit names the revision it was made on; on any other it is refused, so that
-two pages cannot overwrite each other unseen. An edit has a name of its own, too:
+two pages cannot overwrite each other unseen. Its segments have identities, which outlive it, too:
+by them a page finds again what an edit was made on. An edit has a name of its own, too:
 one that is sent again, for want of an answer, is made once. It counts once its
 result and the history are on the disk: one that was acknowledged outlives the
 server, one that was not has changed nothing.
@@ -11,6 +12,7 @@ server, one that was not has changed nothing.
 from __future__ import annotations
 
 import threading
+import uuid
 from pathlib import Path
 
 from msgspec import structs
@@ -139,6 +141,7 @@ class OpenRecording:
                 revision=self.revision,
                 can_undo=self._journal.can_undo,
                 can_redo=self._journal.can_redo,
+                ids=self._journal.ids.of(self._table),
                 saved=self._saved,
                 video=video_message(self.path),
                 reading=said_of(self.path),
@@ -181,7 +184,7 @@ class OpenRecording:
             if revision != self.revision:
                 reason = f"the table has changed: this edit is of revision {revision}"
                 raise ConflictError(f"{reason}, now it is {self.revision}", self._edited([]))
-            change, notes = self._after(edit, files)
+            change, notes = self._after(edit, files, name or uuid.uuid4().hex)
             reason = f"another program changed {self._file.path.name}: open it again"
             if self._file.changed():
                 raise ConflictError(reason, self._edited([]))
@@ -212,12 +215,14 @@ class OpenRecording:
             table = self._version(number)
         return Comparison(name=at, segmentation=segments_message(table), scores={})
 
-    def _after(self, edit: Edit, files: Surroundings) -> tuple[Change, list[str]]:
+    def _after(self, edit: Edit, files: Surroundings, name: str) -> tuple[Change, list[str]]:
         if isinstance(edit, Undo | Redo):
             undo = isinstance(edit, Undo)
             return self._journal.undone() if undo else self._journal.redone(), []
         outcome = edited(self._table, edit, self.loaded, files, self._version)
-        change = self._journal.changed(outcome.table, edit, replaced=outcome.replaced)
+        replaced = outcome.replaced
+        ids = self._journal.ids.after(self._table, outcome.table, name, replaced=replaced)
+        change = self._journal.changed(outcome.table, edit, replaced=replaced, ids=ids)
         return change, outcome.notes
 
     def _version(self, number: int) -> Segmentation:
@@ -241,6 +246,7 @@ class OpenRecording:
             segmentation=segments_message(self._table),
             can_undo=self._journal.can_undo,
             can_redo=self._journal.can_redo,
+            ids=self._journal.ids.of(self._table),
             saved=self._saved,
             notes=notes,
         )

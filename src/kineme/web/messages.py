@@ -119,6 +119,7 @@ class Recording(Struct, frozen=True, kw_only=True):
     ``levels`` the tables at all details, coarsest first, in a report; the studio's server is
     asked for them.
     While ``finding`` its segments are still to be found, and the table is a single transition.
+    ``ids`` say who each row of the table is, whatever edits made of it; a report has none.
     """
 
     id: str
@@ -134,16 +135,18 @@ class Recording(Struct, frozen=True, kw_only=True):
     revision: int
     can_undo: bool
     can_redo: bool
+    ids: list[str] = []
     saved: str
     finding: bool = False
     warnings: list[str]
 
 
 class Edited(Struct, frozen=True, kw_only=True):
-    """The table after an edit, already on the disk as ``saved``."""
+    """The table after an edit, already on the disk as ``saved``; ``ids`` as of a `Recording`."""
 
     revision: int
     segmentation: Segments
+    ids: list[str]
     can_undo: bool
     can_redo: bool
     saved: str

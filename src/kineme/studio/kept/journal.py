@@ -23,10 +23,11 @@ from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
 
-from kineme.errors import ParameterError
+from kineme.errors import ParameterError, ReadError
 from kineme.labels import json_table, read_segments
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
+from kineme.studio.kept.identities import Identities
 from kineme.studio.kept.records import (
     FOLDER,
     Record,
@@ -41,6 +42,7 @@ from kineme.web.edits import Edit
 MOST_KEPT = 200
 MOST_NAMES = 200
 """Edits whose names are known, so that one that is sent again is not made again."""
+OF_A_FIRST_TABLE = Identities()
 
 
 @dataclass(frozen=True)
@@ -83,7 +85,8 @@ class Journal:
                             self._record, history=known, names=names, revision=revision
                         )
                     return
-            self._record = self.changed(table, None, replaced=True).record
+            ids = self._ids_of_another(table, digest)
+            self._record = self.changed(table, None, replaced=True, ids=ids).record
         else:
             self._record = replace(self._record, history=History(0))
             start = self.changed(table, None).record
@@ -103,6 +106,11 @@ class Journal:
     def can_redo(self) -> bool:
         """Whether one was taken back."""
         return bool(self._record.history.future)
+
+    @property
+    def ids(self) -> Identities:
+        """Who the segments of the present table are."""
+        return self._record.steps[self._record.history.present].ids
 
     def knows(self, name: str) -> bool:
         """Whether the edit of that name has been made."""
@@ -127,7 +135,14 @@ class Journal:
             return self._unsaved[number]
         return read_segments(self._place(number), format="json")
 
-    def changed(self, table: Segmentation, edit: Edit | None, *, replaced: bool = False) -> Change:
+    def changed(
+        self,
+        table: Segmentation,
+        edit: Edit | None,
+        *,
+        replaced: bool = False,
+        ids: Identities = OF_A_FIRST_TABLE,
+    ) -> Change:
         """The history with a new table.
 
         Parameters
@@ -138,6 +153,8 @@ class Journal:
         replaced : bool
             It takes the place of the present one, which is kept. So is, in any case, the last
             of those that could have been redone.
+        ids : Identities
+            Who its segments are.
 
         Returns
         -------
@@ -146,9 +163,8 @@ class Journal:
         history, steps = self._record.history, self._record.steps
         number = max([0, *steps, *self._numbers()]) + 1
         before = [*history.future[-1:], *([history.present] if replaced else [])]
-        step = Step(
-            datetime.now(UTC).isoformat(timespec="seconds"), _digest(table), table.n_frames, edit
-        )
+        at = datetime.now(UTC).isoformat(timespec="seconds")
+        step = Step(at, _digest(table), table.n_frames, edit, ids)
         self._unsaved[number] = table
         record = replace(
             self._record,
@@ -215,6 +231,14 @@ class Journal:
 
     def _gone(self, history: History[int]) -> Change:
         return Change(replace(self._record, history=history), self.table(history.present))
+
+    def _ids_of_another(self, table: Segmentation, digest: str) -> Identities:
+        """Who the segments of a table are that another program put in the present one's place."""
+        try:
+            present = self.table(self._record.history.present)
+        except ReadError:
+            return Identities(digest[:8])
+        return self.ids.after(present, table, digest, replaced=True)
 
     def _numbers(self) -> set[int]:
         """Of the tables in the folder."""

@@ -12,6 +12,7 @@ from kineme._files import atomic_write, refuse_link
 from kineme._json import loaded
 from kineme.errors import ReadError, WriteError
 from kineme.segments.history import History
+from kineme.studio.kept.identities import Identities
 from kineme.web.edits import Edit
 
 SCHEMA = "kineme.history/1"
@@ -34,12 +35,15 @@ class Step:
         Of the recording.
     edit : Edit or None
         As a page sent it; None for what was found, or written by another program.
+    ids : Identities
+        Who its segments are.
     """
 
     at: str
     sha256: str
     n_frames: int
     edit: Edit | None
+    ids: Identities = field(default_factory=Identities)
 
 
 @dataclass(frozen=True)

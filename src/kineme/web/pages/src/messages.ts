@@ -120,6 +120,7 @@ export interface Video {
  * `levels` the tables at all details, coarsest first, in a report; the studio's server is
  * asked for them.
  * While `finding` its segments are still to be found, and the table is a single transition.
+ * `ids` say who each row of the table is, whatever edits made of it; a report has none.
  */
 export interface Recording {
   id: string;
@@ -135,15 +136,17 @@ export interface Recording {
   revision: number;
   can_undo: boolean;
   can_redo: boolean;
+  ids?: string[];
   saved: string;
   finding?: boolean;
   warnings: string[];
 }
 
-/** The table after an edit, already on the disk as `saved`. */
+/** The table after an edit, already on the disk as `saved`; `ids` as of a `Recording`. */
 export interface Edited {
   revision: number;
   segmentation: Segments;
+  ids: string[];
   can_undo: boolean;
   can_redo: boolean;
   saved: string;
@@ -154,6 +157,7 @@ export interface Edited {
 export interface Conflict {
   revision: number;
   segmentation: Segments;
+  ids: string[];
   can_undo: boolean;
   can_redo: boolean;
   saved: string;

@@ -1,5 +1,5 @@
 /** Recordings on a page: their data, and how they come. */
-import { signal, type Signal } from "@preact/signals";
+import { signal, type ReadonlySignal, type Signal } from "@preact/signals";
 import type { MotionHead, Recording } from "./messages";
 import { unpackMotion, type Motion } from "./motion";
 import type { RecordingData } from "./recordingData";
@@ -7,13 +7,18 @@ import type { RecordingData } from "./recordingData";
 /** A recording on the page; the table inside `recording` changes with each edit. */
 export interface OpenRecording {
   data: RecordingData;
-  recording: Signal<Recording>;
+  recording: ReadonlySignal<Recording>;
   /** null without a skeleton, and until it has come. */
   motion: Signal<Motion | null>;
 }
 
+/** A recording that the page itself may show otherwise. */
+export interface OwnRecording extends OpenRecording {
+  recording: Signal<Recording>;
+}
+
 /** A recording from where its data are; the motion comes later, so that the lanes show at once. */
-export async function openRecording(data: RecordingData): Promise<OpenRecording> {
+export async function openRecording(data: RecordingData): Promise<OwnRecording> {
   const recording = signal(await data.recording());
   return { data, recording, motion: signal<Motion | null>(null) };
 }

@@ -14,7 +14,7 @@ export interface Selection {
 
 /** What the page asks for when the user drags a border or names a cluster. The report has none. */
 export interface EditHooks {
-  moveBorder(level: Level, frame: number, to: number): Promise<void>;
+  moveBorder(level: Level, frame: number, to: number): void;
   nameCluster(cluster: number, label: string): void;
   mergeClusters(cluster: number, into: number): void;
   orderClusters(order: number[]): void;

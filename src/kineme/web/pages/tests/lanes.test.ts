@@ -31,6 +31,16 @@ test("the border under the pointer", () => {
   expect(borderNear(primitives, 0, 0.1, 10)).toBeNull(); // the recording's start stays
 });
 
+test("a border has at most a third of the segments beside it", () => {
+  for (const reach of [0.3, 1, 100]) {
+    expect(borderNear(primitives, 0.5, reach, 10)).toBeNull(); // the middle of the first
+    expect(borderNear(primitives, 2, reach, 10)).toBeNull();
+  }
+  expect(borderNear(primitives, 0.7, 100, 10)).toBe(10);
+  expect(borderNear(primitives, 1.6, 100, 10)).toBe(10);
+  expect(borderNear(primitives, 1.7, 100, 10)).toBeNull();
+});
+
 test("a dragged border leaves of both of its segments what can be seen", () => {
   expect(roomFor(primitives, 10, 1)).toEqual([1, 29]);
   expect(roomFor(primitives, 10, 4)).toEqual([4, 26]);

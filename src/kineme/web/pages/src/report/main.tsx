@@ -7,7 +7,7 @@ import { startPlayer } from "../player";
 import { startPrinting } from "./printing";
 import { exposeSnapshot } from "../snapshot";
 import { EmbeddedData } from "../recordingData";
-import { loadMotion, openRecording, type OpenRecording } from "../opened";
+import { loadMotion, openRecording, type OwnRecording } from "../opened";
 import { positionOf, Store } from "../store";
 import { Report } from "./Report";
 
@@ -26,7 +26,7 @@ async function start(): Promise<void> {
 }
 
 /** The tables at other details are looked at in place of the first one. */
-function offerLevels(store: Store, { recording }: OpenRecording): void {
+function offerLevels(store: Store, { recording }: OwnRecording): void {
   const { levels, segmentation } = recording.value;
   if (levels.length < 2) return;
   const said = segmentation.provenance.detail;

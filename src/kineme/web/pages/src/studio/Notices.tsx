@@ -1,6 +1,7 @@
 /** What needs attention, across the page; and the news of the moment. */
 import type { JSX } from "preact";
 import type { EditedRecording } from "./editing/editedRecording";
+import { inWords } from "./editing/words";
 import type { Session } from "./session";
 
 export function Notices({ session }: { session: Session }): JSX.Element {
@@ -18,6 +19,9 @@ export function Notices({ session }: { session: Session }): JSX.Element {
         )}
         {!trouble.value &&
           session.held.value.map((edited) => <Held key={edited.id} edited={edited} />)}
+        {session.refused.value.map((edited) => (
+          <NotMade key={edited.id} edited={edited} />
+        ))}
         {bulletin.problems.value.map(({ text }) => (
           <div class="notice danger" data-notice="problem" key={text}>
             <p>{text}</p>
@@ -61,6 +65,28 @@ function Held({ edited }: { edited: EditedRecording }): JSX.Element {
       </button>
       <button type="button" onClick={() => edited.drop()}>
         Drop them
+      </button>
+    </div>
+  );
+}
+
+/** Edits that the server refused, each with the reason, until they are tried again or given up. */
+function NotMade({ edited }: { edited: EditedRecording }): JSX.Element {
+  const { name, fps } = edited.confirmed.value;
+  const all = edited.refused.value;
+  const last = all.slice(-3).map((each) => `${inWords(each.edit, fps)} (${each.refused})`);
+  const more = all.length - last.length;
+  return (
+    <div class="notice" data-notice="refused">
+      <p>
+        {name}: could not be made: {more > 0 && `${more} earlier; `}
+        {last.join("; ")}. Everything else was.
+      </p>
+      <button type="button" class="primary" onClick={() => edited.retryRefused()}>
+        Try again
+      </button>
+      <button type="button" onClick={() => edited.dropRefused()}>
+        Leave {all.length === 1 ? "it" : "them"} out
       </button>
     </div>
   );

@@ -52,6 +52,10 @@ export class Session {
   });
   /** Recordings whose edits wait for a decision. */
   readonly held = computed(() => this.recordings.value.filter((edited) => edited.held.value));
+  /** Recordings of which some edits could not be made. */
+  readonly refused = computed(() =>
+    this.recordings.value.filter((each) => each.refused.value.length),
+  );
   /** Edits of all recordings that the server has not confirmed. */
   readonly unsent = computed(() => this.recordings.value.flatMap((edited) => edited.unsent()));
 
@@ -208,7 +212,7 @@ export class Session {
       }));
     if (!this.recordings.value.includes(edited))
       this.recordings.value = [...this.recordings.value, edited];
-    return { data, recording: edited.confirmed, motion: signal<Motion | null>(null) };
+    return { data, recording: edited.shown, motion: signal<Motion | null>(null) };
   }
 
   /** News of a recording; those of one that is not in front are told with its name. */
@@ -223,7 +227,7 @@ export class Session {
     const shown = new Set(this.store.opened.value.map((each) => each.recording.peek().id));
     const [kept, gone] = [[] as EditedRecording[], [] as EditedRecording[]];
     for (const edited of this.recordings.value)
-      (shown.has(edited.id) || edited.waiting.peek().length ? kept : gone).push(edited);
+      (shown.has(edited.id) || edited.isOwing() ? kept : gone).push(edited);
     for (const edited of gone) edited.close();
     if (gone.length) this.recordings.value = kept;
   }

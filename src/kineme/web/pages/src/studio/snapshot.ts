@@ -12,6 +12,7 @@ export function exposeStudio(session: Session): void {
         segments: store.recording.value?.segmentation.segments ?? [],
         selected: store.selected.value ?? null,
         unsent: session.unsent.value,
+        refused: session.refused.value.flatMap((edited) => edited.refused.value),
       }),
   });
 }

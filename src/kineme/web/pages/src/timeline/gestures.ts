@@ -1,4 +1,8 @@
-/** What pointers do on the lanes: scrub, select, pan, drag a border; two fingers zoom. */
+/**
+ * What pointers do on the lanes: scrub, select, pan, drag a border; two fingers zoom. A press that
+ * hardly moves selects, also beside a border; one that moves takes the border along, by as much.
+ */
+import { batch } from "@preact/signals";
 import { CLICK, Fingers, placeOf, wheelFactor, type Pinch } from "../canvas/pointers";
 import { indexAt } from "../segments";
 import type { Store } from "../store";
@@ -18,12 +22,18 @@ interface Spot {
   grip: number;
 }
 
+/** A border that a press is near enough to take. */
+interface Grip {
+  lane: Lane;
+  drag: Drag;
+}
+
 type Doing =
   | { what: "scrub" }
-  | { what: "press"; x: number; y: number; last: number }
+  | { what: "press"; spot: Spot; border: Grip | null }
   | { what: "pan"; last: number }
   | { what: "pinch" }
-  | { what: "border"; lane: Lane; drag: Drag };
+  | ({ what: "border"; x: number } & Grip);
 
 export class Gestures {
   private doing: Doing | null = null;
@@ -45,20 +55,21 @@ export class Gestures {
       this.doing = { what: "pinch" };
       return;
     }
-    const border = this.borderAt(spot);
     if (spot.y < RULER) {
       this.doing = { what: "scrub" };
       this.store.seek(this.secondsAt(spot));
-    } else if (border) this.doing = { what: "border", ...border };
-    else this.doing = { what: "press", x: spot.x, y: spot.y, last: spot.x };
+    } else this.doing = { what: "press", spot, border: this.borderAt(spot) };
   }
 
   move(event: PointerEvent): void {
     const spot = spotOf(event);
     const pinch = this.fingers.move(event.pointerId, spot);
     if (pinch) this.pinched(pinch, spot);
-    if (this.doing?.what === "press" && Math.abs(spot.x - this.doing.x) > CLICK)
-      this.doing = { what: "pan", last: this.doing.last };
+    if (this.doing?.what === "press" && Math.abs(spot.x - this.doing.spot.x) > CLICK) {
+      const { border } = this.doing;
+      const { x } = this.doing.spot;
+      this.doing = border ? { what: "border", x, ...border } : { what: "pan", last: x };
+    }
     const { doing } = this;
     if (doing?.what === "scrub") this.store.seek(this.secondsAt(spot));
     else if (doing?.what === "pan") {
@@ -66,10 +77,11 @@ export class Gestures {
       doing.last = spot.x;
     } else if (doing?.what === "border") {
       const { start_s, stop_s } = this.store.range.value;
-      const seen = ((stop_s - start_s) / (spot.width - GUTTER)) * SEEN * this.store.fps.value;
-      const least = Math.max(Math.ceil(seen), 1);
-      const [low, high] = roomFor(doing.lane.segments, doing.drag.frame, least);
-      const to = Math.round(this.secondsAt(spot) * this.store.fps.value);
+      const perPixel = ((stop_s - start_s) / (spot.width - GUTTER)) * this.store.fps.value;
+      const least = Math.max(Math.ceil(perPixel * SEEN), 1);
+      const { frame } = doing.drag;
+      const [low, high] = roomFor(doing.lane.segments, frame, least);
+      const to = Math.round(frame + perPixel * (spot.x - doing.x));
       doing.drag = { ...doing.drag, to: Math.min(Math.max(to, low), high) };
       this.onDrag(doing.drag);
       this.store.seek(doing.drag.to / this.store.fps.value);
@@ -81,12 +93,14 @@ export class Gestures {
     this.fingers.lift(event.pointerId);
     if (doing?.what === "pinch" && this.fingers.count) return;
     this.doing = null;
-    if (doing?.what === "press") this.click(spotOf(event));
+    if (doing?.what === "press") this.click(doing.spot);
     if (doing?.what !== "border") return;
     const { frame, to } = doing.drag;
     const { level } = doing.lane;
-    const moved = level && to !== frame && this.store.edits.value?.moveBorder(level, frame, to);
-    void Promise.resolve(moved).then(() => this.onDrag(null)); // shown there until it is
+    batch(() => {
+      if (level && to !== frame) this.store.edits.value?.moveBorder(level, frame, to);
+      this.onDrag(null);
+    });
   }
 
   /** Escape: a border goes back to where it was; whether there was anything to give up. */
@@ -145,7 +159,7 @@ export class Gestures {
     return segment && seconds < segment.stop_s && seconds >= segment.start_s ? segment : undefined;
   }
 
-  private borderAt(spot: Spot): { lane: Lane; drag: Drag } | null {
+  private borderAt(spot: Spot): Grip | null {
     const lane = laneAt(this.lanes(), spot.y);
     if (!this.store.edits.value || !lane?.level || spot.x < GUTTER) return null;
     const { start_s, stop_s } = this.store.range.value;

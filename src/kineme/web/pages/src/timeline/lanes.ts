@@ -1,6 +1,6 @@
 /** Which lanes the timeline has, and where; pure functions. */
 import type { Level, Segment, Segments } from "../messages";
-import { indexAt, labelSpans, laneOf } from "../segments";
+import { durationOf, indexAt, labelSpans, laneOf } from "../segments";
 
 export interface Lane {
   id: string;
@@ -126,7 +126,10 @@ export function visible(
   return [low, end];
 }
 
-/** The frame of the border nearest to a time, if it is less than `reach` seconds away. */
+/**
+ * The frame of the border nearest to a time, if it is less than `reach` seconds away; in a segment
+ * that is not much wider less than a third of it, so that its middle is the segment's own.
+ */
 export function borderNear(
   segments: readonly Segment[],
   seconds: number,
@@ -134,11 +137,12 @@ export function borderNear(
   fps: number,
 ): number | null {
   const i = indexAt(segments, Math.floor(seconds * fps));
+  const own = segments[i] ? durationOf(segments[i]) / 3 : 0;
   const near = [segments[i], segments[i + 1]]
     .filter((segment) => segment !== undefined && segment.start_frame > 0)
     .map((segment) => ({ frame: segment!.start_frame, far: Math.abs(segment!.start_s - seconds) }))
     .sort((a, b) => a.far - b.far)[0];
-  return near && near.far < reach ? near.frame : null;
+  return near && near.far < Math.min(reach, own) ? near.frame : null;
 }
 
 /**

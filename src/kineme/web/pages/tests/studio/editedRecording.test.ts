@@ -1,8 +1,8 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { Edit, Edited, EditRequest, Recording } from "../../src/messages";
 import type { Api } from "../../src/studio/server/api";
-import { laneOf } from "../../src/segments";
-import { recording, row, starts, table } from "./tables";
+import { expected, storyOf } from "../../src/studio/editing/story";
+import { recording, row, starts } from "./tables";
 
 const stored = new Map<string, string>();
 const storage = new Proxy(
@@ -26,43 +26,48 @@ const { EditedRecording } = await import("../../src/studio/editing/editedRecordi
 const SPLIT: Edit = { kind: "split", level: "primitive", frame: 45 };
 const MOVE: Edit = { kind: "move_border", level: "primitive", frame: 30, to: 40 };
 
-/** A server that holds one table, knows edits by name, can be switched off, or die once it saved. */
+/** A server that edits one table, knows edits by name, can be switched off, or die once it saved. */
 class Server {
   now: Recording = recording();
   up = true;
+  /** What it cannot make, for reasons of its own. */
+  refuses: (edit: Edit) => boolean = () => false;
   dieAfterSaving = false;
+  /** Milliseconds until it answers. */
+  latency = 0;
   readonly got: Edit[] = [];
   private readonly known = new Set<string>();
+  private story = storyOf({ segmentation: this.now.segmentation, ids: this.now.ids! });
 
-  recording(): Promise<Recording> {
-    return this.up ? Promise.resolve(this.now) : Promise.reject(new Unreachable());
+  async recording(): Promise<Recording> {
+    if (!this.up) throw new Unreachable();
+    return this.now;
   }
 
-  async edit(_id: string, { revision, edit, name }: EditRequest): Promise<Edited> {
+  async edit(_id: string, { revision, edit, name = "" }: EditRequest): Promise<Edited> {
+    if (this.latency) await new Promise((resolve) => setTimeout(resolve, this.latency));
     if (!this.up) throw new Unreachable();
-    if (name && this.known.has(name)) return { ...this.now, notes: [] };
+    if (this.known.has(name)) return this.answer();
     if (revision !== this.now.revision) throw new Refused(409, "The table has changed.", {});
-    if (edit.kind === "undo") throw new Refused(400, "There is nothing to undo.", {});
+    const after = expected(this.story, edit, name || crypto.randomUUID());
+    if (!after || after === this.story || this.refuses(edit))
+      throw new Refused(400, "It cannot be made.", {});
+    this.story = after;
     this.got.push(edit);
     if (name) this.known.add(name);
-    const cuts = edit.kind === "split" || edit.kind === "move_border";
-    const segmentation = cuts ? cutAnew(this.now, edit) : table();
-    this.now = { ...this.now, segmentation, revision: revision + 1, saved: "take.segments.json" };
+    const { segmentation, ids } = after.present;
+    const saved = "take.segments.json";
+    this.now = { ...this.now, segmentation, ids: [...ids], revision: revision + 1, saved };
     if (this.dieAfterSaving) {
       this.up = false;
       throw new Unreachable();
     }
-    return { ...this.now, notes: [] };
+    return this.answer();
   }
-}
 
-/** The table with the border of SPLIT, or MOVE. */
-function cutAnew({ segmentation }: Recording, edit: Edit): Recording["segmentation"] {
-  const cuts = laneOf(segmentation, "primitive").map((each) => each.start_frame);
-  const now = edit.kind === "split" ? [...cuts, 45] : cuts.map((cut) => (cut === 30 ? 40 : cut));
-  const sorted = [...now.sort((a, b) => a - b), 100];
-  const rows = sorted.slice(1).map((stop, i) => row("primitive", sorted[i]!, stop));
-  return { ...segmentation, segments: [row("activity", 0, 100), ...rows] };
+  private answer(): Edited {
+    return { ...this.now, ids: this.now.ids!, notes: [] };
+  }
 }
 
 let server: Server;
@@ -88,10 +93,12 @@ beforeEach(() => {
 });
 
 describe("while the server answers", () => {
-  it("an edit is shown once it is confirmed", async () => {
+  it("an edit is shown at once, and saved once it is confirmed", async () => {
     const edited = await open();
     const done = edited.edit(SPLIT);
+    expect(starts(edited.shown.value.segmentation)).toContain(45);
     expect(starts(edited.confirmed.value.segmentation)).not.toContain(45);
+    expect(edited.unsent()).toHaveLength(1);
     await done;
     expect(starts(edited.confirmed.value.segmentation)).toContain(45);
     expect(edited.waiting.value).toEqual([]);
@@ -110,27 +117,168 @@ describe("while the server answers", () => {
   it("a command is one of the table that the edits before it leave", async () => {
     const edited = await open();
     const seen: number[][] = [];
-    const look = () => void seen.push(starts(edited.confirmed.value.segmentation));
+    const look = () => void seen.push(starts(edited.shown.value.segmentation));
     void edited.edit(MOVE);
-    edited.whenSettled(() => {
+    edited.whenShown(() => {
       look();
       void edited.edit(SPLIT);
     });
-    edited.whenSettled(look);
-    await settled();
+    edited.whenShown(look);
     expect(seen).toEqual([
       [0, 40, 60],
       [0, 40, 45, 60],
     ]);
   });
 
-  it("an edit that is refused for what it is goes, with the reason", async () => {
+  it("a command waits for an edit of which only the server knows what it makes", async () => {
+    server.latency = 5;
+    const edited = await open();
+    await edited.edit(MOVE);
+    edited.edit({ kind: "undo" }); // of what this page has seen: foreseen
+    let seen: number[] = [];
+    edited.whenShown(() => (seen = starts(edited.shown.value.segmentation)));
+    expect(seen).toEqual([0, 30, 60]);
+    await edited.settled();
+    const again = await open();
+    again.edit({ kind: "redo" });
+    let settledWhen = -1;
+    again.whenShown(() => (settledWhen = again.unsent().length));
+    expect(settledWhen).toBe(-1);
+    await again.settled();
+    expect(settledWhen).toBe(0);
+  });
+
+  it("undo where there is nothing to undo is told of, and nothing to decide", async () => {
     const edited = await open();
     edited.edit({ kind: "undo" });
     edited.edit(SPLIT);
     await settled();
-    expect(told).toEqual(["There is nothing to undo."]);
+    expect(told).toEqual(["It cannot be made."]);
+    expect(edited.refused.value).toEqual([]);
     expect(server.got).toEqual([SPLIT]);
+  });
+});
+
+/** The border at 30 five frames on, one by one; then a name, a kind and a check of its segment. */
+function workOn(edited: InstanceType<typeof EditedRecording>): void {
+  const segment = () => edited.shown.value.segmentation.segments[2]!;
+  for (let i = 0; i < 5; i++) {
+    const frame = segment().start_frame;
+    void edited.edit({ kind: "move_border", level: "primitive", frame, to: frame + 1 });
+  }
+  const frame = segment().start_frame;
+  void edited.edit({ kind: "name_segment", level: "primitive", frame, label: "hop" });
+  void edited.edit({ kind: "check", level: "primitive", frames: [frame], checked: true });
+}
+
+function expectWork({ segmentation }: Recording): void {
+  expect(starts(segmentation)).toEqual([0, 35, 60]);
+  expect(segmentation.segments.map((each) => each.label)).toEqual(["", "", "hop", ""]);
+  expect(segmentation.checked).toEqual([2]);
+}
+
+describe("however late the server answers", () => {
+  it("each edit is one of what it was made on, and none is lost", async () => {
+    server.latency = 3;
+    const edited = await open();
+    workOn(edited);
+    expectWork(edited.shown.value);
+    await edited.settled();
+    expectWork(server.now);
+    expectWork(edited.confirmed.value);
+    expect(server.got).toHaveLength(7);
+    expect(edited.refused.value).toEqual([]);
+  });
+
+  it("an outage is nothing but a long latency", async () => {
+    const edited = await open();
+    server.up = false;
+    workOn(edited);
+    await settled();
+    expectWork(edited.shown.value);
+    expect(edited.unsent()).toHaveLength(7);
+    server.up = true;
+    await edited.resume();
+    expectWork(server.now);
+    expect(server.got).toHaveLength(7);
+  });
+
+  it("what was shown does not change when the answer comes", async () => {
+    server.latency = 2;
+    const edited = await open();
+    workOn(edited);
+    const { segmentation } = edited.shown.value;
+    const seen = new Set<string>();
+    edited.shown.subscribe((each) => void seen.add(JSON.stringify(each.segmentation.segments)));
+    await edited.settled();
+    expect([...seen]).toEqual([JSON.stringify(segmentation.segments)]);
+  });
+
+  it("undo takes back what has not been sent yet", async () => {
+    const edited = await open();
+    server.up = false;
+    edited.edit(MOVE);
+    edited.edit(SPLIT);
+    edited.undo();
+    expect(starts(edited.shown.value.segmentation)).toEqual([0, 40, 60]);
+    await settled();
+    server.up = true;
+    await edited.resume();
+    expect(starts(server.now.segmentation)).toEqual([0, 40, 60]);
+  });
+});
+
+describe("what the server refuses", () => {
+  const GONE: Edit = { kind: "delete_border", level: "primitive", frame: 30 };
+  beforeEach(() => {
+    server.refuses = ({ kind }) => kind === "delete_border";
+  });
+
+  it("stays until somebody decides, and holds up nothing else", async () => {
+    const edited = await open();
+    edited.edit(GONE);
+    edited.edit(SPLIT);
+    await settled();
+    expect(server.got).toEqual([SPLIT]);
+    expect(edited.refused.value).toMatchObject([{ edit: GONE, refused: "It cannot be made." }]);
+    edited.dropRefused();
+    expect(edited.refused.value).toEqual([]);
+    expect(stored.size).toBe(0);
+  });
+
+  it("outlives the tab, and can be tried again", async () => {
+    const first = await open();
+    first.edit(GONE);
+    await settled();
+    first.close();
+    const edited = await open();
+    expect(edited.refused.value).toHaveLength(1);
+    await edited.edit(MOVE);
+    server.refuses = () => false;
+    edited.retryRefused();
+    await settled();
+    expect(edited.refused.value).toEqual([]);
+    expect(server.got.at(-1)).toEqual({ ...GONE, frame: 40 }); // where that border is now
+    expect(starts(server.now.segmentation)).toEqual([0, 60]);
+  });
+
+  it("and was taken back by its author is no edit at all: undo does not reach the one before", async () => {
+    const edited = await open();
+    await edited.edit(MOVE);
+    server.latency = 2;
+    edited.edit(GONE);
+    edited.undo();
+    await edited.settled();
+    expect(server.got).toEqual([MOVE]);
+    expect(edited.refused.value).toEqual([]);
+  });
+
+  it("and was never shown as made is told of at once, and nothing to decide", async () => {
+    const edited = await open();
+    edited.edit({ kind: "delete_border", level: "primitive", frame: 31 });
+    await settled();
+    expect(told).toEqual(["It cannot be made."]);
+    expect(edited.refused.value).toEqual([]);
   });
 });
 
@@ -169,6 +317,40 @@ describe("when the server is gone", () => {
     expect(server.got).toEqual([MOVE]);
   });
 
+  it("an edit that took its own segment away is known to the next tab's server, too", async () => {
+    const edited = await open();
+    server.dieAfterSaving = true;
+    edited.edit({ kind: "delete_border", level: "primitive", frame: 30 });
+    edited.edit({ kind: "name_segment", level: "primitive", frame: 0, label: "whole" });
+    await settled();
+    edited.close();
+    server.dieAfterSaving = false;
+    server.up = true;
+    const next = await open();
+    await settled();
+    expect(next.refused.value).toEqual([]);
+    expect(server.got).toHaveLength(2);
+    expect(next.shown.value.segmentation.segments[1]!.label).toBe("whole");
+  });
+
+  it("the next tab may find a server that is still looking for segments", async () => {
+    const edited = await open();
+    server.up = false;
+    edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
+    await settled();
+    edited.close();
+    server.up = true;
+    const bare = [row("activity", 0, 100), row("primitive", 0, 100)];
+    const segmentation = { ...server.now.segmentation, segments: bare };
+    const ids = ["a:0", "p:0"];
+    const finding = { ...server.now, segmentation, ids, finding: true, revision: -1 };
+    vi.spyOn(server, "recording").mockResolvedValueOnce(finding);
+    const next = await open();
+    await settled();
+    expect(next.refused.value).toEqual([]);
+    expect(server.got).toMatchObject([{ frame: 30, label: "hop" }]);
+  });
+
   it("a tab that dies, too, leaves its edits to the next one", async () => {
     const edited = await open();
     server.up = false;
@@ -196,6 +378,42 @@ describe("when somebody else changes the table", () => {
     await settled();
     expect(starts(server.now.segmentation)).toEqual([0, 40, 45, 60]);
     expect(edited.held.value).toBeNull();
+  });
+
+  it("it is made on what it was made on, wherever somebody has put that", async () => {
+    const edited = await open();
+    await server.edit("take", { revision: 0, edit: MOVE });
+    edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
+    await settled();
+    edited.retry();
+    await settled();
+    const named = { kind: "name_segment", level: "primitive", frame: 40, label: "hop" };
+    expect(server.got.at(-1)).toEqual(named);
+  });
+
+  it("what it was made on may be gone: then it is refused, and made on nothing else", async () => {
+    const edited = await open();
+    const gone: Edit = { kind: "delete_border", level: "primitive", frame: 30 };
+    await server.edit("take", { revision: 0, edit: gone });
+    await server.edit("take", { revision: 1, edit: { ...SPLIT, frame: 30 } });
+    edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
+    await settled();
+    edited.retry();
+    await settled();
+    expect(server.got).toHaveLength(2);
+    expect(edited.refused.value).toHaveLength(1);
+  });
+
+  it("edits made since are on the table as it is, and stay when the others are dropped", async () => {
+    const edited = await open();
+    await server.edit("take", { revision: 0, edit: MOVE });
+    edited.edit({ kind: "delete_border", level: "primitive", frame: 60 });
+    await settled();
+    edited.edit(SPLIT);
+    expect(starts(edited.shown.value.segmentation)).toEqual([0, 40, 45, 60]);
+    edited.drop();
+    await settled();
+    expect(starts(server.now.segmentation)).toEqual([0, 40, 45, 60]);
   });
 
   it("it can be dropped, too", async () => {

@@ -57,6 +57,7 @@ export function recording(segmentation = table(), revision = 0): Recording {
     revision,
     can_undo: false,
     can_redo: false,
+    ids: segmentation.segments.map((each) => `${each.level[0]}:${each.start_frame}`),
     saved: "",
     warnings: [],
   };

@@ -1,24 +1,33 @@
 /**
  * One open recording: the table the server confirmed, and the edits on their way to it.
  *
- * The page shows what is confirmed, nothing else: the server answers within a
- * few hundredths of a second. Edits are sent one after the other, each with a
- * name of its own, by which the server knows one that is sent again. An edit
- * leaves the queue when the server has confirmed it or refused it for what it
- * is. While nobody answers, or when the table turns out to be another than the
- * one that was edited, the queue is kept, and so it is when the tab dies.
+ * The page shows what these edits will make of the table; the header says how many
+ * are not saved. Edits are sent one after the other, each with a name of its own,
+ * by which the server knows one that is sent again, and each made on what it was
+ * made on, wherever that has moved: an outage is nothing but a long latency. An edit
+ * leaves the queue when the server has confirmed it; one that it refuses is laid
+ * aside until somebody has decided what becomes of it. While nobody answers, or when
+ * the table turns out to be another than the one that was edited, the queue is kept,
+ * and so it is when the tab dies.
  */
 
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
-import type { Edit, Edited, Level, Recording, Segments } from "../../messages";
+import type { Edit, Edited, Recording } from "../../messages";
 import { type Api, Refused, Unreachable } from "../server/api";
+import { madeOn, readdressed, type Known } from "./identities";
+import { Outlook } from "./outlook";
+import { replacesTable, takenBackBy } from "./story";
 import { store, takeOver, type Unsent } from "./unsent";
-import { inWords } from "./words";
+import { foundIn, inWords, isLoss } from "./words";
+
+/** Of no table: the server only says whether it knows the edit. */
+const NO_REVISION = -1;
+const GONE = "what it was made on is not there any more";
 
 export interface Surroundings {
   api: Api;
   folder: string;
-  /** Nobody answered. */
+  /** Nobody answered, or not to us. */
   lost(): void;
   /** A sentence for the person, with an offer to undo where that helps. */
   tell(text: string, undo?: () => void): void;
@@ -27,11 +36,22 @@ export interface Surroundings {
 export class EditedRecording {
   readonly confirmed: Signal<Recording>;
   readonly waiting = signal<Unsent[]>([]);
+  /** Edits that could not be made, until somebody decides. */
+  readonly refused = signal<Unsent[]>([]);
   /** Why the queue does not move, in a sentence; null while it does. */
   readonly held = signal<string | null>(null);
+  /** The recording as it will be once all is made that waits. */
+  readonly shown = computed<Recording>(() => {
+    const { segmentation, ids } = this.outlook.after(this.confirmed.value, this.onTheirWay.value);
+    return { ...this.confirmed.value, segmentation, ids: [...ids] };
+  });
   /** Whether the server is at something slow. */
   readonly busy = computed(() => this.waiting.value.some(({ edit }) => replacesTable(edit)));
 
+  private readonly outlook = new Outlook();
+  /** How many of those that wait are of a table that is not there any more. */
+  private readonly ofAnother = signal(0);
+  private readonly onTheirWay = computed(() => this.waiting.value.slice(this.ofAnother.value));
   private sending = false;
   private announced = 0;
   private readonly whenMade = new Map<string, () => void>();
@@ -43,7 +63,9 @@ export class EditedRecording {
     private readonly around: Surroundings,
   ) {
     this.confirmed = signal(recording);
-    this.stopKeeping = effect(() => store(around.folder, recording.id, this.waiting.value));
+    this.stopKeeping = effect(() => {
+      store(around.folder, recording.id, [...this.refused.value, ...this.waiting.value]);
+    });
   }
 
   /** The recording as the server has it, with what an earlier tab could not send. */
@@ -51,8 +73,9 @@ export class EditedRecording {
     const recording = await around.api.recording(id);
     const left = await takeOver(around.folder, id);
     const edited = new EditedRecording(recording, around);
-    edited.waiting.value = left;
-    if (left.length) void edited.send();
+    edited.refused.value = left.filter((each) => each.refused !== undefined);
+    edited.waiting.value = left.filter((each) => each.refused === undefined);
+    if (edited.waiting.value.length) void edited.send();
     return edited;
   }
 
@@ -61,22 +84,36 @@ export class EditedRecording {
   }
 
   /**
-   * Sent when its turn comes; the promise ends when it was made, refused, or has to wait. `made`
-   * is called in the moment the page has the new table.
+   * Shown at once where it can be, and sent when its turn comes; the promise ends when it was made,
+   * refused, or has to wait. `made` is called in the moment it is confirmed.
    */
   edit(edit: Edit, made?: () => void): Promise<void> {
     const queue = this.waiting.peek();
     const base = queue.length ? null : this.confirmed.peek().revision;
     const name = crypto.randomUUID();
+    const on = madeOn(edit, knownOf(this.shown.peek()));
     if (made) this.whenMade.set(name, made);
-    this.waiting.value = [...queue, { name, edit, base }];
+    const one: Unsent = { name, edit, base, on };
+    const shown = [...this.onTheirWay.peek(), one];
+    const hopeless = this.outlook.isHopeless(this.confirmed.peek(), shown);
+    this.waiting.value = [...queue, { ...one, hopeless }];
     return this.send();
   }
 
-  /** Does something once all edits on their way are confirmed; at once if they cannot be. */
-  whenSettled(command: () => void): void {
-    if (this.sending) this.commands.push(command);
+  /**
+   * Does something once the page shows what the edits so far make: at once, unless the server is at
+   * one whose result only it knows.
+   */
+  whenShown(command: () => void): void {
+    const open = this.outlook.isOpen(this.confirmed.peek(), this.onTheirWay.peek());
+    if (this.sending && open) this.commands.push(command);
     else command();
+  }
+
+  /** The promise ends when everything is confirmed, or cannot be. */
+  settled(): Promise<void> {
+    if (!this.sending) return Promise.resolve();
+    return new Promise((resolve) => this.commands.push(resolve));
   }
 
   /** Takes back the last edit. */
@@ -102,22 +139,51 @@ export class EditedRecording {
     const { segmentation, finding: still, saved } = this.confirmed.peek();
     if (still || (finding && saved)) return; // it was saved, and only read late
     this.around.tell(
-      finding ? found(segmentation) : "Another tab changed this table; this is how it is now.",
+      finding ? foundIn(segmentation) : "Another tab changed this table; this is how it is now.",
     );
   }
 
   /** Makes the held edits on the table as it is now. */
   retry(): void {
-    this.held.value = null;
     this.rebase();
+    batch(() => {
+      this.held.value = null;
+      this.ofAnother.value = 0;
+    });
     void this.send();
   }
 
-  /** Gives up the held edits. */
+  /** Gives up the held edits; those that were made since, on the table as it is, are not among them. */
   drop(): void {
-    this.waiting.value = [];
-    this.held.value = null;
-    void this.reload();
+    batch(() => {
+      this.waiting.value = this.onTheirWay.peek();
+      this.ofAnother.value = 0;
+      this.held.value = null;
+    });
+    this.rebase();
+    void this.resume();
+  }
+
+  /** Makes the refused edits once more, on the table as it is now. */
+  retryRefused(): void {
+    const again = this.refused.peek().map(({ name, edit, on = [] }): Unsent => {
+      return { name, edit, on, base: null };
+    });
+    batch(() => {
+      this.refused.value = [];
+      this.waiting.value = [...this.waiting.peek(), ...again];
+    });
+    void this.send();
+  }
+
+  /** Gives up the refused edits. */
+  dropRefused(): void {
+    this.refused.value = [];
+  }
+
+  /** Whether edits wait, to be sent or decided on. */
+  isOwing(): boolean {
+    return this.waiting.peek().length + this.refused.peek().length > 0;
   }
 
   close(): void {
@@ -131,7 +197,7 @@ export class EditedRecording {
   }
 
   private async send(): Promise<void> {
-    if (this.sending) return this.untilSettled();
+    if (this.sending) return this.settled();
     this.sending = true;
     while (this.waiting.peek().length && this.held.peek() === null) {
       if (!(await this.sendFirst())) break;
@@ -144,40 +210,60 @@ export class EditedRecording {
       await this.changed(this.announced);
   }
 
-  private untilSettled(): Promise<void> {
-    return new Promise((resolve) => this.whenSettled(resolve));
-  }
-
   /** Whether the queue may go on. */
   private async sendFirst(): Promise<boolean> {
-    const { edit, name, base } = this.waiting.peek()[0]!;
+    const first = this.waiting.peek()[0]!;
+    const { name, base, on = [] } = first;
     const before = this.confirmed.peek();
+    // Who is in a table that is still to be found, the server knows that waits for it.
+    const edit = before.finding ? first.edit : readdressed(first.edit, on, knownOf(before));
     try {
-      const revision = base ?? before.revision;
-      const edited = await this.around.api.edit(this.id, { revision, edit, name });
+      const revision = edit ? (base ?? before.revision) : NO_REVISION;
+      const edited = await this.around.api.edit(this.id, {
+        revision,
+        edit: edit ?? first.edit,
+        name,
+      });
       const made = this.whenMade.get(name);
       this.whenMade.delete(name);
       batch(() => {
-        this.confirmed.value = { ...this.confirmed.peek(), ...edited };
+        const now = { ...this.confirmed.peek(), ...edited };
+        this.outlook.confirm(first, this.confirmed.peek(), now);
+        this.confirmed.value = now;
         this.advance();
         made?.();
       });
-      this.report(edit, edited);
+      this.report(first.edit, edited);
       return true;
     } catch (error) {
-      if (!(error instanceof Refused)) this.around.lost();
-      else if (error.status === 400) {
-        this.advance();
-        this.around.tell(error.message);
-        return true;
-      } else if (error.status === 409) return this.reconsider(before, error.message);
-      else this.held.value = error.message;
+      if (!(error instanceof Refused) || error.status === 403) this.around.lost();
+      else if (error.status === 400) return this.layAside(first, error.message);
+      else if (error.status === 409 && !edit) return this.layAside(first, GONE);
+      else if (error.status === 409) return this.reconsider(before, error.message);
+      else this.hold(error.message);
       return false;
     }
   }
 
   private advance(): void {
     this.waiting.value = this.waiting.peek().slice(1);
+  }
+
+  /**
+   * An edit that cannot be made is kept until somebody decides. One that was never shown as made is
+   * only told of, and undo of one is no edit at all.
+   */
+  private layAside(first: Unsent, reason: string): boolean {
+    const rest = this.waiting.peek().slice(1);
+    const back = takenBackBy(rest.map(({ edit }) => edit));
+    const isStep = first.edit.kind === "undo" || first.edit.kind === "redo";
+    batch(() => {
+      this.waiting.value = isStep ? rest : rest.filter((_, i) => i !== back);
+      if (isStep || back >= 0 || first.hopeless) this.around.tell(reason);
+      else this.refused.value = [...this.refused.peek(), { ...first, refused: reason }];
+    });
+    this.whenMade.delete(first.name);
+    return true;
   }
 
   /** The first edit is one of the table as it is now. */
@@ -187,6 +273,14 @@ export class EditedRecording {
     if (first) this.waiting.value = [{ ...first, base }, ...rest];
   }
 
+  /** All that waits is of another table than the one that is there, or cannot be saved now. */
+  private hold(reason: string): void {
+    batch(() => {
+      this.ofAnother.value = this.waiting.peek().length;
+      this.held.value = reason;
+    });
+  }
+
   /** The server has another revision: go on if its table is the one that was edited, else wait. */
   private async reconsider(before: Recording, reason: string): Promise<boolean> {
     if (!(await this.reload())) return false;
@@ -194,7 +288,7 @@ export class EditedRecording {
     const rows = (each: Recording) => JSON.stringify(each.segmentation.segments);
     const same = rows(now) === rows(before) && now.revision !== before.revision;
     if (same) this.rebase();
-    else this.held.value = reason;
+    else this.hold(reason);
     return same;
   }
 
@@ -214,25 +308,12 @@ export class EditedRecording {
 
   private report(edit: Edit, { segmentation, notes }: Edited): void {
     const undo = replacesTable(edit) ? (): void => this.undo() : undefined;
-    const said = edit.kind === "segment" ? [found(segmentation)] : [];
+    const said = edit.kind === "segment" ? [foundIn(segmentation)] : [];
     const text = [...said, ...notes.filter((note) => !said.length || isLoss(note))].join(" ");
     if (text) this.around.tell(text, undo);
   }
 }
 
-/** What a segmentation found, and in what time. */
-function found(table: Segments): string {
-  const count = (level: Level): number =>
-    table.segments.filter((row) => row.level === level && row.kind === "activity").length;
-  const seconds = Object.values(table.timings).reduce((sum, each) => sum + each, 0);
-  return `${count("activity")} activities, ${count("primitive")} primitives, found in ${seconds.toFixed(2)} s.`;
-}
-
-function isLoss(note: string): boolean {
-  return note.startsWith("not taken over");
-}
-
-/** Whether another table takes the place of the present one, which can take a while. */
-function replacesTable({ kind }: Edit): boolean {
-  return ["segment", "transfer", "take_labels", "restore"].includes(kind);
+function knownOf({ segmentation, ids = [] }: Recording): Known {
+  return { segmentation, ids };
 }

@@ -4,7 +4,7 @@
  * timeline shows both. What an edit would reach outside of the view is brought
  * into the view first.
  */
-import { computed, signal } from "@preact/signals";
+import { batch, computed, signal } from "@preact/signals";
 import type { ByHand, Edit, Kind, Level, Segment } from "../../messages";
 import type { Store } from "../../store";
 import * as commands from "./commands";
@@ -21,10 +21,8 @@ export class Editor {
     this.store = session.store;
   }
 
-  /** The promise ends when the border is where it should be, or cannot be. */
-  async moveBorder(level: Level, frame: number, to: number): Promise<void> {
-    if (frame === to) return;
-    await this.send({ kind: "move_border", level, frame, to });
+  moveBorder(level: Level, frame: number, to: number): void {
+    if (frame !== to) this.send({ kind: "move_border", level, frame, to });
   }
 
   split(): void {
@@ -73,45 +71,45 @@ export class Editor {
 
   name(segment: Segment, label: string): void {
     const { level, start_frame: frame } = segment;
-    void this.send({ kind: "name_segment", level, frame, label });
+    this.send({ kind: "name_segment", level, frame, label });
   }
 
   /** Gives the segment one works on a name of its own. */
   nameTarget(label: string): void {
-    this.session.edited.value?.whenSettled(() => {
+    this.session.edited.value?.whenShown(() => {
       const segment = this.segment.value;
       if (segment) this.name(segment, label);
     });
   }
 
   comment({ level, start_frame: frame }: Segment, text: string): void {
-    void this.send({ kind: "comment", level, frame, text });
+    this.send({ kind: "comment", level, frame, text });
   }
 
   splitCluster(cluster: number, frames: number[]): void {
-    void this.send({ kind: "split_cluster", cluster, frames });
+    this.send({ kind: "split_cluster", cluster, frames });
   }
 
   orderClusters(order: number[]): void {
-    void this.send({ kind: "order_clusters", order });
+    this.send({ kind: "order_clusters", order });
   }
 
   nameCluster(cluster: number, label: string): void {
-    void this.send({ kind: "name_cluster", cluster, label });
+    this.send({ kind: "name_cluster", cluster, label });
   }
 
   mergeClusters(cluster: number, into: number): void {
-    void this.send({ kind: "merge_clusters", cluster, into });
+    this.send({ kind: "merge_clusters", cluster, into });
   }
 
   setCluster(segment: Segment, cluster: number): void {
     const { level, start_frame: frame } = segment;
-    if (cluster !== segment.cluster) void this.send({ kind: "set_cluster", level, frame, cluster });
+    if (cluster !== segment.cluster) this.send({ kind: "set_cluster", level, frame, cluster });
   }
 
   setKind(segment: Segment, to: Kind): void {
     const { level, start_frame: frame } = segment;
-    if (to !== segment.kind) void this.send({ kind: "set_kind", level, frame, to });
+    if (to !== segment.kind) this.send({ kind: "set_kind", level, frame, to });
   }
 
   /** Marks segments as checked, or takes the mark away. */
@@ -129,7 +127,7 @@ export class Editor {
   together(edits: ByHand[], what: string): void {
     if (!edits.length) return;
     const undo = (): void => this.undo();
-    void this.send(edits.length === 1 ? edits[0]! : { kind: "together", edits }, () => {
+    this.send(edits.length === 1 ? edits[0]! : { kind: "together", edits }, () => {
       if (what) this.session.bulletin.tell(`${counted(edits.length, "segment")} ${what}.`, undo);
     });
   }
@@ -140,7 +138,7 @@ export class Editor {
   }
 
   redo(): void {
-    if (this.isOpenTo("can_redo")) void this.send({ kind: "redo" });
+    if (this.isOpenTo("can_redo")) this.send({ kind: "redo" });
     else this.session.bulletin.tell("There is nothing to redo.");
   }
 
@@ -150,30 +148,34 @@ export class Editor {
     return edited !== undefined && (edited.confirmed.value[what] || edited.unsent().length > 0);
   }
 
-  /** An edit of what is at the playhead once the edits before it are made, if it can be seen. */
+  /** An edit of what is at the playhead once the edits before it are shown, if it can be seen. */
   private make(
     command: () => Edit | null,
     place: () => number | undefined,
     otherwise: string,
     then: (edit: Edit) => void = () => undefined,
   ): void {
-    this.session.edited.value?.whenSettled(() => {
+    this.session.edited.value?.whenShown(() => {
       const edit = command();
       const frame = place();
       if (!edit || frame === undefined) this.session.bulletin.tell(otherwise);
       else if (this.store.reveal(frame / this.store.fps.value))
         this.session.bulletin.tell("This is where it would be: press once more to do it.");
-      else void this.send(edit, () => then(edit));
+      else
+        batch(() => {
+          this.send(edit);
+          then(edit);
+        });
     });
   }
 
   /** The selection follows the border that it starts at. */
-  private async send(edit: Edit, then?: () => void): Promise<void> {
-    await this.session.edited.value?.edit(edit, () => {
-      const at = this.store.selection.peek();
-      const start = at && commands.followed(edit, at.level, at.start_frame);
+  private send(edit: Edit, made?: () => void): void {
+    const at = this.store.selection.peek();
+    const start = at && commands.followed(edit, at.level, at.start_frame);
+    batch(() => {
+      void this.session.edited.value?.edit(edit, made);
       if (at && start !== null) this.store.selection.value = { ...at, start_frame: start };
-      then?.();
     });
   }
 

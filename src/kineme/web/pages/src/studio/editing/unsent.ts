@@ -7,11 +7,18 @@
 
 import type { Edit } from "../../messages";
 
-/** An edit that was not confirmed; `base`: the revision it was made on, null: that of the one before. */
+/** An edit that was not confirmed. */
 export interface Unsent {
   name: string;
   edit: Edit;
+  /** The revision it was made on; null: that of the one before. */
   base: number | null;
+  /** Who the segments are that it names, in the order of their frames. */
+  on?: (string | null)[];
+  /** Whether the page has never shown it as made: it is one that cannot be. */
+  hopeless?: boolean;
+  /** Why it could not be made, where it could not. */
+  refused?: string;
 }
 
 const PREFIX = "kineme.unsent";

@@ -1,5 +1,5 @@
 /** Edits in words, as notices and the list of versions say them. */
-import type { Edit, Level } from "../../messages";
+import type { Edit, Level, Segments } from "../../messages";
 
 const LEVELS: Record<Level, [one: string, many: string]> = {
   activity: ["activity", "activities"],
@@ -66,4 +66,16 @@ export function inWords(edit: Edit, fps: number): string {
 /** "1 member", "2 members". */
 export function counted(n: number, one: string, many = `${one}s`): string {
   return `${n} ${n === 1 ? one : many}`;
+}
+
+/** What a segmentation found, and in what time. */
+export function foundIn(table: Segments): string {
+  const count = (level: Level): number =>
+    table.segments.filter((row) => row.level === level && row.kind === "activity").length;
+  const seconds = Object.values(table.timings).reduce((sum, each) => sum + each, 0);
+  return `${count("activity")} activities, ${count("primitive")} primitives, found in ${seconds.toFixed(2)} s.`;
+}
+
+export function isLoss(note: string): boolean {
+  return note.startsWith("not taken over");
 }

@@ -47,7 +47,7 @@ export class Review {
     const segment = this.editor.segment.value;
     if (!segment) return;
     this.editor.check([segment], true);
-    this.session.edited.value?.whenSettled(() => this.next());
+    this.session.edited.value?.whenShown(() => this.next());
   }
 
   /** Marks the segment at the playhead, or takes the mark away. */

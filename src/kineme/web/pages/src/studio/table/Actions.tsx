@@ -22,6 +22,7 @@ export function Actions(props: Props): JSX.Element {
     if (!edited.value) return;
     busy.value = true;
     try {
+      await edited.value.settled(); // its rows are those that are shown
       const numbers = rows.map(({ number }) => number);
       save(await api.clips(edited.value.id, { rows: numbers, loops }));
       bulletin.solved("clips");

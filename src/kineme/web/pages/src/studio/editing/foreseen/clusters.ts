@@ -1,0 +1,88 @@
+/** What segments are: their clusters and kinds, as `kineme/segments/editing/clusters.py` has it. */
+import type { Kind, Level, Segment } from "../../../messages";
+import { isCalledByCluster, knownNames, membersOf, withNames } from "./names";
+import { allRows, eachRow, Impossible, joined, starting, withRows, type Draft } from "./rows";
+
+export function setCluster(draft: Draft, level: Level, frame: number, cluster: number): Draft {
+  if (cluster < -1 || cluster > following(draft)) throw new Impossible();
+  const chosen = starting(draft, level, frame);
+  const inside = draft.primitive.filter(
+    (row) => row.activity === chosen.activity && row.cluster === chosen.cluster,
+  );
+  const members = level === "activity" ? [chosen, ...inside] : [chosen];
+  return movedTo(draft, members, cluster, cluster >= 0 ? "activity" : chosen.kind);
+}
+
+export function mergeClusters(draft: Draft, cluster: number, into: number): Draft {
+  const members = membersOf(draft, cluster);
+  if (!members.length || !membersOf(draft, into).length || cluster === into) throw new Impossible();
+  return movedTo(draft, members, into);
+}
+
+export function splitCluster(draft: Draft, cluster: number, frames: readonly number[]): Draft {
+  const rows = membersOf(draft, cluster);
+  const level = levelOf(rows);
+  const own = rows.filter((row) => row.level === level);
+  const gone = own.filter((row) => frames.includes(row.start_frame));
+  if (!gone.length || gone.length === own.length) throw new Impossible();
+  const staying = new Set(own.filter((row) => !gone.includes(row)).map((row) => row.activity));
+  const leaving = new Set(gone.map((row) => row.activity).filter((each) => !staying.has(each)));
+  const whole = draft.activity.filter((row, i) => leaving.has(i) && row.cluster === cluster);
+  return movedTo(draft, level === "primitive" ? [...gone, ...whole] : gone, following(draft));
+}
+
+/** The level on which a cluster is divided: that of primitives where it has any. */
+export function levelOf(members: readonly Segment[]): Level {
+  return members.some((row) => row.level === "primitive") ? "primitive" : "activity";
+}
+
+export function orderClusters(draft: Draft, order: readonly number[]): Draft {
+  const there = new Set(allRows(draft).map((row) => row.cluster));
+  there.delete(-1);
+  const whole = order.length === there.size && order.every((cluster) => there.has(cluster));
+  if (!whole || new Set(order).size !== there.size) throw new Impossible();
+  const numbered = (cluster: number): number => order.indexOf(cluster);
+  const names = [...knownNames(draft)].map(([id, name]) => [numbered(id), name] as const);
+  const rows = eachRow(draft, (row) => ({ ...row, cluster: numbered(row.cluster) }));
+  return withNames(rows, new Map(names));
+}
+
+export function setKind(draft: Draft, level: Level, frame: number, kind: Kind): Draft {
+  const chosen = starting(draft, level, frame);
+  if (kind === chosen.kind) return draft;
+  const become = (row: Segment): Segment => {
+    const cluster = kind === "transition" ? -1 : row.cluster;
+    return { ...row, kind, cluster, score: null };
+  };
+  const { activity, primitive } = draft;
+  if (level === "primitive") {
+    const parts = primitive.map((row) => (row === chosen ? become(row) : row));
+    return withRows(draft, activity, parts);
+  }
+  const inside = primitive.flatMap((row, i) => (row.activity === chosen.activity ? [i] : []));
+  const one = inside.length > 0 && kind === "transition";
+  const parts = one ? joined(primitive, inside[0]!, inside.at(-1)!, inside[0]!) : primitive;
+  const changed = new Set(one ? inside.slice(0, 1) : inside);
+  return withRows(
+    draft,
+    activity.map((row) => (row === chosen ? become(row) : row)),
+    parts.map((row, i) => (changed.has(i) ? become(row) : row)),
+  );
+}
+
+/** The number of the next new cluster. */
+function following(draft: Draft): number {
+  return allRows(draft).reduce((most, row) => Math.max(most, row.cluster), -1) + 1;
+}
+
+/** The members in another cluster, called by its name unless they have their own. */
+function movedTo(draft: Draft, members: readonly Segment[], cluster: number, kind?: Kind): Draft {
+  const names = knownNames(draft);
+  const chosen = new Set(members);
+  const rows = eachRow(draft, (row) => {
+    if (!chosen.has(row)) return row;
+    const label = isCalledByCluster(row, names) ? (names.get(cluster) ?? "") : row.label;
+    return { ...row, cluster, score: null, label, kind: kind ?? row.kind };
+  });
+  return withNames(rows, new Map([...(cluster >= 0 ? [[cluster, ""] as const] : []), ...names]));
+}

@@ -1,0 +1,69 @@
+/** What the edits on their way will make of the table that was confirmed, without doing it twice. */
+import type { Recording } from "../../messages";
+import type { Known } from "./identities";
+import { expected, isSame, storyOf, withPresent, type Story } from "./story";
+import type { Unsent } from "./unsent";
+
+/** A story, and what it was told of: the table of a revision. */
+interface Told {
+  of: Recording["segmentation"];
+  story: Story;
+}
+
+export class Outlook {
+  private told: Told | null = null;
+  /** By the name of an edit: what it made of what. */
+  private readonly made = new Map<string, { from: Story; to: Story | null }>();
+
+  /** The table once all these edits are made; those that cannot be foreseen change nothing yet. */
+  after(confirmed: Recording, unsent: readonly Unsent[]): Known {
+    return this.stories(confirmed, unsent).at(-1)!.present;
+  }
+
+  /** Whether there is an edit among them of which only the server knows what it makes. */
+  isOpen(confirmed: Recording, unsent: readonly Unsent[]): boolean {
+    this.stories(confirmed, unsent);
+    return unsent.some(({ name }) => this.made.get(name)?.to === null);
+  }
+
+  /** Whether the last of these edits is one that cannot be made. */
+  isHopeless(confirmed: Recording, unsent: readonly Unsent[]): boolean {
+    const [before, after] = this.stories(confirmed, unsent).slice(-2);
+    return before === after && this.made.get(unsent.at(-1)!.name)?.to !== null;
+  }
+
+  /** The server has made an edit of a table; `now` is what it made. */
+  confirm({ name, edit }: Unsent, before: Recording, now: Recording): void {
+    const from = this.storyAt(before);
+    const came: Known = { segmentation: now.segmentation, ids: now.ids ?? [] };
+    const next = now.revision === before.revision + 1;
+    const story = next ? withPresent(from, edit, came) : storyOf(came);
+    const guess = this.made.get(name);
+    this.made.delete(name);
+    if (guess?.to && guess.from === from && isSame(guess.to.present, came))
+      for (const each of this.made.values()) if (each.from === guess.to) each.from = story;
+    this.told = { of: now.segmentation, story };
+  }
+
+  /** Where the edits lead, one after the other, from what is confirmed on. */
+  private stories(confirmed: Recording, unsent: readonly Unsent[]): Story[] {
+    const stories = [this.storyAt(confirmed)];
+    for (const { name, edit } of unsent) {
+      const from = stories.at(-1)!;
+      let known = this.made.get(name);
+      if (known?.from !== from) {
+        known = { from, to: expected(from, edit, name) };
+        this.made.set(name, known);
+      }
+      stories.push(known.to ?? from);
+    }
+    return stories;
+  }
+
+  /** A table that came from elsewhere has no story. */
+  private storyAt({ segmentation, ids = [] }: Recording): Story {
+    if (this.told?.of !== segmentation)
+      this.told = { of: segmentation, story: storyOf({ segmentation, ids }) };
+    return this.told.story;
+  }
+}

@@ -1,0 +1,63 @@
+/** The table a page works on, those before it and those undone, as far as the page has seen them. */
+import type { Edit } from "../../messages";
+import { foreseen } from "./foreseen/foreseen";
+import { idsAfter, type Known } from "./identities";
+
+export interface Story {
+  readonly present: Known;
+  readonly past: readonly Known[];
+  readonly future: readonly Known[];
+}
+
+export function storyOf(present: Known): Story {
+  return { present, past: [], future: [] };
+}
+
+/** The story after an edit that the server has not answered; null where only the server knows. */
+export function expected(story: Story, edit: Edit, name: string): Story | null {
+  const { present, past, future } = story;
+  if (edit.kind === "undo") return past.length ? withPresent(story, edit, past.at(-1)!) : null;
+  if (edit.kind === "redo") return future.length ? withPresent(story, edit, future[0]!) : null;
+  const segmentation = foreseen(present.segmentation, edit);
+  if (segmentation === present.segmentation) return story; // it will be refused
+  if (!segmentation) return null;
+  return withPresent(story, edit, { segmentation, ids: idsAfter(present, segmentation, name) });
+}
+
+/** The story after an edit that made this table. */
+export function withPresent({ past, present, future }: Story, edit: Edit, now: Known): Story {
+  if (edit.kind === "undo")
+    return { present: now, past: past.slice(0, -1), future: [present, ...future] };
+  if (edit.kind === "redo")
+    return { present: now, past: [...past, present], future: future.slice(1) };
+  return { present: now, past: [...past, present], future: [] };
+}
+
+/** Whether what was expected came: the same rows, who are the same. */
+export function isSame(a: Known, b: Known): boolean {
+  if (a === b) return true;
+  const { segmentation: one, ids } = a;
+  const { segmentation: other } = b;
+  return (
+    ids.length === b.ids.length &&
+    ids.every((id, i) => id === b.ids[i]) &&
+    (["segments", "cluster_names", "checked", "by_hand", "comments"] as const).every(
+      (what) => JSON.stringify(one[what]) === JSON.stringify(other[what]),
+    )
+  );
+}
+
+/** Which of the edits after an edit takes it back; -1: none. */
+export function takenBackBy(later: readonly Edit[]): number {
+  let made = 0; // since then, and not taken back
+  for (const [i, { kind }] of later.entries()) {
+    if (kind === "undo" && made === 0) return i;
+    made += kind === "undo" ? -1 : 1;
+  }
+  return -1;
+}
+
+/** Whether another table takes the place of the present one, which can take a while. */
+export function replacesTable({ kind }: Edit): boolean {
+  return ["segment", "transfer", "take_labels", "restore"].includes(kind);
+}

@@ -1,0 +1,113 @@
+import { signal } from "@preact/signals";
+import { beforeEach, expect, test } from "vitest";
+import type { Recording } from "../src/messages";
+import type { RecordingData } from "../src/recordingData";
+import { Store } from "../src/store";
+import type { Drag } from "../src/timeline/drawing";
+import { Gestures } from "../src/timeline/gestures";
+import { GUTTER, layOut, type Lane } from "../src/timeline/lanes";
+import { segment, tableOf } from "./recordings";
+
+const FPS = 10;
+const PIXELS = 4; // to a frame
+const ROWS = [
+  segment(0, 100, { level: "activity" }),
+  segment(0, 40),
+  segment(40, 41), // four pixels
+  segment(41, 100),
+];
+
+let store: Store;
+let drag: Drag | null;
+let moves: [level: string, frame: number, to: number][];
+let lanes: Lane[];
+let gestures: Gestures;
+
+beforeEach(() => {
+  store = new Store();
+  const table = tableOf(ROWS);
+  const recording = { n_frames: 100, fps: FPS, segmentation: table } as unknown as Recording;
+  store.add({ data: {} as RecordingData, recording: signal(recording), motion: signal(null) });
+  moves = [];
+  drag = null;
+  store.edits.value = {
+    moveBorder: (...move) => void moves.push(move),
+    nameCluster: () => undefined,
+    mergeClusters: () => undefined,
+    orderClusters: () => undefined,
+  };
+  const { activities, primitives } = store;
+  lanes = layOut({ activities: activities.value, primitives: primitives.value, other: null }, 160);
+  gestures = new Gestures(
+    store,
+    () => lanes,
+    (next) => (drag = next),
+  );
+});
+
+/** A press on the primitives at a frame, so many pixels beside it. */
+function at(frame: number, pixels = 0, pointerType = "mouse"): PointerEvent {
+  const lane = lanes.find(({ id }) => id === "primitive")!;
+  const width = GUTTER + 100 * PIXELS;
+  return {
+    button: 0,
+    pointerId: 1,
+    pointerType,
+    clientX: GUTTER + frame * PIXELS + pixels,
+    clientY: lane.top + lane.height / 2,
+    currentTarget: {
+      getBoundingClientRect: () => ({ left: 0, top: 0, width }),
+      setPointerCapture: () => undefined,
+      style: {},
+    },
+  } as unknown as PointerEvent;
+}
+
+function press(...events: PointerEvent[]): void {
+  gestures.down(events[0]!);
+  for (const event of events.slice(1)) gestures.move(event);
+  gestures.up(events.at(-1)!);
+}
+
+test("a press that hardly moves selects, also beside a border, and moves nothing", () => {
+  for (const jitter of [0, 1, -1, 4, -4]) {
+    press(at(41, 1), at(41, 1 + jitter));
+    expect(moves).toEqual([]);
+    expect(drag).toBeNull();
+    expect(store.selected.value?.start_frame).toBe(41);
+    store.selection.value = null;
+  }
+});
+
+test("a segment narrower than the grips of its borders can be chosen", () => {
+  for (const pointer of ["mouse", "touch"]) {
+    press(at(40, 2, pointer));
+    expect(store.selected.value?.start_frame).toBe(40);
+    store.selection.value = null;
+  }
+});
+
+test("a border goes as far as the pointer, wherever it was taken", () => {
+  press(at(41, 3), at(41, 13), at(41, 43));
+  expect(moves).toEqual([["primitive", 41, 51]]);
+  expect(drag).toBeNull(); // the table shows it
+  press(at(40, -4), at(40, -14), at(40, -44));
+  expect(moves.at(-1)).toEqual(["primitive", 40, 30]);
+});
+
+test("a dragged border follows from where it stood, once the press has become a drag", () => {
+  gestures.down(at(41, 3));
+  gestures.move(at(41, 7));
+  expect(drag).toBeNull();
+  gestures.move(at(41, 8));
+  expect(drag).toMatchObject({ frame: 41, to: 42 });
+  expect(gestures.giveUp()).toBe(true);
+  expect(moves).toEqual([]);
+});
+
+test("in the middle of a segment a drag moves the view, not a border", () => {
+  store.zoom.value = { start_s: 2, stop_s: 8 };
+  press(at(60), at(60, 10), at(60, 40));
+  expect(moves).toEqual([]);
+  expect(store.range.value.start_s).toBeLessThan(2);
+});

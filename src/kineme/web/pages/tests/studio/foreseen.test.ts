@@ -1,0 +1,87 @@
+/** What the page foresees is what the package makes: each edit of edits.json (make_edits.py). */
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { expect, it } from "vitest";
+import type { Edit, Segment, Segments } from "../../src/messages";
+import { foreseen } from "../../src/studio/editing/foreseen/foreseen";
+import { idsAfter, madeOn, readdressed, type Known } from "../../src/studio/editing/identities";
+
+type Row = [
+  level: Segment["level"],
+  kind: Segment["kind"],
+  start: number,
+  stop: number,
+  cluster: number,
+  activity: number,
+  label: string,
+  score: number | null,
+  border_confidence: number | null,
+];
+type Said = Pick<Segments, "cluster_names" | "checked" | "by_hand" | "comments"> & {
+  rows: Row[];
+  ids: string[];
+};
+interface Chain {
+  start: Said & Pick<Segments, "provenance">;
+  steps: { edit: Edit; name: string; after: Said | null }[];
+}
+
+const FPS = 30;
+const chains = JSON.parse(
+  readFileSync(join(import.meta.dirname, "edits.json"), "utf-8"),
+) as Chain[];
+
+function knownOf({ rows, ids, ...rest }: Chain["start"]): Known {
+  const actions = rows.filter(([level]) => level === "activity").map((row) => row[4]);
+  const segments = rows.map(
+    ([level, kind, start, stop, cluster, activity, label, score, sure]): Segment => ({
+      level,
+      kind,
+      start_frame: start,
+      stop_frame: stop,
+      start_s: start / FPS,
+      stop_s: stop / FPS,
+      cluster,
+      activity,
+      label,
+      score,
+      action: actions[activity]!,
+      border_confidence: sure,
+    }),
+  );
+  const n_frames = segments.at(-1)!.stop_frame;
+  const table = { schema: "", n_frames, fps: FPS, timings: {}, ...rest, segments };
+  return { segmentation: table, ids };
+}
+
+it.each(chains.map((chain, i) => [i, chain] as const))(
+  "chain %i of edits is foreseen",
+  (_, { start, steps }) => {
+    let before = knownOf(start);
+    for (const { edit, name, after } of steps) {
+      const now = foreseen(before.segmentation, edit)!;
+      if (!after) {
+        expect(now, JSON.stringify(edit)).toBe(before.segmentation);
+        continue;
+      }
+      const known = { segmentation: now, ids: idsAfter(before, now, name) };
+      const { provenance } = now;
+      expect(known, JSON.stringify(edit)).toEqual(knownOf({ ...after, provenance }));
+      before = known;
+    }
+  },
+);
+
+it("an edit is one of the same segments, wherever its frames have gone", () => {
+  for (const { start, steps } of chains) {
+    let before = knownOf(start);
+    for (const { edit, name, after } of steps) {
+      if (!after) continue;
+      const on = madeOn(edit, before);
+      expect(readdressed(edit, on, before), JSON.stringify(edit)).toEqual(edit);
+      expect(on, JSON.stringify(edit)).not.toContain(null);
+      const segmentation = foreseen(before.segmentation, edit)!;
+      before = { segmentation, ids: idsAfter(before, segmentation, name) };
+    }
+  }
+});

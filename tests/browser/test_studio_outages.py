@@ -1,0 +1,132 @@
+"""An outage, or a slow line, is nothing but a wait: edits are made on what they were made on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from screen import Screen
+from studio_server import StudioServer
+
+import kineme
+
+
+@pytest.fixture
+def mortal(chromium, take: Path, tmp_path: Path):
+    """A server that may be killed, on a folder with one take."""
+    take.rename(tmp_path / "take.bvh")
+    with StudioServer(tmp_path) as running:
+        yield running
+
+
+def saved_primitives(path: Path) -> list[tuple[int, str, bool]]:
+    """Start, label and whether it is checked, of each primitive on the disk."""
+    table = kineme.read_segments(path)
+    checked = {tuple(each) for each in table.provenance.get("checked", [])}
+    return [
+        (row.start_frame, row.label, (row.level, row.start_frame, row.stop_frame) in checked)
+        for row in table.primitives
+    ]
+
+
+def test_work_on_one_segment_during_an_outage_is_made_as_it_was_done(new_tab, mortal):
+    page = new_tab(mortal.address)
+    screen = Screen(page).opened()
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("Shift+ArrowRight")
+    border = screen.state["selected"]["start_frame"]
+    mortal.kill()
+    for _ in range(5):
+        page.keyboard.press("Alt+ArrowRight")
+    screen.wait(f"k.segments.some((row) => row.start_frame === {border + 5})")
+    page.keyboard.press("n")
+    page.keyboard.type("hop")
+    page.keyboard.press("Enter")
+    page.keyboard.press("Shift+K")
+    assert screen.state["selected"]["label"] == "hop"
+    notice = page.locator("[data-notice=trouble]")
+    notice.wait_for()
+    assert "4 earlier" in notice.inner_text()  # and the last three in words
+    mortal.start()
+    new_tab(mortal.address)  # which tells the other one the new token
+    screen.wait("k.unsent.length === 0 && k.saved !== ''")
+    saved = saved_primitives(mortal.folder / "take.segments.json")
+    assert saved[2] == (border + 5, "hop", True)
+    assert screen.starts()[2] == border + 5
+    assert page.locator("[data-notice=refused]").count() == 0
+    for _ in range(7):
+        page.keyboard.press("Control+z")
+    screen.wait("k.unsent.length === 0")
+    assert saved_primitives(mortal.folder / "take.segments.json")[2] == (border, "", False)
+
+
+@pytest.mark.parametrize("latency", [400, 700])
+def test_on_a_slow_line_edits_are_shown_at_once_and_none_is_lost(page, take, latency):
+    screen = Screen(page)
+    page.keyboard.press("Shift+ArrowRight")
+    border = screen.state["selected"]["start_frame"]
+    screen.slow_down(latency)
+    for _ in range(3):
+        page.keyboard.press("Alt+ArrowRight")
+    page.keyboard.press("n")
+    page.keyboard.type("hop")
+    page.keyboard.press("Enter")
+    assert screen.starts()[1] == border + 3
+    assert screen.labels()[1] == "hop"
+    assert len(screen.state["unsent"]) >= 3
+    screen.saved()
+    assert saved_primitives(take.with_suffix(".segments.json"))[1][:2] == (border + 3, "hop")
+
+
+def test_what_is_refused_is_said_until_somebody_decides(page, take):
+    screen = Screen(page)
+
+    def no_room(route) -> None:
+        sent = route.request.post_data_json
+        refused = sent["edit"]["kind"] == "name_segment"
+        answer = {"status": 400, "json": {"error": "the label is too odd"}}
+        route.fulfill(**answer) if refused else route.continue_()
+
+    page.route("**/edits", no_room)
+    page.keyboard.press("n")
+    page.keyboard.type("odd")
+    page.keyboard.press("Enter")
+    notice = page.locator("[data-notice=refused]")
+    notice.wait_for()
+    assert "“odd” (the label is too odd)" in notice.inner_text()
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("Shift+K")
+    screen.saved()
+    page.wait_for_timeout(7000)  # longer than news are shown
+    assert notice.is_visible()
+    page.reload()
+    screen.opened()
+    assert notice.is_visible()
+    page.unroute("**/edits")
+    notice.get_by_role("button", name="Try again").click()
+    notice.wait_for(state="detached")
+    screen.wait("k.unsent.length === 0")
+    saved = saved_primitives(take.with_suffix(".segments.json"))
+    assert saved[0][1] == "odd"
+    assert saved[1][2]
+
+
+def test_held_edits_are_made_on_the_segments_they_were_made_on(new_tab, server, take):
+    first = Screen(new_tab(server.address_of(take)))
+    late = new_tab("about:blank")
+    late.route("**/api/events*", lambda route: route.abort())  # it hears nothing
+    late.goto(server.address_of(take))
+    second = Screen(late)
+    for screen in (first, second):
+        screen.opened()
+        screen.page.keyboard.press("Shift+ArrowRight")
+    border = first.state["selected"]["start_frame"]
+    first.page.keyboard.press("Alt+Shift+ArrowRight")
+    first.saved()
+    late.keyboard.press("n")
+    late.keyboard.type("hop")
+    late.keyboard.press("Enter")
+    late.get_by_role("button", name="Make them here").click()
+    second.saved()
+    assert second.starts()[1] == border + 10
+    assert second.labels()[:3] == ["", "hop", ""]
