@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -132,25 +133,37 @@ def test_warnings_are_short_lines(kineme_process, tmp_path: Path) -> None:
     assert "2898" in line
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs a named pipe")
+@pytest.mark.skipif(sys.platform == "win32", reason="signals are others there")
 def test_control_c_ends_quietly_with_130(tmp_path: Path) -> None:
-    pipe = tmp_path / "slow.bvh"
-    os.mkfifo(pipe)
-    with (
-        subprocess.Popen(
-            [sys.executable, "-m", "kineme", "segment", pipe, "-o", tmp_path / "cuts.csv"],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            # What runs in a script's background is started deaf to Ctrl+C.
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-        ) as process,
-        pipe.open("w"),
-    ):  # opens once the reader waits for data
+    head, _, motion = bundled_recording().read_text().partition("Frame Time:")
+    time_line, _, frames = motion.partition("\n")
+    long = head.replace("Frames: 2898", f"Frames: {40 * 2898}")
+    (tmp_path / "a.bvh").write_text(f"{head}Frame Time:{motion}")
+    (tmp_path / "b.bvh").write_text(f"{long}Frame Time:{time_line}\n" + 40 * frames)
+    with subprocess.Popen(
+        [sys.executable, "-m", "kineme", "segment", "a.bvh", "b.bvh", "-q", "-o", "{name}.csv"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=tmp_path,
+        # What runs in a script's background is started deaf to Ctrl+C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    ) as process:
+        while not (tmp_path / "a.csv").exists():  # then the long one is at work
+            assert process.poll() is None
+            time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=30)
     assert (process.returncode, out, err) == (130, "", "")
-    assert [path.name for path in tmp_path.iterdir()] == ["slow.bvh"]
+    assert not list(tmp_path.glob("b.*csv")) + list(tmp_path.glob(".kineme-*"))
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs a named pipe")
+def test_a_named_pipe_is_not_waited_for(kineme_process, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "slow.bvh")
+    done = kineme_process("segment", "slow.bvh", "-o", "cuts.csv")
+    assert done.returncode == 1
+    assert "slow.bvh: is a pipe or a device: save what comes from it in a file" in done.stderr
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
