@@ -57,6 +57,19 @@ def test_json_goes_to_standard_output_alone(kineme, corpus) -> None:
     assert set(content["methods"]["uniform"]["scores"]) >= set(scores())
 
 
+def test_constants_of_the_methods_can_be_set(kineme, corpus) -> None:
+    def told(*options: str) -> object:
+        ran = kineme("evaluate", corpus, "--labels", corpus / "labels.csv", "--json", *options)
+        assert ran.returncode == 0, ran.stderr
+        return json.loads(ran.stdout)["methods"]["kineme"]["scores"]
+
+    assert told() == told("--set", "segment_cost=0.15")
+    assert told() != told("--set", "segment_cost=5", "--set", "cluster_cost=20")
+    ran = kineme("evaluate", corpus, "--labels", corpus / "labels.csv", "--set", "segment_price=5")
+    assert ran.returncode == 1
+    assert "has no parameter 'segment_price'" in ran.stderr
+
+
 def test_a_pattern_that_no_column_fits_is_said(kineme, corpus) -> None:
     ran = kineme(
         *("evaluate", corpus, "--labels", corpus / "labels.csv", "--method", "uniform"),

@@ -87,8 +87,11 @@ def _with_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
 def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
     """Print the facts for people."""
     from kineme.cli.tables import show_facts
+    from kineme.formats.points import BODY
     from kineme.recordings import Motion
 
+    if not joints:  # from which points each joint of the body is: of use to few
+        facts = facts | {"notes": [note for note in facts["notes"] if not note.startswith(BODY)]}
     length = f"{counted(facts['frames'], 'frame')} at {facts['fps']:g} Hz, {facts['seconds']:.2f} s"
     if isinstance(recording, Motion):
         named = (facts["end_effectors"] or {}).items()

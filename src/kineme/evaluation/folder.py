@@ -134,6 +134,7 @@ def evaluate_folder(
     mapping: Mapped = "recording",
     n_clusters: int | None = None,
     reading: Reading | None = None,
+    constants: Mapping[str, Any] | None = None,
     processes: int = 2,
     progress: Progress | None = None,
 ) -> FolderScores:
@@ -152,6 +153,9 @@ def evaluate_folder(
         How many clusters signals of the folder are joined to; found out by default.
     reading : Reading, optional
         How the recordings are read.
+    constants : mapping, optional
+        Of every method that are to be others, such as ``{"min_action": 2.0}``. Which there are
+        depends on the recording; one that cannot be taken is an error of it.
     processes : int
         How many at once; 1 stays in this process.
     progress : callable, optional
@@ -166,10 +170,11 @@ def evaluate_folder(
     ParameterError
         There is no such method.
     """
+    others = dict(constants or {})
     for name in methods:
         check_method(name)
     jobs = [
-        Job(path, source, name, reading or Reading(), joins=mapping == "folder")
+        Job(path, source, name, reading or Reading(), mapping == "folder", others)
         for path, source in labels.items()
         for name in methods
     ]

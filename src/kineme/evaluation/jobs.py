@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, as_completed
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from kineme._processes import interrupted_later, pool_of
 from kineme.errors import KinemeError, KinemeWarning
@@ -31,6 +32,8 @@ class Job:
     reading: Reading
     joins: bool = False
     """Whether clusters will be joined with those of other recordings."""
+    constants: Mapping[str, Any] = field(default_factory=dict)
+    """Of the method that are to be others."""
 
     def __hash__(self) -> int:
         return hash((self.path, self.method))
@@ -106,7 +109,7 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     classes: dict[str, int] = {}
     compare(truth, truth, classes=classes)
     start = clock()
-    found = segment_by(job.method, recording, n_classes=len(classes))
+    found = segment_by(job.method, recording, n_classes=len(classes), **job.constants)
     seconds = clock() - start
     compared = compare(truth, found, classes=classes)
     sides = sides_of(recording, truth, found) if job.joins else None

@@ -32,6 +32,9 @@ Floats = NDArray[np.float64]
 Body = dict[str, tuple[int, ...]]
 Spans = tuple[tuple[int, int], ...]
 
+BODY = "joints of the body"
+"""How the note begins that says from which points each is."""
+
 
 @dataclass(frozen=True)
 class Points:
@@ -104,7 +107,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     positions *= scale
     skeleton, positions = _tree(names, upright(positions, up), body, kept, seen)
     if "pelvis" in body:
-        notes.append(f"joints of the body: {described(body, names)}")
+        notes.append(f"{BODY}: {described(body, names)}")
     return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -77,6 +77,16 @@ def evaluate(
         typer.Option(
             metavar="NAME,NAME,…",
             help="Leave these columns of signals out, such as 'emg*'.",
+            rich_help_panel=FOLDER,
+        ),
+    ] = None,
+    constants: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE",
+            help="A constant of the methods that is to be another, such as min_action=2; several "
+            "numbers with commas between them.",
             rich_help_panel=FOLDER,
         ),
     ] = None,
@@ -160,6 +170,7 @@ def evaluate(
                 mapping=mapping,
                 n_clusters=clusters,
                 reading=Reading(_listed(columns), _listed(without_columns)),
+                constants=dict(map(_constant, constants or ())),
                 output=output,
                 as_json=as_json,
                 quiet=quiet,
@@ -182,6 +193,25 @@ def evaluate(
 
             write_records(records, output)
     failures.exit()
+
+
+def _constant(text: str) -> tuple[str, Any]:
+    """A constant's name and value: a number, several, a word, or none."""
+    name, equals, value = text.partition("=")
+    if not equals:
+        raise typer.BadParameter(f"--set takes NAME=VALUE, not {text!r:.60}")
+    values = [_value(each.strip()) for each in value.split(",")]
+    return name.strip().replace("-", "_"), values[0] if len(values) == 1 else tuple(values)
+
+
+def _value(text: str) -> float | bool | str | None:
+    words = {"none": None, "true": True, "false": False}
+    if text.lower() in words:
+        return words[text.lower()]
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def _listed(*texts: str | None) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +31,7 @@ def run_folder(
     mapping: Mapped,
     n_clusters: int | None,
     reading: Reading,
+    constants: Mapping[str, Any],
     output: Path | None,
     as_json: bool,
     quiet: bool,
@@ -51,6 +52,7 @@ def run_folder(
             mapping=mapping,
             n_clusters=n_clusters,
             reading=reading,
+            constants=constants,
             progress=stage,
         )
     if not quiet:
