@@ -61,7 +61,8 @@ def test_constants_of_the_methods_can_be_set(kineme, corpus) -> None:
     def told(*options: str) -> object:
         ran = kineme("evaluate", corpus, "--labels", corpus / "labels.csv", "--json", *options)
         assert ran.returncode == 0, ran.stderr
-        return json.loads(ran.stdout)["methods"]["kineme"]["scores"]
+        found = json.loads(ran.stdout)["methods"]["kineme"]["scores"]
+        return {name: value for name, value in found.items() if name != "seconds_per_hour"}
 
     assert told() == told("--set", "segment_cost=0.15")
     assert told() != told("--set", "segment_cost=5", "--set", "cluster_cost=20")
