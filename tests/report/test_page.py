@@ -138,10 +138,16 @@ def test_signals_are_shown_without_a_figure(tmp_path: Path) -> None:
 
 
 def test_tables_with_any_provenance_are_shown(tmp_path: Path) -> None:
-    for source in ("a text", {"path": None}, {}, 7):
+    for source, name in (
+        ("a/walk.bvh", "walk.bvh"),
+        ({"path": None}, "recording"),
+        ({}, "recording"),
+    ):
         table = replace(SEGMENTS, provenance={"input": source})
         write_report(RECORDING, table, tmp_path / "out.html")
-        assert content(tmp_path / "out.html")["name"] == "recording"
+        assert content(tmp_path / "out.html")["name"] == name
+    with pytest.raises(ParameterError, match=r"the provenance is not as kineme writes it: input"):
+        replace(SEGMENTS, provenance={"input": 7})
 
 
 def test_segments_of_another_recording_are_refused(tmp_path: Path) -> None:

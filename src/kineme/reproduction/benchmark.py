@@ -138,6 +138,8 @@ def score_published_cuts(folder: Path) -> list[PublishedCuts]:
     """
     path = folder / "published.json"
     truths = read_truths(folder)
+    if not path.exists():
+        raise ReadError(path, "no published cuts here: there is no such file")
     stored = loaded(path, _Stored)
     try:
         return [

@@ -108,8 +108,14 @@ def plain_json(value: Mapping[str, Any], name: str) -> dict[str, Any]:
     return copy
 
 
-def check_provenance(provenance: Mapping[str, Any]) -> None:
-    """ParameterError where something that the package writes there is of another shape."""
+def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
+    """A copy of plain JSON; an input that is a text is the path of one.
+
+    ParameterError where something that the package writes there is of another shape.
+    """
+    provenance = plain_json(value, "provenance")
+    if isinstance(provenance.get("input"), str):
+        provenance["input"] = {"path": provenance["input"]}
     try:
         msgspec.convert(provenance, Provenance)
     except msgspec.ValidationError as error:
@@ -117,3 +123,4 @@ def check_provenance(provenance: Mapping[str, Any]) -> None:
         raise ParameterError(f"the provenance is not as kineme writes it: {said}") from error
     except ValueError as error:  # half of a pair of surrogates for a name
         raise ParameterError("the provenance has a name that is no text") from error
+    return provenance

@@ -16,8 +16,8 @@ from kineme._clock import Clock
 from kineme.segments.columns import segment_table
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.invariants import (
+    as_provenance,
     check_parents,
-    check_provenance,
     check_recording,
     check_tiles,
     plain_json,
@@ -84,8 +84,7 @@ class Segmentation(Levels):
         check_tiles(activities, "activity", self.n_frames)
         check_tiles(primitives, "primitive", self.n_frames)
         check_parents(activities, primitives)
-        object.__setattr__(self, "provenance", plain_json(self.provenance, "provenance"))
-        check_provenance(self.provenance)
+        object.__setattr__(self, "provenance", as_provenance(self.provenance))
         object.__setattr__(self, "timings", plain_json(self.timings, "timings"))
         if self.hierarchy is not None:
             looked_at = self.hierarchy.table
