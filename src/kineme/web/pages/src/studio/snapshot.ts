@@ -10,6 +10,7 @@ export function exposeStudio(session: Session): void {
         ...snapshotOf(store),
         recordings: store.opened.value.map((opened) => opened.recording.value.name),
         segments: store.recording.value?.segmentation.segments ?? [],
+        checked: store.recording.value?.segmentation.checked ?? [],
         selected: store.selected.value ?? null,
         unsent: session.unsent.value,
         refused: session.refused.value.flatMap((edited) => edited.refused.value),

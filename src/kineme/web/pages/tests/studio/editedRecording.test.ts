@@ -349,6 +349,7 @@ describe("when the server is gone", () => {
     await settled();
     expect(next.refused.value).toEqual([]);
     expect(server.got).toMatchObject([{ frame: 30, label: "hop" }]);
+    expect(next.shown.value.finding).toBe(false); // else it could never be edited again
   });
 
   it("a tab that dies, too, leaves its edits to the next one", async () => {

@@ -227,7 +227,7 @@ export class EditedRecording {
       const made = this.whenMade.get(name);
       this.whenMade.delete(name);
       batch(() => {
-        const now = { ...this.confirmed.peek(), ...edited };
+        const now = { ...this.confirmed.peek(), ...edited, finding: false };
         this.outlook.confirm(first, this.confirmed.peek(), now);
         this.confirmed.value = now;
         this.advance();
