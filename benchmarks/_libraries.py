@@ -44,7 +44,7 @@ def joined(folder: Path, keys: Mapping[str, str]) -> float:
     """Leave head and tables of pieces by the names of their recordings; seconds that it took."""
     start = perf_counter()
     entries = [(name, folder / name, key) for name, key in sorted(keys.items())]
-    tables, following = compiled(folder, entries, None, 0, Here(), lambda _: None)
+    tables, following = compiled(folder, entries, {}, 0, Here(), lambda _: None)
     head = {
         "schema": SCHEMA,
         "kineme": __version__,

@@ -135,7 +135,7 @@ def show_growth(folder: Path, sizes: list[int], most: int) -> None:
                 with processes(jobs) as executor:
                     counted = Counted(executor)
                     started, clock = process_time(), perf_counter()
-                    tables, _ = compiled(Path(home), entries, None, 0, counted, lambda _: None)
+                    tables, _ = compiled(Path(home), entries, {}, 0, counted, lambda _: None)
                     clocks[jobs] = perf_counter() - clock
                     spent = process_time() - started
                 made.append(tables["words"])

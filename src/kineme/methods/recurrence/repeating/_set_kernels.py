@@ -6,12 +6,13 @@ Paths are those of ``_occurrence_kernels``, seen from either side. Naive twins a
 
 from __future__ import annotations
 
-from heapq import heapify, heappop, heappush
-
 import numpy as np
 from numba import njit
 
 from kineme._compiled import OPTIONS
+
+# Starts of stretches whose largest gain is known together.
+BLOCK = 512
 
 
 @njit("int64(boolean[::1], int64, int64)", **OPTIONS)
@@ -89,6 +90,14 @@ def largest(values, count):
     return best
 
 
+@njit("void(float64[::1], float64[::1], int64, int64)", **OPTIONS)
+def renew(tops, values, start, stop):
+    """Have the largest value of each block that holds some of these places."""
+    for block in range(start // BLOCK, (stop + BLOCK - 1) // BLOCK):
+        first = block * BLOCK
+        tops[block] = values[first + largest(values[first:], min(BLOCK, len(values) - first))]
+
+
 @njit(
     "Tuple((int64[:, ::1], float64[::1], int64[::1]))(int64[::1], int64[::1], int64[::1],"
     " float64[::1], float64[::1], int64[::1], int64[::1], boolean[::1], float64)",
@@ -119,14 +128,13 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
                     spans, gains,
                 )[0]  # fmt: skip
         best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
-    queue = [(-best[start], start) for start in range(n)]  # old entries stay, and are passed over
-    heapify(queue)
-    while len(queue) > 0:
-        gain, start = heappop(queue)
-        if gain >= 0:
+    tops = np.empty((n + BLOCK - 1) // BLOCK)
+    renew(tops, best, 0, n)
+    while n > 0:
+        block = largest(tops, len(tops)) * BLOCK
+        start = block + largest(best[block:], min(BLOCK, n - block))
+        if best[start] <= 0:
             break
-        if best[start] != -gain:
-            continue
         k = largest(of_stretch[start], sizes)
         stop = start + lengths[k]
         total, count = recurrences(
@@ -145,12 +153,12 @@ def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, co
                     for k in range(sizes):  # what reaches into it gains nothing any more
                         of_stretch[begin, k] *= begin + lengths[k] <= covered
                     best[begin] = of_stretch[begin, largest(of_stretch[begin], sizes)]
-                    heappush(queue, (-best[begin], begin))
+                renew(tops, best, max(covered - lengths[sizes - 1] + 1, 0), stop)
             rank += 1
         else:
             of_stretch[start, k], known[start, k] = total, rank
             best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
-            heappush(queue, (-best[start], start))
+            renew(tops, best, start, start + 1)
     places = np.empty((len(found) - 1, 2), np.int64)
     scores, ranks = np.empty(len(places)), np.empty(len(places), np.int64)
     for k in range(len(places)):
