@@ -97,6 +97,7 @@ def test_the_next_recording_opens_at_its_start_and_its_status_is_shown(new_tab, 
         page.keyboard.press(key)
         page.wait_for_timeout(60)
     page.wait_for_timeout(1500)
+    screen.opened()
     assert failed == []
     page.keyboard.press("n")
     page.keyboard.type("hop")
