@@ -40,13 +40,10 @@ PATIENCE = 300.0  # seconds; a busy machine loses nothing, either
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--edits", type=int, default=few(500, 5))
+    parser.add_argument("--edits", type=int, default=few(500, 0))
     parser.add_argument("--seeds", type=int, nargs="+", default=few([0, 1, 2, 3, 4], [0]))
     parser.add_argument("--figure", action="store_true", help="draw it, in software")
-    parser.add_argument("--quick", action="store_true", help="a few steps with one seed")
     options = parser.parse_args()
-    if options.quick:
-        options.edits, options.seeds = 0, options.seeds[:1]
     screen.PATIENCE = PATIENCE
     with chromium(*(FLAGS if options.figure else NO_FIGURE)) as browser:
         for seed in options.seeds:
@@ -59,7 +56,7 @@ def main() -> None:
                     for i in range(RECORDINGS)
                 ]
                 robot = Robot(context, server, takes, seed, latency=LATENCY)
-                for what in QUICK if options.quick else ():
+                for what in few((), QUICK):
                     steps[robot.step(what)] += 1
                 for wanted in [*range(100, options.edits, 100), options.edits]:
                     while robot.edits < wanted:
