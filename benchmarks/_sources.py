@@ -91,7 +91,7 @@ def takes(name: str, every: int) -> Iterator[Sample]:
     """One exercise, ten times over, each repetition cut by people."""
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
-        count = most_repeated(found.primitives)
+        count = most_repeated(found)
         true = sorted(float(row["start_s"]) for row in rows)[1:]
         own = sorted({row.start_s for row in found.primitives} - {0.0})
         hits = near(true, own)
@@ -168,7 +168,7 @@ def judged_session(found: Segmentation, parts: list[Exercise]) -> Judged:
 
 def counted(found: Segmentation, part: Exercise) -> int:
     """The most repetitions of one cluster in a part of the recording."""
-    rows = repeated(found.primitives)
+    rows = found_units(found)
     middles = (rows.start_frame + rows.stop_frame) / 2
     margin = TAGGED_S * found.fps
     inside = rows[(part.start - margin <= middles) & (middles <= part.stop + margin)]
@@ -180,12 +180,12 @@ def gestures(every: int) -> Iterator[Sample]:
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
         tags = sorted(float(row["time_s"]) for row in rows)
-        units = repeated(found.primitives)
+        units = found_units(found)
         best = max(
             (f1_of_tags(tags, units[units.cluster == c]) for c in np.unique(units.cluster)),
             default=0.0,
         )
-        return {"f1": best, "exact": float(most_repeated(found.primitives) == len(tags))}
+        return {"f1": best, "exact": float(most_repeated(found) == len(tags))}
 
     for key, path, rows in of_bodies("msrc12", "events.csv")[::every]:
         yield Sample(key, kineme.read(path), partial(judge, rows=rows))
@@ -207,7 +207,7 @@ def videos(every: int) -> Iterator[Sample]:
     """Exercises that a camera saw, counted by people."""
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
-        true, own = int(rows[0]["count"]), most_repeated(found.primitives)
+        true, own = int(rows[0]["count"]), most_repeated(found)
         wrong = abs(own - true)
         return {"within_one": float(wrong <= 1), "error": wrong / max(1, true)}
 
@@ -261,7 +261,7 @@ def barbell(every: int) -> Iterator[Sample]:
     ]
 
     def judge(found: Segmentation, planned: int) -> Judged:
-        own = most_repeated(found.primitives)
+        own = most_repeated(found)
         return {"exact": float(own == planned), "within_one": float(abs(own - planned) <= 1)}
 
     for row in rows[::every]:
@@ -269,14 +269,9 @@ def barbell(every: int) -> Iterator[Sample]:
         yield Sample(row["recording"], recording, partial(judge, planned=int(row["nominal_count"])))
 
 
-def repeated(primitives: SegmentTable) -> SegmentTable:
-    """Repetitions and occurrences: what has a cluster."""
-    return primitives[(primitives.kind == "activity") & (primitives.cluster >= 0)]
-
-
-def most_repeated(primitives: SegmentTable) -> int:
+def most_repeated(found: Segmentation) -> int:
     """Repetitions of the cluster that has most of them; 0 where none has two."""
-    counts = Counter(repeated(primitives).cluster.tolist())
+    counts = Counter(found_units(found).cluster.tolist())
     most = max(counts.values(), default=0)
     return most if most > 1 else 0
 
