@@ -92,3 +92,12 @@ class Screen:
         unlimited = {"downloadThroughput": -1, "uploadThroughput": -1, "offline": False}
         conditions = {"latency": milliseconds, **unlimited}
         self._line.send("Network.emulateNetworkConditions", conditions)
+
+
+def two_tabs(new_tab: Any, address: str) -> tuple[Screen, Screen]:
+    """The same recording in two tabs, of which the second hears nothing of the server's news."""
+    first = Screen(new_tab(address))
+    late = new_tab("about:blank")
+    late.route("**/api/events*", lambda route: route.abort())
+    late.goto(address)
+    return first, Screen(late)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from screen import Screen
+from screen import Screen, two_tabs
 from studio_server import StudioServer
 
 import kineme
@@ -112,11 +112,8 @@ def test_what_is_refused_is_said_until_somebody_decides(page, take):
 
 
 def test_held_edits_are_made_on_the_segments_they_were_made_on(new_tab, server, take):
-    first = Screen(new_tab(server.address_of(take)))
-    late = new_tab("about:blank")
-    late.route("**/api/events*", lambda route: route.abort())  # it hears nothing
-    late.goto(server.address_of(take))
-    second = Screen(late)
+    first, second = two_tabs(new_tab, server.address_of(take))
+    late = second.page
     for screen in (first, second):
         screen.opened()
         screen.page.keyboard.press("Shift+ArrowRight")

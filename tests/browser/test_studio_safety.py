@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from screen import Screen
+from screen import Screen, two_tabs
 from studio_server import StudioServer
 
 import kineme
@@ -89,11 +89,8 @@ def test_a_second_tab_sees_what_the_first_one_does(new_tab, server, take):
 
 
 def test_an_edit_of_an_old_table_waits_until_its_author_has_seen_the_new_one(new_tab, server, take):
-    first = Screen(new_tab(server.address_of(take)))
-    late = new_tab("about:blank")
-    late.route("**/api/events*", lambda route: route.abort())  # it hears nothing
-    late.goto(server.address_of(take))
-    second = Screen(late)
+    first, second = two_tabs(new_tab, server.address_of(take))
+    late = second.page
     for screen in (first, second):
         screen.opened()
     border = first.starts()[4]
