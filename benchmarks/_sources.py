@@ -88,12 +88,15 @@ def of_bodies(name: str, table: str) -> list[tuple[str, Path, list[dict[str, str
 
 
 def takes(name: str, every: int) -> Iterator[Sample]:
-    """One exercise, ten times over, each repetition cut by people."""
+    """One exercise, ten times over, each repetition cut by people.
+
+    The first start of either is left out: people have it where the recording begins.
+    """
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
         count = most_repeated(found)
         true = sorted(float(row["start_s"]) for row in rows)[1:]
-        own = sorted({row.start_s for row in found.primitives} - {0.0})
+        own = sorted({row.start_s for row in found_units(found)})[1:]
         hits = near(true, own)
         return {
             "exact": float(count == len(rows)),
@@ -106,16 +109,26 @@ def takes(name: str, every: int) -> Iterator[Sample]:
 
 
 class Exercise(NamedTuple):
-    """A part of a session: its frames, its name, and how often it was done."""
+    """A part of a session: its frames, its name, and the seconds at which repetitions start."""
 
     start: int
     stop: int
     label: str
-    count: int
+    starts: list[float]
+
+    @property
+    def count(self) -> int:
+        return len(self.starts)
 
 
 def sessions(name: str, every: int) -> Iterator[Sample]:
     """All exercises of a person in random order, standing between them."""
+    for who, motion, parts in session_recordings(name, every):
+        yield Sample(who, motion, partial(judged_session, parts=parts))
+
+
+def session_recordings(name: str, every: int) -> Iterator[tuple[str, Motion, list[Exercise]]]:
+    """Each person, the session, and its exercises."""
     people = defaultdict(list)
     for key, path, rows in of_bodies(name, "labels.csv"):
         people[PERSON.findall(key)[-1]].append((path, rows))
@@ -124,7 +137,7 @@ def sessions(name: str, every: int) -> Iterator[Sample]:
         order = rng.permutation(len(made)).tolist()
         motion, parts = one_after_the_other([made[i] for i in order])
         if list(people).index(who) % every == 0:
-            yield Sample(who, motion, partial(judged_session, parts=parts))
+            yield who, motion, parts
 
 
 def one_after_the_other(
@@ -140,7 +153,8 @@ def one_after_the_other(
             places.append(places[-1][-1] * (1 - share) + own[0] * share)
             n += len(share)
         places.append(own)
-        parts.append(Exercise(n, n + len(own), rows[0]["label"], len(rows)))
+        starts = [n / fps + float(row["start_s"]) for row in rows]
+        parts.append(Exercise(n, n + len(own), rows[0]["label"], starts))
         n += len(own)
     return Motion(motions[0].skeleton, np.concatenate(places), fps), parts
 

@@ -4,7 +4,7 @@
 
 Features of the five trials, end to end over and over with a little noise, so
 that no hour is like another. The published methods with ``max_lag`` 10 s unless
-``--everywhere``; `kineme` as it is by default, and with the same ``max_lag``.
+``--everywhere``; `kineme` as it is.
 Every size runs in a process of its own, first on a minute so that compiled
 code is loaded; peak memory is the whole process's. docs/speed.md quotes what
 ``--record`` keeps: seconds by the clock, so let nothing else run.
@@ -19,9 +19,8 @@ import resource
 import subprocess
 import sys
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +31,6 @@ from _measure import verdict
 from _options import QUICK, command_line, few, needed
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
-from kineme.methods.recurrence.preset import RecurrencePreset
 from kineme.segmentation.bodies import motion_features
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
@@ -57,24 +55,12 @@ def features_of(preset: Preset, hours: float) -> NDArray[np.float64]:
     return features
 
 
-def analysis_of(preset: Preset) -> Callable[[Any, Any], Any]:
-    """From features to what was found, by the preset's method."""
-    if isinstance(preset, RecurrencePreset):
-        from kineme.methods.recurrence.analysis import analyze_actions
-
-        return analyze_actions
-    from kineme.methods.region_growing.analysis import analyze_regions
-
-    return analyze_regions
-
-
 def one(preset: Preset, hours: float) -> None:
     """Prints seconds and peak memory in GB of one run; meant for a process of its own."""
-    analyze = analysis_of(preset)
     features = features_of(preset, hours)
-    analyze(features[: round(60 * preset.working_fps)], preset)
+    preset.analyze(features[: round(60 * preset.working_fps)])
     start = perf_counter()
-    found = analyze(features, preset)
+    found = preset.analyze(features)
     took = perf_counter() - start
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     print(took, peak)
@@ -111,9 +97,9 @@ def show(name: str, lengths: Sequence[float], *, near: bool) -> None:
             line += f"; {times[0]:.2f} and {times[1]:.2f} times {first[0]:g} h"
             record(f"{key}.times_{first[0]:g}_h", round(times[0], 2), unit="times")
             record(f"{key}.memory_times_{first[0]:g}_h", round(times[1], 2), unit="times")
-        if name == DEFAULT and not near and hours == 1:
+        if name == DEFAULT and hours == 1:
             line += f"; s {verdict(seconds, 3)}, GB {verdict(gigabytes, 0.5)}"
-        if name == DEFAULT and not near and (first or (0,))[0] == 1 and hours == 4:
+        if name == DEFAULT and (first or (0,))[0] == 1 and hours == 4:
             line += f", {verdict(max(times), 4.2)}"
         first = first or (hours, seconds, gigabytes)
         print(f"{line}\n  of which {stages}", flush=True)
@@ -129,13 +115,13 @@ def main() -> None:
     options = parser.parse_args()
     if options.one:
         max_lag = None if options.everywhere else MAX_LAG_S
-        one(PRESETS[options.presets[0]].replace(max_lag=max_lag), options.hours[0])
+        preset = PRESETS[options.presets[0]]
+        if hasattr(preset, "max_lag"):
+            preset = preset.replace(max_lag=max_lag)
+        one(preset, options.hours[0])
         return
     for name in options.presets:
-        if options.everywhere or name == DEFAULT:
-            show(name, options.hours, near=False)
-        if not options.everywhere:
-            show(name, options.hours, near=True)
+        show(name, options.hours, near=not options.everywhere and name != DEFAULT)
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ from _recordings import Case, annotation, hdm05, subject_86
 from kineme.datasets import Action, synthesize
 from kineme.evaluation import evaluate_segmentation
 from kineme.features import body_frame, body_size, end_effectors
-from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.kineme.preset import KINEME
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.operations import resample
 from kineme.segments.segmentation import Segmentation
@@ -60,11 +60,10 @@ def in_the_bodys_frame(motion: Motion, joints: list[int]) -> Segmentation:
     unit = body_size(motion, ends) / np.sqrt(seen.shape[1])
     return kineme.segment(
         motion,
-        preset=KINEME,  # by its name, features would go to the method for sensors
+        preset=KINEME,  # by its name, features would go to the preset for sensors
         features=seen,
         feature_fps=KINEME.working_fps,
         unit=unit,
-        any_pace=True,
     )
 
 

@@ -8,7 +8,7 @@ through the first fifth of the queue. A wrong border counts as shown where a seg
 that starts there is, a wrong count and a wrong cluster where their activity is. With ``--mend``
 a border shown that is wrong is mended on the way: moved to the true one if that is near and
 nobody has it, else deleted; the queue is then another. What is right is judged as in
-confidence.py; borders within 0.25 s.
+confidence.py.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from _browser import FLAGS, chromium
 from _figures import add_option, record
 from _options import command_line
 from _recordings import Case, hdm05, subject_86
+from _sources import NEAR_S
 from confidence import (
-    TOLERANCE,
     Segments,
     Truth,
     in_seconds,
@@ -75,7 +75,7 @@ class Review:
         wanted = [
             (early + late) / 2
             for early, late in truth.borders
-            if not any(early - TOLERANCE <= t <= late + TOLERANCE for t in own)
+            if not any(early - NEAR_S <= t <= late + NEAR_S for t in own)
         ]
         to = min(wanted, key=lambda t: abs(t - at), default=np.inf)
         revision = self.page.evaluate("window.kineme.revision")
@@ -101,8 +101,7 @@ def segments_of(rows: list[dict[str, Any]], case: Case) -> Segments:
     """What a page shows, in seconds."""
     names = ("level", "kind", "start_frame", "stop_frame", "cluster")
     columns: Any = {name: np.array([row[name] for row in rows]) for name in names}
-    times = np.arange(case.motion.n_frames + 1) / case.motion.fps
-    return in_seconds(columns, 1.0, times)
+    return in_seconds(columns, case.motion.fps)
 
 
 def wrong(truth: Truth, found: Segments) -> dict[str, list[tuple[str, float]]]:
@@ -110,7 +109,7 @@ def wrong(truth: Truth, found: Segments) -> dict[str, list[tuple[str, float]]]:
     middle = found.edges[:-1]
     return {
         "border": [
-            ("", middle[g]) for g, right in right_borders(truth, found, TOLERANCE) if not right
+            ("", middle[g]) for g, right in right_borders(truth, found, NEAR_S) if not right
         ],
         "count": [("activity", middle[g]) for g, right in right_counts(truth, found) if not right],
         "cluster": [("activity", middle[g]) for g, right in right_links(truth, found) if not right],

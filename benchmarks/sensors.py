@@ -7,9 +7,6 @@ gravity and noise of 0.3 m/s²) and a gyroscope (noise of 0.05 rad/s) at the
 forearms, shanks and head, 100 Hz, in the sensor's own axes. ``pose`` takes the
 fifteen numbers of a pose without telling that they are a body. Then the same from
 synthetic recordings, and the accelerometer that walks, jogs and runs (change points 3800 and 6800).
-
-``--units`` prints how the scores hang on the one constant that signals have of
-their own.
 """
 
 from __future__ import annotations
@@ -36,7 +33,6 @@ from kineme.reproduction.trials import find_folder, load_trials
 
 Floats = NDArray[np.float64]
 Recording = tuple[Annotation, Signals]
-UNITS = (0.13, 0.16, 0.2, 0.25, 0.3)
 SYNTHETIC = range(100, few(108, 101))  # seeds
 FPS = 100.0
 GRAVITY = np.array([0.0, 9.81, 0.0])
@@ -83,10 +79,10 @@ KINDS: dict[str, Callable[[Motion], Signals]] = {
 OWN = ("kineme", "voegele2014", "krueger2017")
 
 
-def scores(recordings: Iterable[Recording], preset: str, **constants: float) -> tuple[str, str]:
+def scores(recordings: Iterable[Recording], preset: str) -> tuple[str, str]:
     """Border F1 within 0.25 s, and frames in the right class, means over the recordings."""
     found = [
-        evaluate_segmentation(truth, segment(signals, preset=preset, **constants))
+        evaluate_segmentation(truth, segment(signals, preset=preset))
         for truth, signals in recordings
     ]
     border, right = (
@@ -108,7 +104,6 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--presets", nargs="+", default=OWN)
     add_option(parser)
-    parser.add_argument("--units", action="store_true", help="other values of recurs_at")
     options = parser.parse_args()
     needed("cmu86", options.data)
     trials = load_trials(find_folder(options.data), few(TRIALS, TRIALS[:1]))
@@ -119,7 +114,7 @@ def main() -> None:
         ),
         ("synthetic", {kind: synthetic(f) for kind, f in KINDS.items()}),
     ):
-        print(units_table(title, sets) if options.units else table(title, sets, options.presets))
+        print(table(title, sets, options.presets))
     for path in sorted((options.data / "timeseries").glob("WalkJogRun*.txt")):
         found = segment(read(path, fps=FPS))
         borders = ", ".join(map(str, found.cuts().tolist()))
@@ -137,15 +132,6 @@ def table(title: str, sets: dict[str, list[Recording]], presets: Iterable[str]) 
             record(f"sensors.{title}.{kind}.{preset}".replace(" ", "_").replace(",", ""), found)
             rows[-1].append(found)
     return markdown([title, *presets], rows)
-
-
-def units_table(title: str, sets: dict[str, list[Recording]]) -> str:
-    """A row per set of sensors, a column per value of the unit."""
-    rows = [
-        [kind, *(" / ".join(scores(found, "kineme", recurs_at=unit)) for unit in UNITS)]
-        for kind, found in sets.items()
-    ]
-    return markdown([title, *map(str, UNITS)], rows)
 
 
 if __name__ == "__main__":

@@ -9,8 +9,7 @@ and recordings that are made, HuGaDB once more with the files of each person joi
 form tries every combination of values, on every source; for each source it then takes the one that
 is best in the mean of all others, and tells what that gives there, beside what is shipped and the
 choice by all of them: what was left out decides. The third asks whether the same movement gives
-the same answer: at other rates, cut, with noise, turned, larger, faster. Presets ``draft`` and
-``draft_sensors`` are those of `_draft.py`.
+the same answer: at other rates, cut, with noise, turned, larger, faster.
 """
 
 from __future__ import annotations
@@ -27,7 +26,6 @@ from typing import NamedTuple
 import numpy as np
 
 import kineme
-from _draft import register_draft
 from _figures import add_option, record
 from _guises import agreement, guises
 from _options import DATA, command_line, few, skip
@@ -60,7 +58,6 @@ class Work(NamedTuple):
 def figures_of(work: Work) -> list[Figures]:
     """The figures of a source, of each preset."""
     warnings.simplefilter("ignore")
-    register_draft()
     found: list[list[Judged]] = [[] for _ in work.presets]
     for sample in SOURCES[work.source](work.every):
         for judged, preset in zip(found, work.presets, strict=True):
@@ -110,7 +107,6 @@ def choose(
 
 def same_answers(preset: str) -> None:
     """How far the answer to the same movement is the same, by guise."""
-    register_draft()
     shares: dict[str, list[float]] = {}
     for source, every in few(SAME, {"subject_86": 5}).items():
         for sample in SOURCES[source](every):
@@ -156,7 +152,6 @@ def main() -> None:
         return
     if options.free:
         names = [name for name, _ in options.free]
-        register_draft()
         first = PRESETS[options.presets[0]]
         tried = [first] + [
             first.replace(**dict(zip(names, values, strict=True)))

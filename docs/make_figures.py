@@ -20,8 +20,8 @@ import kineme
 from kineme._colors import PALETTE, cluster_color
 from kineme.datasets import bundled_truth
 from kineme.graph import component_labels
-from kineme.methods.recurrence.found import RecurrenceFound
-from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.kineme.found import KinemeFound
+from kineme.methods.kineme.preset import KINEME
 from kineme.methods.region_growing.preset import KRUEGER2017
 from kineme.methods.region_growing.preset import VOEGELE2014 as PRESET
 from kineme.methods.region_growing.primitives import primitive_cuts
@@ -37,7 +37,8 @@ from kineme.segmentation.bodies import motion_features
 IMAGES = Path(__file__).parent / "images"
 EFFECTORS = ("left ankle", "right ankle", "head", "left wrist", "right wrist")
 FPS = PRESET.working_fps
-ZOOMED = 2  # the activity shown in the picture of the primitives: squats
+SQUATS = 1  # which segment of kineme they are
+ZOOMED = 2  # and which of the published methods, in the picture of the primitives
 
 
 def main() -> None:
@@ -52,12 +53,8 @@ def main() -> None:
     draw_features(figure.add_subplot(), motion)
     _save(figure, "features")
 
-    figure = _figure(9, 4.6)
-    draw_recurrence(figure.subplots(1, 2, sharey=True), found)
-    _save(figure, "recurrence")
-
     figure = _figure(8, 3)
-    draw_visits(figure.add_subplot(), found)
+    draw_visits(figure.add_subplot(), motion_features(motion, KINEME), found)
     _save(figure, "repetitions")
 
     figure = _figure(8, 3.6)
@@ -92,33 +89,13 @@ def draw_features(axes: Axes, motion: kineme.Motion) -> None:
     axes.legend(ncols=5, frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.15))
 
 
-def draw_recurrence(pair: np.ndarray, found: RecurrenceFound) -> None:
-    """Similar poses, and samples that are similar whatever their phase."""
-    band = found.recurrence.similarity
-    n = len(band)
-    i, lag = np.indices(band.shape)
-    inside = i + lag < n
-    image = np.zeros((n, n), np.float32)
-    image[i[inside], (i + lag)[inside]] = image[(i + lag)[inside], i[inside]] = band[inside]
-    frames = len(found.features)
-    _matrix(pair[0], similarity_image(found.graph), frames)
-    _matrix(pair[1], image, frames)
-    for start, stop, label in zip(found.borders[:-1], found.borders[1:], found.labels, strict=True):
-        if label >= 0:
-            size = (stop - start) / FPS
-            corner = (start / FPS, start / FPS)
-            pair[1].add_patch(Rectangle(corner, size, size, fill=False, color=BORDER))
-    pair[0].set_title("poses", loc="left", fontsize=10)
-    pair[1].set_title("samples, and activities", loc="left", fontsize=10)
-
-
-def draw_visits(axes: Axes, found: RecurrenceFound) -> None:
+def draw_visits(axes: Axes, features: np.ndarray, found: KinemeFound) -> None:
     """How far the squats are from three of their own poses, and where the repetitions begin."""
-    start, stop = found.borders[ZOOMED : ZOOMED + 2].tolist()
+    start, stop = found.borders[SQUATS : SQUATS + 2].tolist()
     seconds = np.arange(start, stop) / FPS
-    for share, color in zip((0.03, 0.1, 0.17), PALETTE[2:], strict=False):
+    for share, color in zip((0.1, 0.17, 0.24), PALETTE[2:], strict=False):
         at = round(start + share * (stop - start))
-        distance = np.linalg.norm(found.features[start:stop] - found.features[at], axis=1)
+        distance = np.linalg.norm(features[start:stop] - features[at], axis=1)
         axes.plot(seconds, distance, color=color, linewidth=1.2, label=f"{at / FPS:.1f} s")
     for cut in found.primitives[(found.primitives > start) & (found.primitives < stop)] / FPS:
         axes.axvline(cut, color=BORDER, linewidth=1.5)
@@ -130,7 +107,7 @@ def draw_visits(axes: Axes, found: RecurrenceFound) -> None:
 
 
 def draw_bundling(pair: np.ndarray, motion: kineme.Motion, segments: kineme.Segmentation) -> None:
-    """The features' path, an action in a colour, on their two widest axes."""
+    """The features' path, a cluster in a colour, on their two widest axes."""
     plain = motion_features(motion, KRUEGER2017)
     center = plain.mean(axis=0)
     axes = np.linalg.svd(plain - center, full_matrices=False)[2][:2].T

@@ -1,19 +1,10 @@
-"""Bands along the diagonal from matrices and back, and points to make them of."""
+"""Bands along the diagonal from matrices, and points to make them of."""
 
 from __future__ import annotations
 
 import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-
-
-def two_sided(matrix: NDArray[np.floating], width: int) -> NDArray[np.float32]:
-    """``band[i, j - i + width]``; infinite beyond the ends."""
-    band = np.full((len(matrix), 2 * width + 1), np.inf, np.float32)
-    for i, j in np.ndindex(matrix.shape):
-        if abs(i - j) <= width:
-            band[i, j - i + width] = matrix[i, j]
-    return band
 
 
 def one_sided(matrix: NDArray[np.floating], width: int) -> NDArray[np.float32]:
@@ -23,15 +14,6 @@ def one_sided(matrix: NDArray[np.floating], width: int) -> NDArray[np.float32]:
         if 0 <= j - i <= width:
             band[i, j - i] = matrix[i, j]
     return band
-
-
-def to_matrix(band: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The symmetric matrix of a one-sided band."""
-    matrix = np.zeros((len(band), len(band)), np.float32)
-    for i, lag in np.ndindex(band.shape):
-        if i + lag < len(band):
-            matrix[i, i + lag] = matrix[i + lag, i] = band[i, lag]
-    return matrix
 
 
 @st.composite

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.kineme.preset import KINEME
 
 
 def wandering(rng: np.random.Generator, n: int) -> np.ndarray:

@@ -5,9 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.recurrence.preset import KINEME
-from kineme.methods.recurrence.recurrence import Recurrence, phase_windows, recurrence
-
 Floats = NDArray[np.float64]
 
 
@@ -35,16 +32,3 @@ def _repeated(columns: dict[int, Floats], times: int, rest: float) -> Floats:
     for column, values in columns.items():
         once[:frames, column] = values
     return np.tile(once, (times, 1))
-
-
-def measured(*parts: Floats, **overrides: int) -> Recurrence:
-    """How movements recur that follow each other, ten samples a second."""
-    options = {
-        "step": 3,
-        "width": 600,
-        "phases": phase_windows(12, KINEME.phase_shares),
-        "rank": 30,
-        "low": 0.08,
-        "high": 0.16,
-    }
-    return recurrence(np.concatenate(parts), **{**options, **overrides}, softness=1.6)

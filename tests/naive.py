@@ -655,79 +655,7 @@ def merged_cuts(main, mirrored, gap):
     return sorted({*main, *added})
 
 
-# --- recurrence: pair by pair; bands are written out as full matrices -------------------------
-# ``near`` and ``similarity`` are matrices; only pairs at most ``width`` apart are looked at.
-
-
-def nearest_frames(features, step, width):
-    """Distance of frame i * step to the nearest frame at sample j, infinite beyond the width."""
-    n = len(features)
-    samples = -(-n // step)
-    near = np.full((samples, samples), np.inf)
-    for i in range(samples):
-        for j in range(samples):
-            first = j * step - step // 2
-            frames = [f for f in range(first, first + step) if 0 <= f < n]
-            if abs(i - j) <= width and frames:
-                near[i, j] = min(np.linalg.norm(features[i * step] - features[f]) for f in frames)
-    return near
-
-
-def blurred(near, width, blur):
-    """For each pair the least value of its row at most ``blur`` away, within the width."""
-    least = np.full(near.shape, np.inf)
-    for i, j in np.ndindex(near.shape):
-        if abs(i - j) <= width:
-            least[i, j] = min(
-                near[i, k] for k in range(len(near)) if abs(k - j) <= blur and abs(k - i) <= width
-            )
-    return least
-
-
-def local_scales(blurred, width, gap, rank, low, high):
-    scales = []
-    for i in range(len(blurred)):
-        others = [j for j in range(len(blurred)) if gap < abs(i - j) <= width]
-        distances = sorted(max(blurred[i, j], blurred[j, i]) for j in others)
-        scales.append(min(max([*distances, *[np.inf] * (rank + 1)][rank], low), high))
-    return np.array(scales)
-
-
-def similarities(blurred, scales, width, softness):
-    similarity = np.zeros(blurred.shape)
-    for i, j in np.ndindex(blurred.shape):
-        if abs(i - j) <= width:
-            distance = max(blurred[i, j], blurred[j, i])
-            similarity[i, j] = np.exp(-(distance**2) / (softness**2 * scales[i] * scales[j]))
-    return similarity
-
-
-def class_distances(near, width, labels, wanted, gap):
-    """For each sample the distance to the nearest sample of the class wanted there; none for -1."""
-    return [
-        min(
-            (
-                near[i, j]
-                for j, label in enumerate(labels)
-                if label == wanted[i] != -1 and gap < abs(i - j) <= width
-            ),
-            default=np.inf,
-        )
-        for i in range(len(labels))
-    ]
-
-
-def coverage(near, width, scales, g, h, gap, softness):
-    """Mean over the samples of g of how near the nearest of h is, more than the gap away.
-
-    Or over so many of them, evenly spread, as the band has lags.
-    """
-    g = g[:: 1 + (len(g) - 1) // (2 * width + 1)]
-    total = 0.0
-    for i in g:
-        nearest = min((near[i, j] for j in h if gap < abs(i - j) <= width), default=np.inf)
-        total += np.exp(-((nearest / (softness * scales[i])) ** 2))
-    return total / len(g)
+# --- segments, and how often each repeats itself; bands are written out as full matrices -------
 
 
 def division_cost(similarity, borders, penalty):
@@ -747,71 +675,6 @@ def divisions(n, shortest, longest):
         if all(shortest <= b - a <= longest for a, b in pairwise([0, *inner, n]))
     ]
     return found or [[0, n]]
-
-
-def class_affinities(similarity, width, labels, classes, gap):
-    affinity = np.zeros((len(labels), classes))
-    for i in range(len(labels)):
-        for c in range(classes):
-            others = [j for j, label in enumerate(labels) if label == c]
-            values = [similarity[i, j] for j in others if gap < abs(i - j) <= width]
-            if values:
-                affinity[i, c] = sum(values) / len(values)
-    return affinity
-
-
-def sum_similarities(similarity, width, labels, classes):
-    """Sums and numbers of pairs of each two classes."""
-    sums, counts = np.zeros((classes, classes)), np.zeros((classes, classes))
-    for i, own in enumerate(labels):
-        for j, other in enumerate(labels):
-            if own >= 0 and other >= 0 and abs(i - j) <= width:
-                sums[own, other] += similarity[i, j]
-                counts[own, other] += 1
-    return sums, counts
-
-
-def labels_cost(costs, labels, switch_cost):
-    changes = sum(a != b for a, b in pairwise(labels))
-    return sum(costs[t][label] for t, label in enumerate(labels)) + switch_cost * changes
-
-
-def nearest_around(poses, frames, centers, reach):
-    """Distance from each of the frames to the nearest one within reach of each center."""
-    return np.array(
-        [
-            [
-                min(
-                    np.linalg.norm(poses[i] - row)
-                    for f, row in enumerate(poses)
-                    if abs(f - center) <= reach
-                )
-                for center in centers
-            ]
-            for i in frames
-        ]
-    )
-
-
-def mean_similarity(poses, frames, others, reaches, scales, other_scales, softness, gap):
-    values = []
-    for reach in reaches:
-        there = nearest_around(poses, frames, others, reach)
-        back = nearest_around(poses, others, frames, reach)
-        values += [
-            np.exp(
-                -(max(there[r, c], back[c, r]) ** 2) / (softness**2 * scales[r] * other_scales[c])
-            )
-            for r, i in enumerate(frames)
-            for c, j in enumerate(others)
-            if abs(i - j) > gap
-        ]
-    return sum(values) / len(values) if values else 0.0
-
-
-def mean_recurrence(poses, frames, scales, start, stop, softness):
-    nearest = [min(np.linalg.norm(poses[start:stop] - poses[i], axis=1)) for i in frames]
-    return np.mean(np.exp(-((np.array(nearest) / (softness * scales)) ** 2)))
 
 
 def dips(row, least):
@@ -872,6 +735,46 @@ def unexplained(parts, centering):
     return found
 
 
+def explained(poses, path, visits, repetitions):
+    """The share of each repetition's frames that the mean of the others explains, at its size."""
+    repetitions = [part - part.mean(axis=0) for part in repetitions]
+    count, places = len(repetitions), len(repetitions[0])
+    left = 0.0
+    for k, (first, last) in enumerate(pairwise(visits)):
+        mean = np.mean(repetitions[:k] + repetitions[k + 1 :], axis=0)
+        size = max((repetitions[k] * mean).sum(), 0) / max((mean**2).sum(), 1e-12)
+        along = (path[first:last] - path[first]) / max(path[last] - path[first], 1e-12)
+        there = [np.interp(along, (np.arange(places) + 0.5) / places, each) for each in mean.T]
+        rest = poses[first:last] - size * np.array(there).T
+        share = rest.var(axis=0).sum() * (count - 1) / count / poses[first:last].var(axis=0).sum()
+        left += min(share, 1.0) * (last - first)
+    return 1 - left / (visits[-1] - visits[0])
+
+
+def left_of(repetitions):
+    """What the mean of the others, at its best size, leaves of repetitions, summed."""
+    rows = [part.ravel() for part in repetitions]
+    left = 0.0
+    for k, row in enumerate(rows):
+        mean = np.mean(rows[:k] + rows[k + 1 :], axis=0)
+        size = max(row @ mean, 0) / (mean @ mean)
+        left += ((row - size * mean) ** 2).sum() * (len(rows) - 1) / len(rows)
+    return left
+
+
+def best_parted(repetitions):
+    """The least share that means of the first and of the last leave of what one mean leaves."""
+    cuts = range(2, len(repetitions) - 1)
+    parted = [left_of(repetitions[:cut]) + left_of(repetitions[cut:]) for cut in cuts]
+    return min([1.0, *(each / left_of(repetitions) for each in parted)])
+
+
+def spread(view, start, stop):
+    """Half the distances of each two samples of a span, by its length."""
+    inside = view[start:stop]
+    return sum(np.linalg.norm(a - b) for a in inside for b in inside) / (2 * len(inside))
+
+
 def followed(poses, path, lengths, mean, near, alike):
     gains = [
         [near - ((pose - place) ** 2).sum() for place in mean]
@@ -910,7 +813,7 @@ def smoothed(rows, smoothing):
 
 
 def judged(poses, path, visits, places, near, followed_for, centering, scattered):
-    """Ends before the first visit and after the last, what counts, is unexplained, is uneven."""
+    """Ends before the first visit and after the last, what counts, is unexplained."""
     whole, at = path[-1], np.array([path[visit] for visit in visits])
     lengths = np.diff(at)
     length = sorted(lengths)[len(lengths) // 2]
@@ -938,7 +841,7 @@ def judged(poses, path, visits, places, near, followed_for, centering, scattered
     weights = np.maximum(lengths / whole, 1 / (len(lengths) + before + after))
     total = weights @ shares + (shares.mean() * known + outside) / whole
     counted = counted_before + counted_after
-    return before, after, counted, total, min(np.std(np.log(lengths)), 1)
+    return before, after, counted, total
 
 
 WARPING = ((1, 1), (1, 2), (2, 1))
@@ -974,12 +877,6 @@ def best_length(rows, stop, shortest, longest, mean):
         range(shortest, longest + 1),
         key=lambda n: ((evenly_in_time(rows, stop - n, n, len(mean)) - mean) ** 2).sum(),
     )
-
-
-def mean_in_band(similarity, rows, columns, gap, width):
-    """Mean of the pairs farther apart than the gap and within the width; 0 if there is none."""
-    known = [similarity[i, j] for i in rows for j in columns if gap < abs(i - j) < width]
-    return np.mean(known) if known else 0.0
 
 
 # --- occurrences ------------------------------------------------------------------------------

@@ -14,6 +14,8 @@ RATES = st.one_of(
     st.sampled_from([25.0, 30.0, 29.97, 60.0, 119.88, 120.0, 30000 / 1001]),
     st.floats(1e-3, 1e5, allow_nan=False),
 )
+UNKNOWN = st.text(max_size=5).map(lambda name: f"{name}?")
+"""Names that a provenance of ours has no meaning for."""
 JSON = st.recursive(
     st.none()
     | st.booleans()
@@ -57,6 +59,6 @@ def segmentations(draw: st.DrawFn) -> Segmentation:
         },
         n_frames=n_frames,
         fps=draw(RATES),
-        provenance=draw(st.dictionaries(st.text(max_size=5), JSON, max_size=3)),
+        provenance=draw(st.dictionaries(UNKNOWN, JSON, max_size=3)),
         timings=draw(st.dictionaries(st.text(max_size=5), st.floats(0, 1e3), max_size=3)),
     )

@@ -85,7 +85,7 @@ def public_doors(folder: Path) -> list[tuple[Callable[..., object], list[Any], d
         (kineme.write_segments, [found, table], dict.fromkeys(("format", "level"))),
         (kineme.read, [folder / "b.csv"], {"fps": 30.0, "columns": None}),
         (kineme.segment, [motion], {"preset": "voegele2014", "effectors": None, "radius": 0.6}),
-        (kineme.segment, [motion], {"window": 10.0, "offsets": (0.0,), "any_pace": True}),
+        (kineme.segment, [motion], {"averaging": 2.0, "offsets": (0.0,), "max_clusters": 4}),
         (kineme.segment_and_found, [motion], {"preset": "krueger2017", "effectors": None}),
         (kineme.segment, [kineme.Signals(x, 30)], {"preset": "kineme", "smoothing": 0.1}),
         (kineme.analyze, [x, "krueger2017"], {}),

@@ -70,7 +70,7 @@ PRESET = HalvesPreset(name="halves", help="Cuts a recording once.", unit="any")
 PRESET = """
 from dataclasses import replace
 
-from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.kineme.preset import KINEME
 
 PRESET = replace(KINEME, name="slowly", help="For slow exercises.", min_action=3.0)
 """

@@ -57,9 +57,10 @@ def test_a_random_walk_and_a_picture(kineme, graph: Path, tmp_path: Path) -> Non
     assert package.read(tmp_path / "a.bvh", unit="cm").duration >= 5
     done = kineme("graph", "take.bvh", "-o", "few.json", "--threshold", "0.05", "--unit", "cm")
     assert done.returncode == 0
-    done = kineme("synthesize", "few.json", "--actions", "2,0", "-o", "c.bvh")
+    done = kineme("synthesize", "few.json", "--actions", "4,0", "-o", "c.bvh")
     assert done.returncode == 1
-    assert "'0' is reached from 0, 1, 3, 4, 5; put another action between" in done.stderr
+    assert "put another action between" in done.stderr
+    assert "'0' is reached from" in done.stderr
 
 
 @pytest.mark.parametrize(

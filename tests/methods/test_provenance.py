@@ -66,7 +66,8 @@ def other_value(constant: Constant) -> Any:
     if isinstance(value, tuple):
         longer = len(value) > 2 and Ellipsis in get_args(constant.hint)
         if not longer:
-            return tuple(each + 1 for each in value)
+            larger = all(limits is None or limits.allow(each + 1) for each in value)
+            return tuple(each + 1 if larger else 0.95 * each for each in value)
         if not isinstance(value[0], float):  # pairs of numbers
             return value[:-1]
         first = next(x for x in (0.95 * value[0], 0.5) if x != value[0])

@@ -14,12 +14,10 @@ from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
 from kineme.features.emg import emg_envelope
 from kineme.methods import resolve_preset
-from kineme.methods.hierarchy.preset import SENSORS
-from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
 from kineme.segmentation.channels import (
     at_rate,
-    view_of_signals,
 )
 from kineme.segmentation.channels import standardized as standard
 from presets import OWN
@@ -134,8 +132,8 @@ def test_a_preset_made_for_signals_is_used_as_it_is(name: str) -> None:
 
 
 def test_what_a_preset_object_says_is_kept() -> None:
-    said = segment(Signals(recording(), 60), preset=KINEME.replace(any_pace=True))
-    assert said.provenance["parameters"]["any_pace"] is True
+    said = segment(Signals(recording(), 60), preset=KINEME.replace(two_movements=0.3))
+    assert said.provenance["parameters"]["two_movements"] == 0.3
     assert (
         resolve_preset(resolve_preset("krueger2017", signals=True, radius=0.5), signals=True).radius
         == 0.5
@@ -154,18 +152,8 @@ def test_the_unit_of_lengths_is_in_the_provenance_and_is_not_an_option() -> None
         segment(x, preset="krueger2017", unit="metres")
     with pytest.raises(ParameterError, match="metres or standard deviations in krueger2017"):
         replace(KRUEGER2017, unit="inches")
-    with pytest.raises(ParameterError, match="unit must be body sizes in kineme"):
+    with pytest.raises(ParameterError, match="unit must be body sizes or any in kineme"):
         replace(KINEME, unit="metres")
-
-
-def test_the_unit_of_kineme_is_the_distance_of_recurrence() -> None:
-    view = view_of_signals(Signals(recording(), 60), KINEME, unit=1.0)
-    features = np.concatenate(view.features)
-    unit = KINEME.signal_unit(features)
-    assert KINEME.signal_unit(features / unit) == pytest.approx(1, rel=1e-4)
-    assert KINEME.signal_unit(features[:20]) == 1
-    assert KINEME.signal_unit(np.zeros_like(features)) == pytest.approx(0.1)
-    assert KINEME.max_scale < KINEME.recurs_at
 
 
 def test_a_gap_is_a_transition_and_what_lies_around_it_is_compared() -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.graph import neighbor_graph
-from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.kineme.preset import KINEME
 from kineme.segmentation.segmenter import segment_and_found
 from kineme.segmentation.spans import SeenSpan, gaps_between, in_frames, in_time
 
@@ -103,7 +103,7 @@ def test_a_gap_in_a_real_recording(data_dir: Path, tmp_path: Path) -> None:
     gap = (1500, 1900)  # inside a walk, 3.3 s of 38 s
     broken, analysis = segment_and_found(replace(motion, gaps=(gap,)), preset=KINEME)
     far = [cut for cut in whole.cuts() if not gap[0] - 120 <= cut <= gap[1] + 120]
-    assert max(np.abs(broken.cuts() - cut).min() for cut in far) <= 0.2 * motion.fps
+    assert max(np.abs(broken.cuts() - cut).min() for cut in far) <= 0.5 * motion.fps
     before, after = (broken.per_frame("cluster", level="activity")[f] for f in (1499, 1900))
     assert before == after >= 0
     kineme.plot_segmentation(broken, analysis.graph, tmp_path / "a.png")

@@ -218,8 +218,8 @@ EDITS = [
     b'{"kind": "name_cluster", "cluster": 0, "label": "%s"}' % (b"a" * 999),
     b'{"kind": "segment", "preset": "kineme", "parameters": [1]}',
     b'{"kind": "segment", "preset": "kineme", "parameters": {"x": 1}}',
-    b'{"kind": "segment", "preset": "kineme", "parameters": {"phase": "1"}}',
-    b'{"kind": "segment", "preset": "kineme", "parameters": {"phase": 1e999}}',
+    b'{"kind": "segment", "preset": "kineme", "parameters": {"averaging": "1"}}',
+    b'{"kind": "segment", "preset": "kineme", "parameters": {"averaging": 1e999}}',
     b'{"kind": "transfer", "knowledge_base": "x", "threshold": null}',
 ]
 BODIES = [

@@ -194,8 +194,8 @@ def test_each_edit_is_on_the_disk_and_can_be_taken_back(studio) -> None:
         ("name_segment", {"level": "activity", "frame": 0, "label": "a\nb"}),
         ("set_cluster", {"level": "activity", "frame": 0, "cluster": 10**9}),
         ("segment", {"preset": "best", "parameters": {}}),
-        ("segment", {"preset": "kineme", "parameters": {"window": 1e12}}),
-        ("segment", {"preset": "kineme", "parameters": {"border_cost": 1e12}}),
+        ("segment", {"preset": "kineme", "parameters": {"averaging": 1e12}}),
+        ("segment", {"preset": "kineme", "parameters": {"segment_cost": 1e12}}),
         ("transfer", {"knowledge_base": "../secret.npz"}),
         ("undo", {}),
         ("redo", {}),
@@ -213,7 +213,7 @@ def test_what_cannot_be_done_is_a_sentence_and_changes_nothing(studio, kind, res
 def test_segmenting_again_gives_what_the_package_gives(studio) -> None:
     revision = studio.recording()["revision"]
     motion = kineme.read(studio.path)
-    for preset, parameters in (("kineme", {"border_cost": 0.5}), ("krueger2017", {"radius": 0.5})):
+    for preset, parameters in (("kineme", {"segment_cost": 0.5}), ("krueger2017", {"radius": 0.5})):
         again = studio.done(revision, "segment", preset=preset, parameters=parameters)
         revision = again["revision"]
         expected = kineme.segment(motion, preset=preset, **parameters)

@@ -1,7 +1,7 @@
 """What a recording looks like to a search: matching features, and an embedding of each segment.
 
 Bodies are described by `kineme.features.canonical`, which do not know the person. Channels are
-described by their posture and energy (`kineme.methods.hierarchy.statistics`), in half the standard
+described by their posture and energy (`kineme.methods.kineme.statistics`), in half the standard
 deviation of each in the recording, so that one threshold serves both, whatever the number of
 channels; they compare with recordings of the same channels only.
 
@@ -23,8 +23,8 @@ from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
 from kineme.library.storage.layout import BODIES, EMBEDDED
 from kineme.matching.whole_segments import course, embedding
-from kineme.methods.hierarchy.preset import SENSORS
-from kineme.methods.hierarchy.statistics import channel_statistics
+from kineme.methods.kineme.preset import SENSORS
+from kineme.methods.kineme.statistics import channel_statistics
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.channels import at_rate, standardized
 

@@ -1,8 +1,7 @@
 """Segmentation methods on plain arrays (samples × dims), one folder each.
 
 =================== ================================================================
-``recurrence``      ``kineme``, the default
-``hierarchy``       ``sensors``, which ``kineme`` stands for where it is given signals
+``kineme``          ``kineme``, the default, and ``sensors``, the same for signals
 ``region_growing``  the published methods of 2014 and 2017
 ``baselines``       what results are compared with: ACA, HACA, PCA, GMM, ...
 =================== ================================================================

@@ -21,7 +21,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import ParameterError
 from kineme.methods.constants import (
-    SOME_TIME,
     TIME,
     Constant,
     Limits,
@@ -135,10 +134,6 @@ class Preset(ABC):
     offsets: tuple[float, ...] = constant(
         "neighbouring samples that are stacked into one feature", unit="s",
         limits=Limits(-60.0, 60.0), default=(0.0,),
-    )  # fmt: skip
-    max_lag: float | None = constant(
-        "look for similarity no farther away than this; none for everywhere", unit="s",
-        limits=SOME_TIME, default=None,
     )  # fmt: skip
     smoothing: float = constant(
         "channels of signals are averaged over this", unit="s", limits=TIME, default=0.1

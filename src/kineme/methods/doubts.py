@@ -7,16 +7,17 @@ from collections.abc import Iterator
 import numpy as np
 
 from kineme.methods.base import Columns
-from kineme.methods.confidence import ConfidencePreset
 
 Doubt = tuple[float, str]
 """How probable it is that something is right, and what."""
 
 MOST = 5
 """Sentences; who is told more looks at none."""
+UNSURE = 0.5
+"""Probability below which a sentence says to look at something."""
 
 
-def doubts(columns: Columns, fps: float, preset: ConfidencePreset) -> list[str]:
+def doubts(columns: Columns, fps: float) -> list[str]:
     """A sentence for each cluster, count or border that is not sure, at most five.
 
     Parameters
@@ -25,53 +26,35 @@ def doubts(columns: Columns, fps: float, preset: ConfidencePreset) -> list[str]:
         Of a segment table, with ``score`` and ``border_confidence``.
     fps : float
         Frames per second of the table.
-    preset : ConfidencePreset
-        Whose ``unsure_...`` say what is not sure.
     """
-    found = [*_of_activities(columns, fps, preset), *_of_counts(columns, fps, preset)]
+    found = [*_of_activities(columns, fps), *_of_counts(columns, fps)]
     worst = sorted(found, key=lambda each: each[0])[:MOST]
     return [text for _, text in worst]
 
 
-def _of_activities(columns: Columns, fps: float, preset: ConfidencePreset) -> Iterator[Doubt]:
+def _of_activities(columns: Columns, fps: float) -> Iterator[Doubt]:
     """Clusters and borders."""
     for row in np.flatnonzero(columns["level"] == "activity"):
         border, link = (float(columns[name][row]) for name in ("border_confidence", "score"))
-        if border < preset.unsure_border:
+        if border < UNSURE:
             at = columns["start_frame"][row] / fps
             yield border, _sure(f"look at the border at {at:.2f} s", border)
-        if link < preset.unsure_action:
+        if link < UNSURE:
             where = _span(columns, row, fps)
             yield link, _sure(f"look at the cluster of the activity {where}", link)
 
 
-def _of_counts(columns: Columns, fps: float, preset: ConfidencePreset) -> Iterator[Doubt]:
-    """Numbers of repetitions; activities that none were found in are told in one sentence.
-
-    A number beside that one would be of how sure it is that nothing repeats, and read as doubt
-    that something does.
-    """
-    single = []
+def _of_counts(columns: Columns, fps: float) -> Iterator[Doubt]:
+    """Numbers of repetitions, where there are several."""
     is_primitive = (columns["level"] == "primitive") & (columns["kind"] == "activity")
     is_activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
     for row in np.flatnonzero(is_activity):
         inside = is_primitive & (columns["start_frame"] >= columns["start_frame"][row])
         inside &= columns["stop_frame"] <= columns["stop_frame"][row]
         count = float(columns["score"][inside].min(initial=1))
-        if not count < preset.unsure_count:  # none is known of what is not counted
-            continue
-        if np.count_nonzero(inside) == 1:
-            length = columns["stop_frame"][row] - columns["start_frame"][row]
-            single.append((int(length), row, count))
-        else:
+        if count < UNSURE and np.count_nonzero(inside) > 1:  # of one there is nothing to count
             where = _span(columns, row, fps)
             yield count, _sure(f"look at the number of repetitions {where}", count)
-    if single:
-        _, row, count = max(single, key=lambda each: each[0])
-        others = len(single) - 1
-        more = f" and in {others} other {'activity' if others == 1 else 'activities'}"
-        where = f"{_span(columns, row, fps)}{more if others else ''}"
-        yield count, f"perhaps repeats {where}, but no repetitions were found that are sure"
 
 
 def _sure(text: str, probability: float) -> str:

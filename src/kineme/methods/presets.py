@@ -1,8 +1,8 @@
 """The presets there are: ours, and those that other packages register.
 
-``kineme`` is the default, and stands for ``sensors`` where it is given signals;
-``voegele2014`` and ``krueger2017`` are the published methods; the others are
-what results are compared with.
+``kineme`` is the default, and stands for ``sensors``, the same method with other
+constants, where it is given signals; ``voegele2014`` and ``krueger2017`` are the
+published methods; the others are what results are compared with.
 """
 
 from __future__ import annotations
@@ -15,8 +15,7 @@ from kineme._plugins import plugins
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.baselines.presets import BASELINES
-from kineme.methods.hierarchy.preset import SENSORS
-from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 
 GROUP = "kineme.presets"

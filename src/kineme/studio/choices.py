@@ -161,7 +161,12 @@ def _parameter(known: Constant, slider: Slider) -> Parameter:
 def _of_signals(of_body: Constant, of_signals: Constant) -> Constant:
     """A constant as signals have it: the slider of a length reaches as far to either side."""
     slider = of_body.slider
-    if slider is None or not of_body.value or of_body.unit not in ("metres", "body sizes"):
+    if (
+        slider is None
+        or not of_body.value
+        or not of_signals.value
+        or of_body.unit not in ("metres", "body sizes")
+    ):
         return of_signals
     scale = of_signals.value / of_body.value
     unit = "standard deviations" if of_body.unit == "metres" else ""  # found in the recording

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from kineme.features.point_clouds import fit_clouds
 from kineme.graph import neighbor_graph
-from kineme.methods.recurrence.preset import KINEME
+from kineme.methods.kineme.preset import KINEME
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample
 from kineme.segmentation.bodies import motion_features
@@ -28,6 +28,9 @@ RADIUS = 0.25
 CANDIDATES = 12
 """Pairs of frames measured for each pair of nodes; with this radius, 99.8 % of the jumps are found
 that measuring all pairs of frames finds on these four recordings."""
+
+SEEN = KINEME.replace(offsets=(-0.2, -0.1, 0.0, 0.1, 0.2))
+"""Poses with those before and after, so that a jump goes on as it came."""
 
 
 @dataclass(frozen=True)
@@ -42,11 +45,11 @@ def jumps(
     motions: Sequence[Motion], nodes: Sequence[Node], threshold: float, window: float
 ) -> list[Edge]:
     """The best jump of every pair of nodes that has one below the threshold."""
-    rate = KINEME.working_fps
+    rate = SEEN.working_fps
     slow = [resample(motion, rate) for motion in motions]
     firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
     points = np.concatenate([motion.positions for motion in slow])
-    features = np.concatenate([motion_features(motion, KINEME) for motion in motions])
+    features = np.concatenate([motion_features(motion, SEEN) for motion in motions])
     half = round(window * rate / 2)
     ratio = motions[0].fps / rate
     ends, starts = (_ends_of(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0))

@@ -18,8 +18,8 @@ SHARED = (
     "kineme.library.making",
     "kineme.library.vocabulary.crowds",
     "kineme.formats.skeletons._amc_kernels",
-    "kineme.methods.recurrence.analysis",
-    "kineme.methods.recurrence.levels",
+    "kineme.methods.kineme.pipeline",
+    "kineme.methods.kineme.found",
     "pyarrow.parquet",
 )
 """What takes long to import."""

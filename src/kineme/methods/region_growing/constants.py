@@ -36,6 +36,10 @@ class RegionGrowingConstants(Preset):
         "largest distance of two neighbours, in the stacked space", unit="metres",
         limits=SOME_LENGTH, slider=(0.1, 1.6, 0.01),
     )  # fmt: skip
+    max_lag: float | None = constant(
+        "look for similarity no farther away than this; none for everywhere", unit="s",
+        limits=SOME_TIME, default=None,
+    )  # fmt: skip
     max_neighbors: int = constant("neighbours kept per sample at most, the nearest", limits=SOME)
     bundling: int | None = constant(
         "draw features together first, each towards so many of those similar to it; none for "

@@ -1,0 +1,307 @@
+"""Compiled loops over pairs of samples: warping paths anywhere, and sets of what recurs.
+
+A pair of samples scores ``1 - distance² / scale²`` less what stillness costs, a
+path the sum over its pairs; a step that passes over a sample counts its pair one
+and a half times. Samples are columns. Naive twins are in ``tests/naive.py``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from kineme._compiled import OPTIONS
+
+SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
+BLOCK = 512
+"""Starts of stretches whose largest gain is known together."""
+
+
+@njit("void(float64[:, ::1], float64[::1], int64, int64, float64, float64, float64[::1])", **SUMS)
+def pair_scores(samples, costs, i, start, scale, worst, found):
+    """Scores of a sample with so many from ``start`` on.
+
+    1 where two are equal, falling with the square of their distance to ``worst``.
+    """
+    found[:] = 0
+    for d in range(len(samples)):
+        own, others = samples[d, i], samples[d, start : start + len(found)]
+        for j in range(len(found)):
+            difference = own - others[j]
+            found[j] += difference * difference
+    cost, others = costs[i], costs[start : start + len(found)]
+    for j in range(len(found)):
+        found[j] = max(1 - found[j] / (scale * scale) - (cost + others[j]) / 2, worst)
+
+
+@njit(
+    "Tuple((int64[:, ::1], float64[::1], int64[:, ::1]))(float64[:, ::1], float64[::1],"
+    " boolean[::1], int64, int64, int64, float64, float64, float64)",
+    **OPTIONS,
+)
+def local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
+    """First and last pair (i, j, i, j) and score of the best path from each first pair.
+
+    Pairs are ``gap`` to ``width`` samples apart. A path steps by one sample on
+    both sides or by two on one of them, never into a sample that ``begins`` a
+    stretch, and goes on for as long as its score is above 0. Of those that score
+    ``least`` or more, one for each branch of each first pair is kept, at its best.
+    Beside its ends is the latest of the pairs that it passed, one after so many samples
+    (``leg``), -1 if there is none; these are (i, j, the one before).
+    """
+    n = len(costs)
+    line = np.empty(n)
+    scores = np.zeros((3, n))
+    firsts = np.zeros((3, n), np.int64)
+    records = np.full((3, n), -1, np.int64)
+    passes = np.full((3, n), -1, np.int64)
+    since = np.zeros((3, n), np.int64)  # the first sample, or that of the latest pair passed
+    found = [(0, 0, 0, 0, np.int64(-1), 0.0)]
+    passed = [(0, 0, np.int64(-1))]
+    for i in range(n):
+        row, one, two = i % 3, (i - 1) % 3, (i - 2) % 3
+        for j in range(max(i + gap - 3, 0), min(i + gap, n)):
+            scores[row, j] = 0
+        go, skip = i > 0 and not begins[i], i > 1 and not (begins[i] or begins[i - 1])
+        near, far = min(i + gap, n), min(i + width + 1, n)
+        pair_scores(samples, costs, i, near, scale, worst, line[near:far])
+        for j in range(near, far):
+            score = line[j]
+            best, source, column = score, -1, -1
+            if go and not begins[j]:
+                before = scores[one, j - 1]
+                if before > 0 and before + score > best:
+                    best, source, column = before + score, one, j - 1
+                before = scores[one, j - 2]
+                if not begins[j - 1] and before > 0 and before + 1.5 * score > best:
+                    best, source, column = before + 1.5 * score, one, j - 2
+                before = scores[two, j - 1]
+                if skip and before > 0 and before + 1.5 * score > best:
+                    best, source, column = before + 1.5 * score, two, j - 1
+            scores[row, j] = max(best, 0)
+            if best <= 0:
+                continue
+            first, record, latest, start = i * n + j, np.int64(-1), np.int64(-1), i
+            if source >= 0:
+                first, record = firsts[source, column], records[source, column]
+                latest, start = passes[source, column], since[source, column]
+            firsts[row, j], records[row, j] = first, record
+            if best >= least:
+                if record < 0:
+                    records[row, j] = len(found)
+                    found.append((first // n, first % n, i, j, latest, best))
+                elif best > found[record][5]:
+                    found[record] = (first // n, first % n, i, j, latest, best)
+            if i - start >= leg:
+                passed.append((i, j, latest))
+                latest, start = np.int64(len(passed) - 2), i
+            passes[row, j], since[row, j] = latest, start
+    ends = np.empty((len(found) - 1, 5), np.int64)
+    totals = np.empty(len(found) - 1)
+    for k in range(len(totals)):
+        ends[k, 0], ends[k, 1], ends[k, 2], ends[k, 3], ends[k, 4], totals[k] = found[k + 1]
+    pairs = np.empty((len(passed) - 1, 3), np.int64)
+    for k in range(len(pairs)):
+        pairs[k, 0], pairs[k, 1], pairs[k, 2] = passed[k + 1]
+    return ends, totals, pairs
+
+
+@njit(
+    "Tuple((float64[::1], float64[::1], float64[::1], float64[::1]))(float64[:, ::1],"
+    " float64[::1], int64[::1], float64, float64)",
+    **OPTIONS,
+)
+def follow(samples, costs, ends, scale, worst):
+    """The best path between two pairs: its partner of each sample, and its score up to there.
+
+    Both seen from the first side and from the second.
+    """
+    i0, j0 = ends[0], ends[1]
+    rows, columns = ends[2] - i0 + 1, ends[3] - j0 + 1
+    scores = np.full((rows, columns), -np.inf)
+    steps = np.zeros((rows, columns), np.int8)
+    line = np.empty(columns)
+    pair_scores(samples, costs, i0, j0, scale, worst, line[:1])
+    scores[0, 0] = line[0]
+    for i in range(1, rows):
+        ahead = rows - 1 - i  # only what can be reached, and from where the end can be
+        first = max(1, (i + 1) // 2, columns - 1 - 2 * ahead)
+        last = min(columns, 2 * i + 1, columns - (ahead + 1) // 2)
+        pair_scores(samples, costs, i0 + i, j0 + first, scale, worst, line[first:last])
+        for j in range(first, last):
+            score = line[j]
+            scores[i, j], steps[i, j] = scores[i - 1, j - 1] + score, 1
+            if j > 1 and scores[i - 1, j - 2] + 1.5 * score > scores[i, j]:
+                scores[i, j], steps[i, j] = scores[i - 1, j - 2] + 1.5 * score, 2
+            if i > 1 and scores[i - 2, j - 1] + 1.5 * score > scores[i, j]:
+                scores[i, j], steps[i, j] = scores[i - 2, j - 1] + 1.5 * score, 3
+    partners, sums = np.empty(rows), np.empty(rows)
+    other_partners, other_sums = np.empty(columns), np.empty(columns)
+    i, j = rows - 1, columns - 1
+    while True:
+        partners[i] = j0 + j
+        other_partners[j] = i0 + i
+        sums[i] = other_sums[j] = scores[i, j]
+        if steps[i, j] == 0:
+            return partners, sums, other_partners, other_sums
+        if steps[i, j] == 1:
+            i, j = i - 1, j - 1
+        elif steps[i, j] == 2:
+            other_partners[j - 1] = i0 + i - 0.5
+            other_sums[j - 1] = (scores[i, j] + scores[i - 1, j - 2]) / 2
+            i, j = i - 1, j - 2
+        else:
+            partners[i - 1] = j0 + j - 0.5
+            sums[i - 1] = (scores[i, j] + scores[i - 2, j - 1]) / 2
+            i, j = i - 2, j - 1
+
+
+@njit("int64(boolean[::1], int64, int64)", **OPTIONS)
+def set_in(marks, start, stop):
+    """How many marks of ``[start, stop)`` are set."""
+    count = 0
+    for i in range(start, stop):
+        count += marks[i]
+    return count
+
+
+@njit(
+    "Tuple((float64, int64))(int64, int64, int64[::1], int64[::1], float64[::1], float64[::1],"
+    " int64[::1], int64[::1], boolean[::1], float64, int64[:, ::1], float64[::1])",
+    **OPTIONS,
+)
+def recurrences(
+    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
+):
+    """Where ``[start, stop)`` recurs, written to spans and gains: their sum and their number.
+
+    Each is the partner of what a path covers of it, ``cover`` at least, and that comes
+    after it; the strongest are first, none reaches into another, into itself or into
+    samples that are not free.
+    """
+    length = stop - start
+    middle = (start + stop) // 2
+    n = 0
+    for path in row_paths[row_ptr[middle] : row_ptr[middle + 1]]:
+        first = starts[path]
+        base = ptr[path] - first
+        low, high = max(start, first), min(stop, first + ptr[path + 1] - ptr[path])
+        if high - low < cover * length:
+            continue
+        while low < high and low > first and sums[base + low] <= sums[base + low - 1]:
+            low += 1
+        while high - 1 > low and sums[base + high - 1] <= sums[base + high - 2]:
+            high -= 1
+        if high - low < cover * length:
+            continue
+        score = sums[base + high - 1] - (sums[base + low - 1] if low > first else 0.0)
+        begin, end = round(partners[base + low]), round(partners[base + high - 1]) + 1
+        if score > 0 and (end <= start or begin >= stop) and 2 * (end - begin) >= length:
+            place = n  # among those found before, the strongest first
+            while place > 0 and gains[place - 1] < score:
+                for column in range(4):
+                    spans[place, column] = spans[place - 1, column]
+                gains[place] = gains[place - 1]
+                place -= 1
+            spans[place, 0], spans[place, 1], gains[place] = begin, end, score
+            spans[place, 2], spans[place, 3] = low, high
+            n += 1
+    total, count = 0.0, 0
+    for k in range(n):
+        begin, end = spans[k, 0], spans[k, 1]
+        clear = True
+        for other in range(count):
+            clear = clear and (end <= spans[other, 0] or begin >= spans[other, 1])
+        if clear and 5 * set_in(free, begin, end) >= 4 * (end - begin):
+            for column in range(4):
+                spans[count, column] = spans[k, column]
+            gains[count] = gains[k]
+            total += gains[k]
+            count += 1
+    return total, count
+
+
+@njit("int64(float64[::1], int64)", **OPTIONS)
+def largest(values, count):
+    """The place of the largest of the first ``count`` values, the first if there are several."""
+    best = 0
+    for i in range(1, count):
+        if values[i] > values[best]:
+            best = i
+    return best
+
+
+@njit("void(float64[::1], float64[::1], int64, int64)", **OPTIONS)
+def renew(tops, values, start, stop):
+    """Have the largest value of each block that holds some of these places."""
+    for block in range(start // BLOCK, (stop + BLOCK - 1) // BLOCK):
+        first = block * BLOCK
+        tops[block] = values[first + largest(values[first:], min(BLOCK, len(values) - first))]
+
+
+@njit(
+    "Tuple((int64[:, ::1], float64[::1], int64[::1]))(int64[::1], int64[::1], int64[::1],"
+    " float64[::1], float64[::1], int64[::1], int64[::1], boolean[::1], float64)",
+    **OPTIONS,
+)
+def best_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, cover):
+    """Spans, gains and set of each occurrence: of all stretches the one that gains most, and so on.
+
+    Gains hardly ever rise as samples are taken, so that old ones do for all but the
+    best (lazy greedy, after Minoux 1978). Changes ``free``.
+    """
+    n, sizes = len(free), len(lengths)
+    most = 0
+    for i in range(n):
+        most = max(most, row_ptr[i + 1] - row_ptr[i])
+    spans, gains = np.empty((most, 4), np.int64), np.empty(most)
+    of_stretch = np.zeros((n, sizes))
+    known = np.zeros((n, sizes), np.int64)
+    best = np.zeros(n)
+    found = [(0, 0, 0.0, 0)]
+    rank = 0
+    for start in range(n):
+        for k in range(sizes):
+            stop = start + lengths[k]
+            if stop <= n and set_in(free, start, stop) == lengths[k]:
+                of_stretch[start, k] = recurrences(
+                    start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover,
+                    spans, gains,
+                )[0]  # fmt: skip
+        best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
+    tops = np.empty((n + BLOCK - 1) // BLOCK)
+    renew(tops, best, 0, n)
+    while n > 0:
+        block = largest(tops, len(tops)) * BLOCK
+        start = block + largest(best[block:], min(BLOCK, n - block))
+        if best[start] <= 0:
+            break
+        k = largest(of_stretch[start], sizes)
+        stop = start + lengths[k]
+        total, count = recurrences(
+            start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover, spans, gains
+        )
+        if known[start, k] == rank and count > 0:
+            covered, stop = stop, start  # what recurs of it
+            for other in range(count):
+                covered, stop = min(covered, spans[other, 2]), max(stop, spans[other, 3])
+            found.append((covered, stop, gains[largest(gains, count)], rank))
+            for other in range(count):
+                found.append((spans[other, 0], spans[other, 1], gains[other], rank))  # noqa: PERF401
+            for covered, stop, _, _ in found[-1 - count :]:
+                free[covered:stop] = False
+                for begin in range(max(covered - lengths[sizes - 1] + 1, 0), stop):
+                    for k in range(sizes):  # what reaches into it gains nothing any more
+                        of_stretch[begin, k] *= begin + lengths[k] <= covered
+                    best[begin] = of_stretch[begin, largest(of_stretch[begin], sizes)]
+                renew(tops, best, max(covered - lengths[sizes - 1] + 1, 0), stop)
+            rank += 1
+        else:
+            of_stretch[start, k], known[start, k] = total, rank
+            best[start] = of_stretch[start, largest(of_stretch[start], sizes)]
+            renew(tops, best, start, start + 1)
+    places = np.empty((len(found) - 1, 2), np.int64)
+    scores, ranks = np.empty(len(places)), np.empty(len(places), np.int64)
+    for k in range(len(places)):
+        places[k, 0], places[k, 1], scores[k], ranks[k] = found[k + 1]
+    return places, scores, ranks

@@ -1,0 +1,173 @@
+"""Compiled loops of change points, distances of samples, and groupings.
+
+Naive twins are in ``tests/naive.py``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from kineme._compiled import OPTIONS
+
+SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
+
+
+@njit("void(float32[:, ::1], float64, int64, int64, float32[:, ::1])", **SUMS)
+def similarity_band(features, unit, start, stop, similarity):
+    """``similarity[i, j - i] = 1 - |x_i - x_j| / unit`` for the rows from start to stop."""
+    n, width = similarity.shape
+    one, units = np.float32(1.0), np.float32(1.0 / unit)  # sums in doubles take twice the time
+    for i in range(start, stop):
+        for lag in range(width):
+            j = i + lag
+            if j >= n:
+                similarity[i, lag] = 0.0
+                continue
+            square = np.float32(0.0)
+            for d in range(features.shape[1]):
+                difference = features[i, d] - features[j, d]
+                square += difference * difference
+            similarity[i, lag] = one - np.sqrt(square) * units
+
+
+@njit("int64[::1](float32[:, ::1], float64, int64)", **OPTIONS)
+def change_points(similarity, penalty, min_length):
+    """Borders of the segments whose samples are most similar, ends included.
+
+    Minimises, by dynamic programming, the sum over segments of
+    ``length - (sum of similarities of all pairs) / length + penalty``. No
+    segment is longer than the band is wide; where that leaves no division,
+    there is one segment.
+    """
+    samples, width = similarity.shape
+    best = np.full(samples + 1, np.inf)
+    best[0] = 0
+    before = np.zeros(samples + 1, np.int64)
+    # row_sums[s]: similarity of s to itself, and twice those to the later samples of the segment.
+    row_sums = np.zeros(samples)
+    inverse = np.empty(samples + 1)
+    for length in range(1, samples + 1):
+        inverse[length] = 1 / length
+    for end in range(1, samples + 1):
+        last = end - 1
+        first = max(0, end - width)
+        row_sums[last] = similarity[last, 0]
+        for start in range(first, last):
+            row_sums[start] += 2 * similarity[start, last - start]
+        inside = 0.0
+        for start in range(last, first - 1, -1):
+            inside += row_sums[start]
+            length = end - start
+            if length >= min_length or length == samples:
+                cost = best[start] + length - inside * inverse[length] + penalty
+                if cost < best[end]:
+                    best[end] = cost
+                    before[end] = start
+    borders = [samples]
+    while borders[-1] > 0:
+        borders.append(before[borders[-1]])
+    return np.array(borders[::-1], dtype=np.int64)
+
+
+@njit("void(float32[:, ::1], int64[::1], int64[::1], int64, int64, float64[:, ::1])", **SUMS)
+def mean_distances(features, chosen, borders, start, stop, means):
+    """Mean distance of the chosen samples of each two groups, for some rows.
+
+    Group g has ``chosen[borders[g]:borders[g + 1]]``. Columns before the row
+    are left as they are; the matrix is symmetric.
+    """
+    for g in range(start, stop):
+        for h in range(g, len(borders) - 1):
+            total = 0.0
+            for a in range(borders[g], borders[g + 1]):
+                for b in range(borders[h], borders[h + 1]):
+                    square = 0.0
+                    for d in range(features.shape[1]):
+                        difference = features[chosen[a], d] - features[chosen[b], d]
+                        square += difference * difference
+                    total += np.sqrt(square)
+            pairs = (borders[g + 1] - borders[g]) * (borders[h + 1] - borders[h])
+            means[g, h] = total / pairs
+
+
+@njit("float64(float64[:, ::1], float64[::1], int64, int64, float64)", **OPTIONS)
+def _distance(sums, lengths, g, h, spread_share):
+    """The mean distance of two clusters, less a share of the mean distance within them."""
+    within = sums[g, g] / lengths[g] ** 2 + sums[h, h] / lengths[h] ** 2
+    return sums[g, h] / (lengths[g] * lengths[h]) - spread_share * within / 2
+
+
+@njit(
+    "void(float64[:, ::1], float64[::1], int64[::1], int64, float64, int64[::1], float64[::1])",
+    **OPTIONS,
+)
+def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
+    """The cluster whose distance to cluster g is least, and that distance."""
+    apart[g] = np.inf
+    for h in range(len(lengths)):
+        if h != g and owner[h] == h:
+            distance = _distance(sums, lengths, g, h, spread_share)
+            if distance < apart[g]:
+                apart[g] = distance
+                nearest[g] = h
+
+
+@njit(
+    "float64(float64[:, ::1], float64[::1], int64, float64, float64, float64, int64[::1])",
+    **OPTIONS,
+)
+def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share, labels):
+    """The least cost of a grouping of segments; `labels` gets the grouping.
+
+    The two clusters that are nearest are joined, again and again: by their mean distance,
+    less `spread_share` of the mean of the distances within them. A grouping costs half the
+    distances within clusters, and a price for each run of segments of one cluster and for
+    each cluster, of which there are `most` at most. `sums` (summed distances of each two
+    segments) and `lengths` are used up.
+    """
+    k = len(lengths)
+    owner = np.arange(k)
+    nearest = np.zeros(k, np.int64)
+    apart = np.full(k, np.inf)
+    for g in range(k):
+        _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
+    cheapest = np.inf
+    for clusters in range(k, 0, -1):
+        if clusters <= most:
+            cost = cluster_cost * clusters
+            for g in range(k):
+                if owner[g] == g:
+                    cost += sums[g, g] / (2 * lengths[g])
+                if g == 0 or owner[g] != owner[g - 1]:
+                    cost += segment_cost
+            if cost < cheapest:
+                cheapest = cost
+                for g in range(k):
+                    labels[g] = owner[g]
+        if clusters == 1:
+            break
+        g = int(np.argmin(apart))
+        h = nearest[g]
+        if h < g:
+            g, h = h, g
+        lengths[g] += lengths[h]
+        apart[h] = np.inf
+        for other in range(k):
+            sums[g, other] += sums[h, other]
+            if owner[other] == h:
+                owner[other] = g
+        for other in range(k):
+            sums[other, g] += sums[other, h]
+        _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
+        for other in range(k):
+            if owner[other] != other or other == g:
+                continue
+            if nearest[other] in (g, h):
+                _find_nearest(sums, lengths, owner, other, spread_share, nearest, apart)
+                continue
+            distance = _distance(sums, lengths, other, g, spread_share)
+            if distance < apart[other]:  # a union can be nearer than both of its parts were
+                apart[other] = distance
+                nearest[other] = g
+    return cheapest

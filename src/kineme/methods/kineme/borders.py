@@ -1,0 +1,104 @@
+"""Borders to the frame: part of the way to where a segment becomes less likely than the next.
+
+Statistics are averaged over a second, so borders of the tree lie where half of that second is
+loud: late where somebody starts, early where somebody stops. Frames as they are tell more. Each
+channel on either side is a normal distribution with a mean and a variance of its own, learnt
+where nothing of the other side is averaged in, and the border is where the two together explain
+most (Gaussian likelihood). That is on the quiet side instead: what a quiet segment never does
+ends it at once. People mark what lies between, and so is the border set.
+
+Only the time that is averaged over is asked, and no segment comes or goes.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from kineme.methods.kineme.constants import KinemeConstants
+
+
+Floats = NDArray[np.float64]
+Frames = NDArray[np.int64]
+
+LEARNT = 4.0
+"""Seconds of a side at most that tell how it moves."""
+QUIETEST = 0.05
+"""Least deviation of a channel, as a share of that in the whole recording."""
+SHARE = 3
+"""A border is looked for in one part of so many of a segment at most."""
+
+
+def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> Frames:
+    """The borders, each moved towards where the two segments beside it explain most.
+
+    Parameters
+    ----------
+    channels : (frames, channels) array
+        At the working rate.
+    borders : (segments + 1,) array
+        Frames, from 0 to the end.
+    preset : KinemeConstants
+    """
+    averaged = max(1, preset.frames(preset.averaging))
+    learnt = max(1, preset.frames(LEARNT))
+    centred = channels - channels.mean(axis=0)
+    deviations = np.sqrt((centred**2).mean(axis=0))
+    scaled = centred / np.where(deviations > 0, deviations, 1.0)
+    moved = borders.copy()
+    for i in range(1, len(borders) - 1):
+        start, at, stop = borders[i - 1 : i + 2]
+        # Half of what is averaged over is mixed with what lies beyond the border.
+        own = slice(max(start + averaged // 2 * (i > 1), at - learnt), at - averaged // 2)
+        last = stop - averaged // 2 * (i < len(borders) - 2)
+        after = slice(at + averaged // 2, min(last, at + learnt))
+        if min(own.stop - own.start, after.stop - after.start) < averaged:
+            continue
+        first = at - min(averaged, (at - start) // SHARE)
+        near = scaled[first : at + min(averaged, (stop - at) // SHARE)]
+        gains = _likelihoods(near, scaled[own]) - _likelihoods(near, scaled[after])
+        likeliest = first + int(np.argmax(np.concatenate([[0.0], np.cumsum(gains)])))
+        moved[i] = at + round(preset.border_shift * (likeliest - int(at)))
+    return moved
+
+
+def _likelihoods(rows: Floats, side: Floats) -> Floats:
+    """Log-likelihood of each row by the means and variances of a side, the mean of its channels."""
+    variances = np.maximum(side.var(axis=0), QUIETEST**2)
+    squares = (rows - side.mean(axis=0)) ** 2 / variances
+    likelihoods: Floats = -0.5 * (np.log(variances) + squares).mean(axis=1)
+    return likelihoods
+
+
+def in_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frames:
+    """The samples nearest to borders in frames, from 0 to n; each segment has one at least."""
+    nearest = np.rint(frames / (preset.working_fps / preset.rate)).astype(np.int64)
+    order = np.arange(len(frames))
+    after = np.maximum.accumulate(nearest - order)
+    borders: Frames = np.minimum(after, n - order[-1]) + order
+    borders[-1] = n
+    return borders
+
+
+def carried_over(fine: Frames, before: Frames, after: Frames) -> Frames:
+    """Finest borders with those of a level where they have been moved to.
+
+    Parameters
+    ----------
+    fine : (pieces + 1,) array
+        Samples, `before` among them.
+    before, after : (segments + 1,) array
+        Borders of the level, and where each is now.
+
+    Examples
+    --------
+    >>> carried_over(np.array([0, 2, 5, 6, 9]), np.array([0, 5, 9]), np.array([0, 7, 9])).tolist()
+    [0, 2, 7, 9]
+    """
+    low, high = np.minimum(before, after), np.maximum(before, after)
+    at = np.searchsorted(low, fine, side="right") - 1
+    passed = fine <= high[at]
+    return np.unique(np.concatenate([fine[~passed], after]))

@@ -1,0 +1,144 @@
+"""How sure: the probability that what was found is right.
+
+Four things may be wrong, and each has a probability of its own:
+
+- the *link* of an activity: its cluster is not that of the same movement elsewhere,
+- a *border* of an activity: there is none close by,
+- its *count*: it has more repetitions, or fewer,
+- a *cut* between two repetitions: there is none close by.
+
+Two statistics tell all four: for how many seconds an activity prefers its own cluster to the next,
+and how much its repetitions correlate. Each probability is 1 / (1 + exp(-(constant + weight s))).
+The two numbers of each kind are learnt from recordings with a known truth and checked on sources
+that were left out, by ``benchmarks/confidence.py``. They describe: nothing above reads them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme._threads import map_threads
+from kineme.methods.kineme import _repetition_kernels as kernels
+from kineme.methods.kineme.placing import Segments
+from kineme.methods.kineme.repetitions import PLACES, movement
+
+if TYPE_CHECKING:
+    from kineme.methods.kineme.constants import KinemeConstants
+
+Floats = NDArray[np.float64]
+Frames = NDArray[np.int64]
+
+LEAST = 0.02
+"""A segment is taken to prefer its own cluster by this share at least."""
+CLEAREST = 0.995
+"""Correlations are not told apart beyond this."""
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What tells how sure each thing is.
+
+    Attributes
+    ----------
+    preferred : (segments,) array
+        Logarithm of the seconds for which each prefers its own cluster; nan for transitions.
+    repeated : (segments,) array
+        Mean correlation of any two repetitions, as Fisher's z: 0 of a single one, for which
+        nothing speaks; nan where primitives are no repetitions.
+    parents : (primitives,) array
+        The segment that each primitive lies in.
+    """
+
+    preferred: Floats
+    repeated: Floats
+    parents: Frames
+
+
+@dataclass(frozen=True, eq=False)
+class Confidence:
+    """Probabilities, nan where there is nothing to be right or wrong.
+
+    Attributes
+    ----------
+    links, counts, borders : (segments,) array
+        That the cluster of each segment, the number of its repetitions, and its start are right.
+    cuts : (primitives,) array
+        That the start of each is right; that of the segment where it is the first in it.
+    """
+
+    links: Floats
+    counts: Floats
+    borders: Floats
+    cuts: Floats
+
+
+def evidence(rows: NDArray[np.float32], segments: Segments, preset: KinemeConstants) -> Evidence:
+    """Statistics of activities and their repetitions.
+
+    Parameters
+    ----------
+    rows : (frames, dims) array
+        At the rate at which repetitions are counted.
+    segments : Segments
+    preset : KinemeConstants
+    """
+    parents, repeats = segments.parents, segments.repeats
+    seconds = np.diff(segments.borders) / preset.working_fps
+    repeated = np.full(len(seconds), np.nan)
+    ends = np.searchsorted(parents, np.arange(len(seconds) + 1))
+
+    def judge(segment: int) -> None:
+        first, last = ends[segment], ends[segment + 1]
+        edges = segments.primitives[first : last + 1]
+        along = movement(rows[edges[0] : max(edges[-1], edges[0] + 1)], preset)
+        repetitions = kernels.repetitions_between(
+            along.poses, along.path, edges - edges[0], PLACES
+        )[repeats[first:last]]
+        repeated[segment] = mean_correlation(repetitions)
+
+    map_threads(judge, np.unique(parents[repeats]).tolist())
+    return Evidence(np.log(seconds * np.maximum(segments.own, LEAST)), repeated, parents)
+
+
+def mean_correlation(repetitions: Floats) -> float:
+    """Of any two repetitions, (count, places, dims), as Fisher's z; 0 of one."""
+    count = len(repetitions)
+    if count < 2:
+        return 0.0
+    rows = (repetitions - repetitions.mean(axis=1, keepdims=True)).reshape(count, -1)
+    rows = rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12)
+    pairs = (np.square(rows.sum(axis=0)).sum() - count) / (count * (count - 1))
+    return float(np.arctanh(np.clip(pairs, -CLEAREST, CLEAREST)))
+
+
+def confidence(evidence: Evidence, preset: KinemeConstants) -> Confidence:
+    """How probable it is that each thing found is right."""
+    preferred = evidence.preferred
+    lesser = np.append(np.nan, np.fmin(preferred[1:], preferred[:-1]))
+    borders = probability(lesser, preset.border_weights)
+    cuts = probability(evidence.repeated, preset.cut_weights)[evidence.parents]
+    first = np.diff(evidence.parents, prepend=-1) > 0
+    return Confidence(
+        links=probability(preferred, preset.link_weights),
+        counts=probability(evidence.repeated, preset.count_weights),
+        borders=borders,
+        cuts=np.where(first, borders[evidence.parents], cuts),
+    )
+
+
+def probability(statistic: Floats, weights: tuple[float, float]) -> Floats:
+    """Probability by a statistic, a constant, and its weight; nan where it is.
+
+    Examples
+    --------
+    >>> probability(np.array([0.0, 2.0]), (0.0, 1.0)).round(2).tolist()
+    [0.5, 0.88]
+    """
+    from scipy.special import expit
+
+    found: Floats = expit(weights[0] + weights[1] * statistic)
+    return found

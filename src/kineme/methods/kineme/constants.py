@@ -1,0 +1,263 @@
+"""The constants of the method, stage by stage, with their values for bodies.
+
+Costs are times at the median distance of two samples of the recording: a cost of 0.15 s is
+paid off by 0.15 s of samples as far apart as any two usually are. So they mean the same whatever
+is measured. Lengths of events are in body sizes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
+
+from kineme.errors import ParameterError
+from kineme.methods.base import RATE, Preset, Unit
+from kineme.methods.constants import (
+    FACTOR,
+    LENGTH,
+    SHARE,
+    SOME,
+    SOME_FACTOR,
+    SOME_LENGTH,
+    SOME_SHARE,
+    SOME_TIME,
+    TIME,
+    Limits,
+    constant,
+)
+
+WEIGHT = Limits(-100.0, 100.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class KinemeConstants(Preset):
+    """Of views, segments, borders, repetitions, events and confidence."""
+
+    method: ClassVar[str] = "kineme"
+    units: ClassVar[tuple[Unit, ...]] = ("body sizes", "any")
+    told_bodies: ClassVar[bool] = True
+    told_rides: ClassVar[bool] = True
+
+    unit: Unit = "body sizes"
+    working_fps: float = constant(
+        "samples per second at which the recording is looked at", unit="Hz", limits=RATE,
+        default=30.0,
+    )  # fmt: skip
+    smoothing: float = constant(
+        "channels of signals are averaged over this", unit="s", limits=TIME, default=0.0
+    )
+    # Views: posture and energy, some times a second.
+    rate: float = constant(
+        "samples per second that are compared", unit="Hz", limits=RATE, default=5.0
+    )
+    averaging: float = constant(
+        "means and energies are taken over this", unit="s", limits=SOME_TIME, default=1.0
+    )
+    bands: tuple[float, ...] = constant(
+        "edges of the bands of frequency whose energies are compared", unit="Hz",
+        limits=Limits(0.0, 500.0, above=True), default=(0.3, 1.0, 2.4, 7.0, 20.0),
+    )  # fmt: skip
+    shared: tuple[float, ...] = constant(
+        "per view: largest variance that channels share, where that of a channel is 1",
+        limits=SOME_LENGTH, fine=True, default=(1e4,),
+    )  # fmt: skip
+    weights: tuple[float, ...] = constant(
+        "per view: power to which what statistics vary is divided out", limits=SHARE, fine=True,
+        default=(0.5,),
+    )  # fmt: skip
+    restless_over: tuple[float, ...] = constant(
+        "per view: a statistic varies as much as it changes over this; 0: as its band does",
+        unit="s", limits=TIME, fine=True, default=(0.0,),
+    )  # fmt: skip
+    velocity_weight: float = constant(
+        "how much the velocity of joints counts, beside where they are", limits=FACTOR, fine=True,
+        default=0.5,
+    )  # fmt: skip
+    ride_weight: float = constant(
+        "how far riding, as in a lift, is from standing, where all else deviates by 1",
+        limits=FACTOR, fine=True, default=5.0,
+    )  # fmt: skip
+    # Segments: the tree and its shortest description.
+    part: float = constant(
+        "a longer recording is segmented in parts of this at most", unit="s", limits=SOME_TIME,
+        fine=True, default=600.0,
+    )  # fmt: skip
+    fine_cost: float = constant(
+        "what a border of the finest level must gain: time at the median distance", unit="s",
+        limits=TIME, fine=True, default=0.4,
+    )  # fmt: skip
+    max_fine: float = constant(
+        "longest segment of the finest level", unit="s", limits=SOME_TIME, fine=True, default=80.0
+    )
+    segment_cost: float = constant(
+        "what a segment must explain: time at the median distance", unit="s", limits=TIME,
+        slider=(0.02, 2.0, 0.02), default=0.15,
+    )  # fmt: skip
+    cluster_cost: float = constant(
+        "what a cluster must explain in a minute: time at the median distance", unit="s",
+        limits=TIME, slider=(0.1, 5.0, 0.1), default=0.66,
+    )  # fmt: skip
+    cluster_growth: float = constant(
+        "power of the duration with which that grows", limits=SHARE, fine=True, default=0.2
+    )
+    spread_share: float = constant(
+        "clusters are nearer than their samples by this share of the distances within them",
+        limits=SHARE, fine=True, default=0.5,
+    )  # fmt: skip
+    min_action: float = constant(
+        "shortest action", unit="s", limits=TIME, slider=(0.2, 10.0, 0.1), default=1.4
+    )
+    max_clusters: int = constant("clusters at most", limits=SOME, fine=True, default=16)
+    # A segment that repeats.
+    alike: float = constant(
+        "share of a repetition that the mean of the others explains, at least", limits=SHARE,
+        default=0.5,
+    )  # fmt: skip
+    two_movements: float = constant(
+        "repetitions are two movements where the first ones and the last ones apart leave less "
+        "than this share of what they leave together", limits=SHARE, fine=True, default=0.65,
+    )  # fmt: skip
+    chance_count: float = constant(
+        "repetitions that may be alike by chance", limits=SOME_FACTOR, fine=True, default=4.0
+    )
+    chance_period: float = constant(
+        "what repeats within this is one thing to samples already", unit="s", limits=SOME_TIME,
+        fine=True, default=1.7,
+    )  # fmt: skip
+    max_repetition: float = constant(
+        "longest repetition: what lasts longer is a course of activities", unit="s",
+        limits=SOME_TIME, default=8.0,
+    )  # fmt: skip
+    uneven: float = constant(
+        "standard deviation of the logarithms of durations from which nothing repeats",
+        limits=SOME_FACTOR, fine=True, default=0.6,
+    )  # fmt: skip
+    # Borders, to the frame.
+    border_shift: float = constant(
+        "how far a border is moved from where means over `averaging` put it to where frames do",
+        limits=SHARE, fine=True, default=0.6,
+    )  # fmt: skip
+    # Repetitions.
+    counting_fps: float = constant(
+        "frames per second at which repetitions and events are found, at most", unit="Hz",
+        limits=RATE, fine=True, default=30.0,
+    )  # fmt: skip
+    noise_share: float = constant(
+        "share of the distances of a pose below which a dip of them is noise", limits=SHARE,
+        fine=True, default=0.05,
+    )  # fmt: skip
+    centering: float = constant(
+        "share of its mean pose taken off each repetition before it is compared with others: of 1, "
+        "only how it moves counts, of 0, where it is counts as much",
+        limits=SHARE, fine=True, default=1.0,
+    )  # fmt: skip
+    end_distance: float = constant(
+        "an end belongs to a repetition as long as it is nearer than this share of the variance",
+        limits=SHARE, fine=True, default=0.55,
+    )  # fmt: skip
+    end_scatter: float = constant(
+        "an end counts whole where its square distance from the mean repetition is this times that "
+        "of repetitions at most, and less beyond", limits=FACTOR, fine=True, default=2.0,
+    )  # fmt: skip
+    length_cost: float = constant(
+        "cost of the repetition that the others are compared with, per share of the activity",
+        limits=FACTOR, fine=True, default=1.5,
+    )  # fmt: skip
+    max_unexplained: float = constant(
+        "where the mean of any number of repetitions would leave more than this share unexplained, "
+        "similarity is chance", limits=SHARE, fine=True, default=0.7,
+    )  # fmt: skip
+    same_cost: float = constant(
+        "divisions that cost no more than this above the best say with it how long the ends are",
+        limits=FACTOR, fine=True, default=0.1,
+    )  # fmt: skip
+    same: float = constant(
+        "likeness from which clusters are one movement, at another pace or phase; 1: never",
+        limits=SOME_SHARE, default=0.75,
+    )  # fmt: skip
+    # Events.
+    event_scale: float = constant(
+        "distance from which two moments of an event are not similar; 0: events are not looked for",
+        unit="body sizes", limits=LENGTH, slider=(0.0, 0.8, 0.05), default=0.45,
+    )  # fmt: skip
+    event_velocity: float = constant(
+        "velocities count as much as poses that they change in this time", unit="s", limits=TIME,
+        fine=True, default=0.2,
+    )  # fmt: skip
+    event_rest: float = constant(
+        "share at which movement time goes by while nothing moves", limits=SOME_SHARE, fine=True,
+        default=0.1,
+    )  # fmt: skip
+    event_cost: float = constant(
+        "similarity that an event must gain for each moment that it lasts", limits=FACTOR,
+        default=0.25,
+    )  # fmt: skip
+    event_cover: float = constant(
+        "share of an event that each occurrence must match", limits=SOME_SHARE, fine=True,
+        default=0.8,
+    )  # fmt: skip
+    min_event: float = constant(
+        "shortest event, in movement time", unit="s", limits=SOME_TIME, default=0.5
+    )
+    min_recurrence: float = constant(
+        "similarity times movement time that is no chance; twice that for sets of two", unit="s",
+        limits=SOME_TIME, slider=(0.2, 2.0, 0.05), default=0.6,
+    )  # fmt: skip
+
+    # Confidence: a constant, and the weight of a statistic.
+    link_weights: tuple[float, float] = constant(
+        "how sure a cluster is, by the seconds for which an activity prefers it", limits=WEIGHT,
+        fine=True, default=(1.661, 1.057),
+    )  # fmt: skip
+    border_weights: tuple[float, float] = constant(
+        "how sure a border is, by those of the less sure side", limits=WEIGHT, fine=True,
+        default=(1.691, 0.5826),
+    )  # fmt: skip
+    count_weights: tuple[float, float] = constant(
+        "how sure a count is, by how much repetitions correlate", limits=WEIGHT, fine=True,
+        default=(-0.016, 1.619),
+    )  # fmt: skip
+    cut_weights: tuple[float, float] = constant(
+        "how sure a border between repetitions is, by the same", limits=WEIGHT, fine=True,
+        default=(0.047, 1.585),
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        lengths = {len(self.shared), len(self.weights), len(self.restless_over)}
+        if lengths - {len(self.shared) or 1}:
+            raise ParameterError(
+                "shared, weights and restless_over must have a number for each view, not "
+                f"{len(self.shared)}, {len(self.weights)} and {len(self.restless_over)}"
+            )
+
+    def at_most(self, fps: float) -> Self:
+        """The preset for a recording of that rate: energies above it are not there."""
+        return replace(self, working_fps=fps) if RATE.minimum <= fps < self.working_fps else self
+
+    def cluster_price(self, samples: int) -> float:
+        """What a cluster costs in a stretch of so many samples, in samples.
+
+        The longer it is, the more of it differs from the rest by chance.
+
+        Examples
+        --------
+        >>> from kineme.methods.kineme.preset import SENSORS
+        >>> [round(SENSORS.cluster_price(samples), 1) for samples in (300, 1200)]
+        [3.3, 4.4]
+        """
+        minutes = min(samples / self.rate, self.part) / 60
+        return self.samples(self.cluster_cost) * float(minutes**self.cluster_growth)
+
+    def samples(self, seconds: float) -> float:
+        """Seconds in samples, at `rate`."""
+        return seconds * self.rate
+
+    @property
+    def step(self) -> int:
+        """Frames of the working rate for one at which repetitions are counted."""
+        return max(1, round(self.working_fps / self.counting_fps))
+
+    def counting(self) -> Self:
+        """The preset at the rate at which repetitions are counted."""
+        return replace(self, working_fps=self.working_fps / self.step)

@@ -1,0 +1,159 @@
+"""What the method finds, stage by stage, and the segment table that comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.methods.base import Columns
+from kineme.methods.doubts import doubts
+from kineme.methods.kineme import tree
+from kineme.methods.kineme.borders import in_samples
+from kineme.methods.kineme.confidence import Confidence, Evidence, confidence
+from kineme.methods.kineme.placing import Segments
+from kineme.methods.levels import DETAILS, Pieces, clusters_at, tables_at
+from kineme.methods.segments import columns_of
+
+if TYPE_CHECKING:
+    from kineme.graph import NeighborGraph
+    from kineme.methods.kineme.constants import KinemeConstants
+
+Frames = NDArray[np.int64]
+
+PICTURED = 256
+"""For pictures: neighbours per sample at most."""
+LISTED = 5
+"""Activities that a note lists at most."""
+EACH = 8
+"""Pieces of levels of detail for each segment of the default level, at most."""
+MOST = 1000
+"""Pieces of a long recording, at most, if it has not more segments."""
+
+
+@dataclass(frozen=True, eq=False)
+class KinemeFound:
+    """What the stages found.
+
+    Attributes
+    ----------
+    features : (samples, dims) array
+        The view, ``preset.rate`` times a second.
+    preset : KinemeConstants
+    unit : float
+        The median distance of two samples.
+    segments : Segments
+        Both levels, one frame for ``preset.step`` of the working rate.
+    frames : int
+        Of the working rate.
+    evidence : Evidence
+        By which it is told how sure all that is.
+    fine : (pieces + 1,) array
+        Borders of the finest segments, samples of `features`.
+    timings : dict of str to float
+        Seconds per stage.
+    """
+
+    features: NDArray[np.float32]
+    preset: KinemeConstants
+    unit: float
+    segments: Segments
+    frames: int
+    evidence: Evidence
+    fine: Frames
+    timings: dict[str, float] = field(default_factory=dict)
+
+    @cached_property
+    def borders(self) -> Frames:
+        """Of activities, frames of the working rate, from 0 to the end."""
+        return self._in_frames(self.segments.borders)
+
+    @cached_property
+    def primitives(self) -> Frames:
+        """Borders of repetitions and events, those of activities included."""
+        return self._in_frames(self.segments.primitives)
+
+    def _in_frames(self, borders: Frames) -> Frames:
+        return np.append(borders[:-1] * self.preset.step, self.frames)
+
+    def columns(self) -> Columns:
+        """Activities, primitives, and how probable it is that each is right."""
+        segments, sure = self.segments, self.confidence
+        counts = np.where(segments.clusters >= 0, sure.counts[segments.parents], np.nan)
+        return columns_of(
+            self.borders,
+            self.primitives,
+            is_activity=segments.labels >= 0,
+            is_primitive=segments.clusters >= 0,
+            clusters=(segments.labels, segments.clusters),
+            scores=(sure.links, counts),
+            border_confidence=(sure.borders, sure.cuts),
+        )
+
+    @cached_property
+    def confidence(self) -> Confidence:
+        """How probable it is that each thing found is right."""
+        return confidence(self.evidence, self.preset)
+
+    def levels(self, columns: Columns) -> Mapping[float, Columns]:
+        """The table at coarser and finer details: the tree, pruned at scaled costs.
+
+        Details that are like their coarser neighbour are left out.
+        """
+        pieces, frames = self._pieces()
+        at = clusters_at(
+            pieces,
+            DETAILS,
+            border_price=self.preset.samples(self.preset.segment_cost),
+            cluster_price=self.preset.cluster_price(len(self.features)),
+        )
+        return tables_at(columns, frames, at, longest=0.0)
+
+    def _pieces(self) -> tuple[Pieces, Frames]:
+        """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
+        own = in_samples(self.borders, self.preset, len(self.features))
+        sums = tree.between_segments(self.features, self.fine, self.unit)
+        found = tree.levels(self.fine, sums)
+        most = min(len(found), EACH * len(own), max(MOST, len(own)))
+        borders = np.unique(np.concatenate([own, self.fine[found[most - 1]]]))
+        per_sample = self.preset.working_fps / self.preset.rate
+        frames = np.rint(borders * per_sample).astype(np.int64)
+        frames[np.searchsorted(borders, own)] = self.borders
+        parents = self.segments.labels[np.searchsorted(own, borders[:-1], side="right") - 1]
+        sums = tree.between_segments(self.features, borders, self.unit) / 2
+        return Pieces(borders, np.arange(len(parents)), parents, sums), frames
+
+    @cached_property
+    def graph(self) -> NeighborGraph:
+        """Neighbours of every sample, for pictures: within half the median distance."""
+        from kineme.graph import neighbor_graph
+
+        return neighbor_graph(self.features, radius=0.5 * self.unit, k=PICTURED)
+
+    def doubts(self, columns: Columns, fps: float) -> list[str]:
+        """A sentence for each cluster, count or border that is not sure, at most five.
+
+        And one for the activities that are not periodic.
+        """
+        found = doubts(columns, fps)
+        of_activities = columns["level"] == "activity"
+        loose = of_activities & np.isin(columns["cluster"], self.segments.not_periodic)
+        if loose.any():
+            starts, stops = columns["start_frame"][loose], columns["stop_frame"][loose]
+            listed = [
+                f"{start / fps:.2f} to {stop / fps:.2f} s"
+                for start, stop in zip(starts, stops, strict=True)
+            ]
+            more = f" and {len(listed) - LISTED} more" if len(listed) > LISTED else ""
+            primitives = columns["start_frame"][~of_activities & (columns["cluster"] >= 0)]
+            at = np.searchsorted(starts, primitives, side="right") - 1
+            recurs = ((at >= 0) & (primitives < stops[at])).any()
+            told = (
+                "their primitives are what recurs anywhere" if recurs else "nothing in them recurs"
+            )
+            found.append(f"not periodic: {', '.join(listed[:LISTED])}{more}; {told}")
+        return found

@@ -1,0 +1,57 @@
+"""The two presets of the method: for bodies, and for signals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from kineme.methods.base import Mirror
+from kineme.methods.kineme.constants import KinemeConstants
+from kineme.methods.stages import Progress
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from kineme.methods.kineme.found import KinemeFound
+
+
+@dataclass(frozen=True, kw_only=True)
+class KinemePreset(KinemeConstants):
+    """The method by its constants."""
+
+    def analyze(
+        self,
+        features: ArrayLike,
+        *,
+        mirror: Mirror | None = None,  # noqa: ARG002 (left and right are told apart)
+        progress: Progress | None = None,
+        carried: ArrayLike | None = None,
+        joints: bool = False,
+    ) -> KinemeFound:
+        """Segments, clusters, repetitions and events; see :mod:`kineme.methods.kineme.pipeline`."""
+        from kineme.methods.kineme.pipeline import analyze  # compiled code
+
+        return analyze(features, self, carried=carried, joints=joints, progress=progress)
+
+
+KINEME = KinemePreset(name="kineme", help="Finds activities and counts their repetitions; for use.")
+
+OF_SENSORS: Mapping[str, Any] = {
+    "unit": "any",
+    "working_fps": 50.0,
+    "shared": (1e4, 1e4, 1e4, 1.0, 1.0, 1.0, 0.3, 0.3, 0.3),
+    "weights": (0.5, 1.0, 1.0) * 3,
+    "restless_over": (0.0, 0.0, 1.0) * 3,
+    "alike": 0.8,
+    "centering": 0.4,
+    "same": 1.0,
+    "event_scale": 0.0,
+}
+"""What is another for signals: no one view fits all of them, and their lengths mean nothing."""
+
+SENSORS = KinemePreset(
+    name="sensors",
+    help="The same by posture and energy of channels; what kineme is for signals.",
+    **OF_SENSORS,
+)

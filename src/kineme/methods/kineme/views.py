@@ -1,0 +1,295 @@
+"""Views: the same statistics of channels in several scales, for no one scale fits all sensors.
+
+Two questions have no one answer. What channels share is movement where sensors
+are on both legs, and only where somebody stands where channels are the places
+of joints. And what varies most tells activities apart for some sensors, what
+changes seldom for others. The first and the last view answer both in opposite
+ways, and those between them are the other answers; that of the two is taken
+which all agree with more (`most_agreed`), among them the
+two as half of the channels give them: what hangs on few channels is doubtful.
+
+Where channels are places of joints their velocity counts, too: who sits down and who stands up
+are in the same places.
+
+Rides (`kineme.features.rides`) are one more number of all views: whoever rides does
+something else than who stands, however little of it channels show.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.methods.kineme.statistics import in_bands, means_and_energies, sampled_at
+
+if TYPE_CHECKING:
+    from kineme.methods.kineme.constants import KinemeConstants
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Labels = NDArray[np.int64]
+Answer = Sequence[Labels]
+"""The cluster of each sample, in each part of the recording."""
+
+DIGITS = 9
+"""Agreements that differ less are equal: rounding decides nothing."""
+
+STILL = 0.05
+"""Least restlessness of a statistic, as a share of that of all of them."""
+VELOCITY_OVER = 0.6
+"""Seconds before and after, between which it is told how joints move."""
+TINY = 1e-9
+"""Deviations below it are rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A recording as it is compared, `preset.rate` times a second.
+
+    Attributes
+    ----------
+    views : list of (samples, dims) array
+        All channels, in each of the scales that the preset names.
+    halves : list of (samples, dims) array
+        Half of the channels, in the first and in the last of these.
+    """
+
+    views: list[NDArray[np.float32]]
+    halves: list[NDArray[np.float32]]
+
+
+def seen(
+    channels: Floats,
+    preset: KinemeConstants,
+    carried: Floats | None = None,
+    *,
+    joints: bool = False,
+) -> Seen:
+    """The statistics of the channels in each of the scales that the preset names.
+
+    Parameters
+    ----------
+    channels : (frames, channels) array
+        At the working rate of the preset.
+    preset : KinemeConstants
+    carried : (frames,) array, optional
+        1 where a ride goes upwards, -1 where it goes downwards, 0 elsewhere.
+    joints : bool
+        Whether channels are places of joints.
+
+    Returns
+    -------
+    Seen
+    """
+    centred = channels - channels.mean(axis=0)
+    scaled = np.asarray(centred / _deviations(centred), np.float64)
+    bands = in_bands(scaled, preset.working_fps, preset.bands)
+    every = range(len(preset.shared))
+    ends = (every[0], every[-1]) if len(every) > 1 else ()
+    weight = preset.velocity_weight if joints else 0.0
+    views = _in_scales(bands, every, preset, weight)
+    halves = [
+        view
+        for half in slow_and_fast(scaled)
+        for view in _in_scales([band[:, half] for band in bands], ends, preset, weight)
+    ]
+    if carried is not None and carried.any():
+        riding = carried[sampled_at(len(carried), preset.working_fps, preset.rate)]
+        views, halves = (
+            [with_rides(view, riding, preset.ride_weight) for view in each]
+            for each in (views, halves)
+        )
+    return Seen(views, halves)
+
+
+def with_rides(view: NDArray[np.float32], riding: Floats, weight: float) -> NDArray[np.float32]:
+    """The view with a number more, `weight` times as far apart as all others deviate.
+
+    Examples
+    --------
+    >>> with_rides(np.float32([[0], [2]]), np.array([0.0, 1.0]), 5.0).tolist()
+    [[0.0, 0.0], [2.0, 5.0]]
+    """
+    deviation = float(np.sqrt(view.var(axis=0, dtype=np.float64).sum()))
+    return np.ascontiguousarray(np.column_stack([view, weight * deviation * riding]), np.float32)
+
+
+def with_velocities(
+    view: NDArray[np.float32], channels: int, steps: int, weight: float
+) -> NDArray[np.float32]:
+    """The view and, `weight` times, how its means change from `steps` before to `steps` after.
+
+    Examples
+    --------
+    >>> with_velocities(np.float32([[0], [1], [5], [5]]), 1, 1, 0.5)[:, 1].tolist()
+    [0.5, 2.5, 2.0, 0.0]
+    """
+    means, at = view[:, :channels], np.arange(len(view))
+    after, before = np.minimum(at + steps, len(view) - 1), np.maximum(at - steps, 0)
+    velocities = weight * (means[after] - means[before])
+    return np.ascontiguousarray(np.column_stack([view, velocities]), np.float32)
+
+
+def slow_and_fast(scaled: Floats) -> list[Ints]:
+    """The half of the channels that changes less from frame to frame, and the other half.
+
+    Examples
+    --------
+    >>> frames = np.arange(100)[:, None]
+    >>> [half.tolist() for half in slow_and_fast(np.sin(frames * [0.1, 2, 0.2, 1]))]
+    [[0, 2], [1, 3]]
+    """
+    if scaled.shape[1] < 2:
+        return []
+    order = np.argsort(np.abs(np.diff(scaled, axis=0)).sum(axis=0), kind="stable")
+    middle = (len(order) + 1) // 2
+    return [np.sort(order[:middle]), np.sort(order[middle:])]
+
+
+def _in_scales(
+    bands: Sequence[Floats], which: Iterable[int], preset: KinemeConstants, weight: float
+) -> list[NDArray[np.float32]]:
+    """Statistics of channels of which all bands are given, in these scales of the preset.
+
+    With velocities, so many times, if that is not 0.
+    """
+    channels = bands[0].shape[1]
+    raw: dict[float, Floats] = {}
+    found = []
+    for i in which:
+        shared, over = preset.shared[i], preset.restless_over[i]
+        if shared not in raw:
+            mixing = holding_down(bands[0], shared)
+            raw[shared] = means_and_energies(
+                bands if mixing is None else [band @ mixing for band in bands],
+                preset.working_fps,
+                rate=preset.rate,
+                window=preset.averaging,
+            )
+        view = (
+            by_restlessness(raw[shared], round(preset.samples(over)), preset.weights[i])
+            if over
+            else by_deviation(raw[shared], channels, preset.weights[i])
+        )
+        steps = max(1, round(preset.samples(VELOCITY_OVER)))
+        found.append(with_velocities(view, channels, steps, weight) if weight else view)
+    return found
+
+
+def holding_down(scaled: Floats, most: float) -> Floats | None:
+    """What channels are multiplied by to hold down what they share; None where that is nothing.
+
+    Each then has a deviation of 1, as before.
+
+    Parameters
+    ----------
+    scaled : (frames, channels) array
+        With a mean of 0 and a deviation of 1, or 0 where nothing changes.
+    most : float
+        Largest variance along any direction.
+    """
+    if most >= scaled.shape[1]:  # they cannot share more
+        return None
+    covariance = scaled.T @ scaled / len(scaled)
+    variances, directions = np.linalg.eigh(covariance)
+    mixing = (directions * np.sqrt(most / np.maximum(variances, most))) @ directions.T
+    left = np.sqrt(np.maximum(np.einsum("ij,ik,kj->j", mixing, covariance, mixing), 0.0))
+    return np.asarray(mixing / np.where(left > TINY, left, 1.0), np.float64)
+
+
+def by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np.float32]:
+    """Means, and each band, divided by their whole deviation to the power `weight`.
+
+    Parameters
+    ----------
+    statistics : (samples, groups * channels) array
+    channels : int
+    weight : float
+        1 gives each group the same weight, 0 leaves them as they are.
+    """
+    centred = statistics - statistics.mean(axis=0)
+    groups = centred.reshape(len(centred), -1, channels)
+    deviations = np.sqrt((groups**2).mean(axis=(0, 2), keepdims=True))
+    scaled = groups / np.where(deviations > TINY, deviations, 1.0) ** weight
+    return np.ascontiguousarray(scaled.reshape(centred.shape), np.float32)
+
+
+def by_restlessness(statistics: Floats, steps: int, weight: float) -> NDArray[np.float32]:
+    """Each statistic divided by its mean change over so many samples to the power `weight`.
+
+    Examples
+    --------
+    >>> restless = np.column_stack([np.arange(8) % 2, np.arange(8) // 4])
+    >>> by_restlessness(restless.astype(float), 1, 1.0).std(axis=0).round(2).tolist()
+    [0.5, 3.5]
+    """
+    centred = statistics - statistics.mean(axis=0)
+    steps = max(1, min(steps, len(centred) // 3))
+    changes = np.abs(centred[steps:] - centred[:-steps])
+    restless = changes.mean(axis=0) if len(changes) else np.zeros(centred.shape[1])
+    least = STILL * float(np.sqrt((restless**2).mean()))
+    if least < TINY:
+        return np.ascontiguousarray(centred, np.float32)
+    return np.ascontiguousarray(centred / np.maximum(restless, least) ** weight, np.float32)
+
+
+def _deviations(centred: Floats) -> Floats:
+    """The standard deviation of each column; 1 where nothing changes."""
+    deviations: Floats = np.sqrt((centred**2).mean(axis=0))
+    return np.where(deviations > TINY, deviations, 1.0)
+
+
+def most_agreed(answers: Sequence[Answer], others: Sequence[Answer] = ()) -> int:
+    """The first or the last answer: the one that all agree with more; the first of equals.
+
+    Parameters
+    ----------
+    answers : sequence of sequence of (samples,) array
+        Per answer the cluster of each sample, in each part of the recording.
+    others : sequence of sequence of (samples,) array
+        Answers that are asked, too, but cannot be taken.
+
+    Examples
+    --------
+    >>> first, other, last = np.array([[0, 1, 0, 1, 0], [0, 0, 0, 1, 1], [0, 0, 1, 1, 1]])
+    >>> most_agreed([[first], [other], [last]])
+    2
+    """
+    first, last = (
+        sum(
+            len(a) * mutual_information(a, b)
+            for other in (*answers, *others)
+            for a, b in zip(answers[one], other, strict=True)
+        )
+        for one in (0, -1)
+    )
+    return 0 if round(first - last, DIGITS) >= 0 else len(answers) - 1
+
+
+def mutual_information(first: Labels, second: Labels) -> float:
+    """What two clusterings of the same samples tell of each other, as a share of what they tell.
+
+    Examples
+    --------
+    >>> mutual_information(np.array([0, 0, 1, 1]), np.array([5, 5, 3, 3]))
+    1.0
+    >>> mutual_information(np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1]))
+    0.0
+    """
+    width = int(second.max()) + 1
+    together = np.bincount(first * width + second, minlength=(int(first.max()) + 1) * width)
+    table = together.reshape(-1, width)
+    one, other = _entropy(table.sum(axis=1)), _entropy(table.sum(axis=0))
+    if one + other == 0:
+        return 1.0
+    return max(0.0, 2 * (1 - _entropy(table.ravel()) / (one + other)))
+
+
+def _entropy(counts: Labels) -> float:
+    """Of the shares that counts are."""
+    shares = counts[counts > 0] / counts.sum()
+    return float(-(shares * np.log(shares)).sum()) + 0.0

@@ -1,1 +1,0 @@
-"""The method ``kineme``: recurrence whatever the phase, change points, actions, repetitions."""

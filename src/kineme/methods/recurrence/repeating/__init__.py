@@ -1,1 +1,0 @@
-"""What repeats: repetitions back to back, occurrences anywhere, their ends and parts."""

@@ -1,0 +1,45 @@
+"""Borders against their naive twins, and clusters numbered by first appearance."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import naive
+from bands import one_sided
+from kineme.methods.kineme import _tree_kernels as kernels
+from kineme.methods.segments import by_first_appearance
+
+seconds = settings(max_examples=60)
+
+
+@st.composite
+def similarities(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
+    """Symmetric, from 0 to 1, each sample similar to itself."""
+    n = draw(st.integers(1, max_bins))
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    similarity = rng.random((n, n)) ** draw(st.sampled_from([0.1, 1, 10]))
+    similarity = np.round(np.minimum(similarity, similarity.T), 2)
+    np.fill_diagonal(similarity, 1)
+    return similarity
+
+
+@given(similarities(), st.integers(0, 9), st.integers(0, 4), st.sampled_from([0.0, 0.3, 1.0, 5.0]))
+@seconds
+def test_no_division_is_cheaper(similarity, width, shortest, penalty) -> None:
+    width = min(width, len(similarity) - 1)
+    divisions = naive.divisions(len(similarity), shortest, width + 1)
+    found = kernels.change_points(one_sided(similarity, width), penalty, shortest).tolist()
+    assert found in divisions
+    costs = [naive.division_cost(similarity, borders, penalty) for borders in divisions]
+    assert naive.division_cost(similarity, found, penalty) == pytest.approx(min(costs), abs=1e-4)
+
+
+@given(st.lists(st.integers(-1, 4), max_size=20))
+@seconds
+def test_labels_are_counted_by_first_appearance(labels) -> None:
+    found = by_first_appearance(np.array(labels, np.int64)).tolist()
+    known = [label for label in dict.fromkeys(labels) if label >= 0]
+    assert found == [known.index(label) if label >= 0 else -1 for label in labels]

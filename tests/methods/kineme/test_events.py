@@ -1,0 +1,226 @@
+"""Occurrences: what recurs is found wherever it is, and nothing else is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import hypothesis.strategies as st
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+import naive
+from gestures import stacked, wandering, with_gestures
+from kineme.methods.kineme import _event_kernels as kernels
+from kineme.methods.kineme import _event_kernels as set_kernels
+from kineme.methods.kineme.events import Occurrences, occurrences
+from kineme.methods.kineme.paths import followed
+from kineme.methods.kineme.pipeline import analyze
+from kineme.methods.kineme.preset import KINEME
+
+seconds = settings(max_examples=40)
+
+
+@st.composite
+def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Samples, what they cost, and where a stretch begins."""
+    n = draw(st.integers(2, 24))
+    rng = np.random.default_rng(draw(st.integers(0, 99)))
+    samples = rng.integers(0, 3, (n, 2)) / 2 + rng.normal(0, 1e-3, (n, 2))
+    begins = rng.random(n) < draw(st.sampled_from([0.0, 0.1]))
+    begins[0] = True
+    return samples, rng.uniform(0, 0.3, n), begins
+
+
+@given(walks(), st.integers(1, 4), st.integers(4, 30), st.sampled_from([0.5, 2.0]))
+@seconds
+def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
+    samples, costs, begins = walk
+    columns = np.ascontiguousarray(samples.T)
+    ends, scores, _ = kernels.local_paths(columns, costs, begins, gap, width, 99, 0.8, -2.0, least)
+    found: dict[tuple[int, int], float] = {}
+    for (i, j, *_), score in zip(ends.tolist(), scores, strict=True):
+        found[i, j] = max(found.get((i, j), 0), score)
+    best = naive.local_path_scores(samples, costs, begins, gap, width, 0.8, -2.0)
+    assert found == pytest.approx({first: s for first, s in best.items() if s >= least})
+
+
+@given(walks())
+@seconds
+def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
+    samples, costs, begins = walk
+    columns = np.ascontiguousarray(samples.T)
+    ends, scores, _ = kernels.local_paths(columns, costs, begins, 1, 30, 99, 0.8, -2.0, 1.0)
+    for each, score in zip(ends, scores, strict=True):
+        partners, sums, other_partners, other_sums = kernels.follow(columns, costs, each, 0.8, -2.0)
+        expected = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        assert sums[-1] == pytest.approx(expected)
+        assert other_sums[-1] == pytest.approx(expected)
+        assert expected >= score - 1e-9
+        assert partners[[0, -1]].tolist() == [each[1], each[3]]
+        assert other_partners[[0, -1]].tolist() == [each[0], each[2]]
+        assert (np.diff(partners) > 0).all()
+
+
+@given(walks(), st.integers(1, 5))
+@seconds
+def test_a_long_path_is_followed(walk, leg) -> None:
+    samples, costs, begins = walk
+    columns = np.ascontiguousarray(samples.T)
+    options = columns, costs, begins, 1, 30
+    whole, whole_scores, _ = kernels.local_paths(*options, 99, 0.8, -2.0, 1.0)
+    ends, scores, passed = kernels.local_paths(*options, leg, 0.8, -2.0, 1.0)
+    assert ends[:, :4].tolist() == whole[:, :4].tolist()
+    assert scores.tolist() == whole_scores.tolist()
+    for each, score in zip(ends, scores, strict=True):
+        pairs, latest = [each[2:4]], each[4]
+        while latest >= 0:
+            pairs.append(passed[latest, :2])
+            latest = passed[latest, 2]
+        rows = np.array([*pairs, each[:2]])[::-1, 0]
+        assert (leg <= np.diff(rows)[:-1]).all()
+        assert np.diff(rows).max() <= leg + 1  # a step is two samples at most
+        forth, sums, back, back_sums = followed(columns, costs, each, passed, 0.8)
+        assert forth[[0, -1]].tolist() == [each[1], each[3]]
+        assert back[[0, -1]].tolist() == [each[0], each[2]]
+        assert (np.diff(forth) > 0).all()
+        assert len(forth) == len(sums) == each[2] - each[0] + 1
+        assert len(back) == len(back_sums) == each[3] - each[1] + 1
+        assert sums[-1] == pytest.approx(back_sums[-1])
+        best = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        assert score - 1e-9 <= sums[-1] <= best + 1e-9
+
+
+def paths_of(rng: np.random.Generator, n: int) -> list[tuple[int, np.ndarray, np.ndarray]]:
+    paths = []
+    for _ in range(12):
+        length = int(rng.integers(2, n // 2))
+        first, other = rng.integers(0, n - length, 2)
+        scores = rng.uniform(-0.3, 1, length)
+        paths.append((int(first), other + np.arange(length, dtype=float), scores.cumsum()))
+    return paths
+
+
+@given(st.integers(0, 10_000))
+@seconds
+def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> None:
+    rng = np.random.default_rng(seed)
+    n, cover = 30, 0.8
+    paths = paths_of(rng, n)
+    free = rng.random(n) < 0.9
+    starts = np.array([first for first, _, _ in paths])
+    sizes = np.array([len(sums) for _, _, sums in paths])
+    ptr = np.append(0, np.cumsum(sizes))
+    rows = np.concatenate([first + np.arange(len(sums)) for first, _, sums in paths])
+    row_paths = np.repeat(np.arange(len(paths)), sizes)[np.argsort(rows, kind="stable")]
+    row_ptr = np.append(0, np.cumsum(np.bincount(rows, minlength=n)))
+    flat = [np.concatenate([path[k] for path in paths]) for k in (1, 2)]
+    lengths = np.array([3, 5, 8])
+    spans, gains = np.empty((n, 4), np.int64), np.empty(n)
+    totals: dict[tuple[int, int], float] = {}
+    for start in range(n):
+        for stop in start + lengths[start + lengths <= n]:
+            total, count = set_kernels.recurrences(
+                start, stop, starts, ptr, *flat, row_ptr, row_paths, free, cover, spans, gains
+            )
+            expected = naive.recurrences_of(start, stop, paths, free, cover)
+            of = [(begin, end, *part) for begin, end, _, part in expected]
+            assert [tuple(span) for span in spans[:count].tolist()] == of
+            assert total == pytest.approx(sum(gain for _, _, gain, _ in expected))
+            if expected and free[start:stop].all():
+                covered = min(low for *_, low, _ in of), max(high for *_, high in of)
+                totals[covered] = max(total, totals.get(covered, 0))
+    places, _, ranks = set_kernels.best_sets(
+        lengths, starts, ptr, *flat, row_ptr, row_paths, free, cover
+    )
+    if len(places):
+        assert totals[tuple(places[0].tolist())] == max(totals.values())
+    assert (np.diff(ranks) >= 0).all()
+
+
+def found_in(rows: np.ndarray, free: np.ndarray | None = None) -> Occurrences:
+    everywhere = np.ones(len(rows), np.bool_)
+    return occurrences(rows, everywhere if free is None else free, KINEME)
+
+
+def test_a_gesture_made_now_and_then_is_one_cluster() -> None:
+    places = [100, 310, 555, 790]
+    found = found_in(with_gestures(1, places))
+    assert found.clusters.tolist() == [0, 0, 0, 0]
+    assert np.abs(found.starts - places).max() <= 6
+    assert np.abs(found.stops - places - 40).max() <= 6
+    assert (found.similarity > 0.3).all()
+
+
+@pytest.mark.parametrize(("places", "sure"), [([100, 310], 2), ([100, 310, 555], 1)])
+def test_two_must_be_more_alike_than_three(places: list[int], sure: float) -> None:
+    rows = with_gestures(1, places)
+    everywhere = np.ones(len(rows), np.bool_)
+
+    def found(min_recurrence: float) -> int:
+        preset = KINEME.replace(min_recurrence=min_recurrence)
+        return len(occurrences(rows, everywhere, preset))
+
+    strongest = 1.7  # path here, seconds
+    assert found(0.9 * strongest / sure) == len(places)
+    assert found(1.1 * strongest / sure) == 0
+
+
+def test_what_is_not_free_is_not_looked_at() -> None:
+    rows = with_gestures(2, [100, 310, 555])
+    free = np.ones(len(rows), np.bool_)
+    free[300:360] = False
+    found = found_in(rows, free)
+    assert len(found) == 2
+    assert found.stops[0] <= 300
+    assert found.starts[1] >= 360
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_movement_that_never_comes_back_has_no_occurrences(seed) -> None:
+    assert len(found_in(wandering(np.random.default_rng(seed), 900))) == 0
+
+
+def test_gestures_are_primitives_where_nothing_is_counted() -> None:
+    places = [100, 310, 555, 790]
+    found = analyze(stacked(with_gestures(1, places)), KINEME)
+    occurring = found.segments.clusters > found.segments.labels.max()
+    assert np.abs(found.primitives[:-1][occurring] - places).max() <= 6
+    assert len(set(found.segments.clusters[occurring].tolist())) == 1
+    assert (found.segments.counts <= 1).all()
+    columns = found.columns()
+    primitive = columns["level"] == "primitive"
+    assert np.isnan(columns["score"][primitive][occurring]).all()
+
+
+def test_what_is_counted_for_sure_keeps_its_repetitions() -> None:
+    angle = 2 * np.pi * np.arange(600) / 45
+    rows = 0.3 * np.column_stack([np.sin(k * angle + k) for k in (1, 2, 1, 3, 1, 2)])
+    found = analyze(stacked(rows), KINEME)
+    assert np.abs(np.diff(found.primitives)[found.segments.clusters == 0] - 45).max() <= 4
+    assert found.segments.clusters.max() == 0
+    assert found.segments.not_periodic.size == 0
+    assert found.doubts(found.columns(), 30.0) == []
+
+
+def test_a_note_says_what_is_not_periodic() -> None:
+    found = analyze(np.tile(stacked(wandering(np.random.default_rng(0), 90)), (6, 1)), KINEME)
+    loose = replace(found, segments=replace(found.segments, not_periodic=np.array([0])))
+    notes = loose.doubts(loose.columns(), 30.0)
+    assert "not periodic: 0.00 to 18.00 s; their primitives are what recurs anywhere" in notes
+    nothing = loose.columns()
+    nothing["cluster"] = np.where(nothing["level"] == "primitive", -1, nothing["cluster"])
+    assert "not periodic: 0.00 to 18.00 s; nothing in them recurs" in loose.doubts(nothing, 30.0)
+
+
+def test_standing_still_does_not_recur() -> None:
+    rng = np.random.default_rng(0)
+    assert len(found_in(rng.normal(0, 1e-4, (900, 6)))) == 0
+    assert len(found_in(np.zeros((900, 6)))) == 0
+    assert len(found_in(np.zeros((1, 6)))) == 0
+
+
+def test_backwards_is_another_movement() -> None:
+    rows = with_gestures(3, [100, 400])
+    rows[400:440] = rows[400:440][::-1]
+    assert len(found_in(rows)) == 0

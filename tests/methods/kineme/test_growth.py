@@ -1,0 +1,83 @@
+"""Time and memory grow with the length of a recording, and what is short stays as it is."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gestures import with_gestures
+from kineme.methods.kineme import events
+from kineme.methods.kineme.events import Occurrences
+from kineme.methods.kineme.preset import KINEME
+
+# Processor time, so that other programs do not count; memory beyond what a minute needs.
+MEASURE = """
+import re, sys, time
+from pathlib import Path
+import numpy as np
+from gestures import stacked, with_gestures
+from kineme.methods.kineme.pipeline import analyze
+from kineme.methods.kineme.preset import KINEME
+from loops import swing
+
+def peak():  # rusage has that of the process that started this one, too
+    return int(re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
+
+parts = []
+for seed in range(6):
+    walk = swing(6 + seed, period=1 + seed / 10, axis=seed % 4)
+    parts += [walk, with_gestures(seed, [100, 310, 555, 790])]
+frames = round(60 * float(sys.argv[1]) * KINEME.working_fps)
+rows = np.resize(np.concatenate(parts), (frames, 6))
+rows = stacked(rows + np.random.default_rng(0).normal(0, 0.01, rows.shape))
+analyze(rows[: round(60 * KINEME.working_fps)], KINEME)
+before, start = peak(), time.process_time()
+analyze(rows, KINEME)
+print(time.process_time() - start, peak() - before)
+"""
+
+
+def measured(minutes: float) -> np.ndarray:
+    """Seconds and kilobytes, in a process of its own."""
+    command = [sys.executable, "-c", MEASURE, str(minutes)]
+    tests = str(Path(__file__).parents[2])
+    path = os.pathsep.join([tests, *filter(None, [os.environ.get("PYTHONPATH")])])
+    env = {**os.environ, "PYTHONPATH": path}
+    done = subprocess.run(command, env=env, capture_output=True, text=True, check=True)
+    return np.array([float(each) for each in done.stdout.split()])
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="peak memory is read from /proc")
+def test_twice_as_long_takes_about_twice_the_time_and_memory() -> None:
+    seconds, memory = measured(20) / measured(10)
+    assert seconds < 2.6
+    assert memory < 2.6
+
+
+def found_in(rows: np.ndarray, leg: float) -> Occurrences:
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(events, "LEG", leg)
+        return events.occurrences(rows, np.ones(len(rows), np.bool_), KINEME)
+
+
+def test_paths_that_fit_into_a_leg_are_found_as_without_one() -> None:
+    rows = np.vstack([with_gestures(1, [100, 310, 555, 790])] * 2)
+    whole, in_legs = found_in(rows, 3600), found_in(rows, 60)
+    assert len(whole) > 2
+    for name in ("starts", "stops", "clusters", "similarity"):
+        np.testing.assert_array_equal(getattr(in_legs, name), getattr(whole, name))
+
+
+def test_paths_that_are_longer_than_a_leg_are_found_as_without_one() -> None:
+    rows = np.vstack([with_gestures(1, [100, 310, 555, 790])] * 4)
+    rows += np.random.default_rng(0).normal(0, 0.01, rows.shape)
+    whole, in_legs = found_in(rows, 3600), found_in(rows, 5)
+    assert in_legs.clusters.tolist() == whole.clusters.tolist()
+    assert np.abs(in_legs.starts - whole.starts).max() <= KINEME.step
+    assert np.abs(in_legs.stops - whole.stops).max() <= KINEME.step

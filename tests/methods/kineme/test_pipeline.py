@@ -1,0 +1,313 @@
+"""From features to counted actions: what is known is found, and what changes nothing."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kineme.datasets import random_recording
+from kineme.errors import ParameterError
+from kineme.methods.kineme.found import KinemeFound
+from kineme.methods.kineme.pipeline import analyze
+from kineme.methods.kineme.preset import KINEME
+from kineme.methods.presets import resolve_preset
+from kineme.segmentation.bodies import motion_features
+from loops import swing
+
+few = settings(max_examples=8)
+
+
+@cache
+def recorded(seed: int) -> np.ndarray:
+    return motion_features(random_recording(seed).motion, KINEME)
+
+
+@cache
+def analysis_of(seed: int) -> KinemeFound:
+    return analyze(recorded(seed), KINEME)
+
+
+def assert_same(found: KinemeFound, expected: KinemeFound) -> None:
+    for name in ("borders", "labels", "primitives", "clusters"):
+        parts = (getattr(each.segments, name) for each in (found, expected))
+        np.testing.assert_array_equal(*parts, name)
+    for name in ("links", "counts", "borders", "cuts"):
+        probabilities = (getattr(each.confidence, name) for each in (found, expected))
+        np.testing.assert_allclose(*probabilities, atol=1e-2)
+
+
+def repetitions_of(found: KinemeFound) -> list[int]:
+    """How many repetitions each activity has; transitions left out."""
+    return found.segments.counts[found.segments.labels >= 0].tolist()
+
+
+# --- what is known is found -------------------------------------------------------------------
+
+
+Sequence = list[tuple[int, float, int]]
+"""Which of three movements, its period, how often."""
+
+
+@st.composite
+def sequences(draw: st.DrawFn) -> Sequence:
+    """For at least 5 s and four times each; none follows the same one twice."""
+    axes = draw(st.permutations(range(3)))[: draw(st.integers(2, 3))]
+    axes += axes[:1] * (len(axes) == 3 and draw(st.booleans()))
+    periods = [draw(st.integers(18, 60)) / 30 for _ in range(3)]
+    return [
+        (axis, periods[axis], draw(st.integers(max(4, round(5 / periods[axis] + 0.5)), 18)))
+        for axis in axes
+    ]
+
+
+def assert_found(sequence: Sequence) -> None:
+    parts = [swing(times, period=period, axis=2 * axis) for axis, period, times in sequence]
+    found = analyze(np.concatenate(parts), KINEME)
+    order = list(dict.fromkeys(axis for axis, _, _ in sequence))
+    assert found.segments.labels.tolist() == [order.index(axis) for axis, _, _ in sequence]
+    borders = np.cumsum([0, *map(len, parts)])
+    assert np.abs(found.borders - borders).max() <= 15
+    for counted, (_, period, times) in zip(repetitions_of(found), sequence, strict=True):
+        assert abs(counted - times) <= (period < 1)  # of fast ones half is as near to one as none
+
+
+@given(sequences())
+@settings(max_examples=60)
+def test_actions_their_borders_and_counts_are_found(sequence) -> None:
+    assert_found(sequence)
+
+
+@pytest.mark.parametrize(
+    "sequence",
+    [
+        [(1, 1.3, 16), (0, 1.4, 7), (1, 1.3, 8), (0, 1.4, 5)],
+        [(2, 0.9, 10), (1, 1.3, 11), (2, 0.9, 6), (1, 1.3, 16)],
+        [(0, 1.0, 9), (1, 1.2, 9), (0, 1.0, 13), (1, 1.2, 11)],
+    ],
+)
+def test_a_change_that_comes_twice_is_no_action_of_its_own(sequence) -> None:
+    """Though the second in which one becomes the other looks alike both times."""
+    assert_found(sequence)
+
+
+def test_an_action_that_returns_after_minutes_is_known_again() -> None:
+    walk, turn = swing(12, period=1), [swing(50, period=2, axis=2), swing(12, period=1, axis=4)]
+    found = analyze(np.concatenate([walk, *turn, walk, turn[1]]), KINEME)
+    assert found.segments.labels[found.segments.labels >= 0].tolist() == [0, 1, 2, 0, 2]
+    assert repetitions_of(found) == [12, 50, 12, 12, 12]
+
+
+def test_long_recordings_are_found_as_their_parts_and_known_again() -> None:
+    walk, turn = swing(12, period=1), swing(9, period=1.3, axis=2)
+    both = np.concatenate([walk, turn])
+    found = analyze(np.tile(both, (4, 1)), KINEME.replace(part=len(both) / KINEME.working_fps))
+    assert found.segments.labels.tolist() == [0, 1] * 4
+    expected = np.add.outer(len(both) * np.arange(4), [len(walk), len(both)]).ravel()
+    assert np.abs(found.borders[1:] - expected).max() <= 15
+    assert np.abs(np.array(repetitions_of(found)) - [12, 9] * 4).max() <= 1
+
+
+# --- what changes nothing ---------------------------------------------------------------------
+
+
+@given(st.integers(0, 3), st.integers(0, 2**32 - 1), st.floats(-100, 100))
+@few
+def test_order_signs_and_zeros_of_the_features_change_nothing(seed, turn, shift) -> None:
+    rng, rows = np.random.default_rng(turn), recorded(seed)
+    poses = rows.reshape(len(rows), len(KINEME.offsets), -1)
+    order, signs = rng.permutation(poses.shape[2]), rng.choice([-1, 1], poses.shape[2])
+    turned = (signs * poses[:, :, order]).reshape(rows.shape) + shift
+    assert_same(analyze(turned, KINEME), analysis_of(seed))
+
+
+PRINT_DIGEST = """
+import hashlib, numpy as np
+from kineme.datasets import random_recording
+from kineme.methods.kineme.pipeline import analyze
+from kineme.methods.kineme.preset import KINEME, SENSORS
+from kineme.segmentation.bodies import motion_features
+rows = motion_features(random_recording(2).motion, KINEME)
+for _ in range(2):
+    digest = hashlib.sha256()
+    for preset in (KINEME, KINEME.replace(part=15.0), SENSORS.replace(working_fps=30.0)):
+        found = analyze(rows, preset)
+        for part in (found.features, found.fine, found.borders, found.segments.labels,
+                     found.segments.clusters, found.segments.own, found.confidence.links,
+                     found.confidence.counts, found.confidence.borders, found.primitives,
+                     found.confidence.cuts):
+            digest.update(np.ascontiguousarray(part).tobytes())
+    print(digest.hexdigest())
+"""
+
+
+def test_threads_and_repetition_change_nothing() -> None:
+    digests = {
+        line
+        for threads in ("1", "2", "5")
+        for line in subprocess.run(
+            [sys.executable, "-c", PRINT_DIGEST],
+            env={**os.environ, "KINEME_THREADS": threads},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.split()
+    }
+    assert len(digests) == 1
+
+
+# --- what holds for every input ---------------------------------------------------------------
+
+
+def assert_whole(found: KinemeFound, frames: int) -> None:
+    for borders in (found.borders, found.primitives):
+        assert borders[0] == 0
+        assert borders[-1] == frames
+        assert (np.diff(borders) > 0).all()
+    assert set(found.borders.tolist()) <= set(found.primitives.tolist())
+    labels = found.segments.labels.tolist()
+    assert len(labels) == len(found.borders) - 1
+    assert all(a != b for a, b in pairwise(labels))
+    known = [label for label in dict.fromkeys(labels) if label >= 0]
+    assert known == list(range(len(known)))
+    assert set(labels) <= {-1, *known}
+    moving, sure = found.segments.labels >= 0, found.confidence
+    periodic = moving & ~np.isin(found.segments.labels, found.segments.not_periodic)
+    for probabilities, known in ((sure.links, moving), (sure.counts, periodic)):
+        assert np.isfinite(probabilities).tolist() == known.tolist()
+    assert np.isnan(sure.borders[0])
+    for probabilities in (sure.links, sure.counts, sure.borders, sure.cuts):
+        given = probabilities[np.isfinite(probabilities)]
+        assert ((given >= 0) & (given <= 1)).all()
+    assert np.isfinite(sure.borders[1:]).all()
+    begins = np.isin(found.primitives[:-1], found.borders) | periodic[found.evidence.parents]
+    assert np.isfinite(sure.cuts[1:][begins[1:]]).all()
+    assert len(sure.cuts) == len(found.primitives) - 1
+
+
+def test_activities_alternate_and_are_counted_by_first_appearance() -> None:
+    for seed in range(4):
+        found = analysis_of(seed)
+        assert_whole(found, len(recorded(seed)))
+        assert (found.segments.labels >= 0).sum() >= 4
+
+
+@given(
+    st.integers(1, 90), st.integers(1, 4), st.integers(0, 2**32 - 1),
+    st.sampled_from(["held", "noise", "drift", "far"]),
+)  # fmt: skip
+@settings(max_examples=60)
+def test_nothing_is_too_short_or_too_strange(frames, dims, seed, kind) -> None:
+    rng = np.random.default_rng(seed)
+    rows = {
+        "held": np.ones((frames, dims)),
+        "noise": rng.normal(size=(frames, dims)),
+        "drift": rng.normal(size=(frames, dims)).cumsum(axis=0),
+        "far": 1e6 * rng.normal(size=(frames, dims)),
+    }[kind]
+    found = analyze(rows, KINEME)
+    assert_whole(found, frames)
+    if kind == "held" or frames <= 2:
+        assert found.borders.tolist() == found.primitives.tolist() == [0, frames]
+
+
+@pytest.mark.parametrize("seconds", [3, 10, 40, 150])
+def test_what_never_comes_back_repeats_nothing(seconds: int) -> None:
+    found = analyze(np.arange(30 * seconds)[:, None] * [0.01, 0.02], KINEME)
+    assert_whole(found, 30 * seconds)
+    assert (found.segments.counts <= 1).all()
+    assert len(set(found.segments.labels.tolist())) == len(found.segments.labels)
+
+
+@st.composite
+def constants(draw: st.DrawFn) -> dict[str, float]:
+    some = st.sampled_from([0.01, 0.1, 1.0, 50.0])
+    none_or_some = st.sampled_from([0.0, 0.01, 0.1, 1.0, 50.0])
+    share = st.sampled_from([0.0, 0.3, 1.0])
+    choices = {
+        "rate": st.sampled_from([1.0, 2.0, 5.0, 10.0]),
+        "averaging": some,
+        "weights": st.sampled_from([(0.0,), (1.0,)]),
+        "shared": st.sampled_from([(0.3,), (1.0,)]),
+        "restless_over": st.sampled_from([(0.5,), (2.0,)]),
+        "velocity_weight": none_or_some,
+        "part": st.sampled_from([2.0, 5.0, 1000.0]),
+        "fine_cost": none_or_some,
+        "max_fine": some,
+        "segment_cost": none_or_some,
+        "cluster_cost": none_or_some,
+        "cluster_growth": share,
+        "spread_share": share,
+        "min_action": none_or_some,
+        "max_clusters": st.integers(1, 20),
+        "alike": share,
+        "two_movements": share,
+        "chance_count": some,
+        "chance_period": some,
+        "max_repetition": some,
+        "uneven": some,
+        "border_shift": share,
+        "counting_fps": st.sampled_from([5.0, 10.0, 30.0]),
+        "centering": share,
+        "length_cost": none_or_some,
+        "max_unexplained": share,
+        "event_scale": none_or_some,
+        "min_event": st.sampled_from([0.1, 1.0]),
+        "min_recurrence": some,
+    }
+    return {name: draw(choices[name]) for name in draw(st.sets(st.sampled_from(sorted(choices))))}
+
+
+@given(constants(), st.integers(1, 400))
+@settings(max_examples=60)
+def test_segments_tile_whatever_the_constants(overrides, frames) -> None:
+    rows = np.concatenate([swing(5, period=1), swing(6, period=1.2, axis=2)])[:frames]
+    found = analyze(rows, resolve_preset("kineme", **overrides))
+    assert_whole(found, len(rows))
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("rate", 0),
+        ("averaging", -1.0),
+        ("segment_cost", float("nan")),
+        ("segment_cost", -0.1),
+        ("max_clusters", 0),
+        ("alike", 1.5),
+        ("uneven", 0),
+        ("min_event", 0),
+        ("bands", (0.0, -1.0)),
+        ("radius", 0.64),
+    ],
+)
+def test_a_constant_out_of_range_is_named(name: str, value: object) -> None:
+    with pytest.raises(ParameterError, match=name):
+        resolve_preset("kineme", **{name: value})
+
+
+@pytest.mark.parametrize("shape", [(0, 3), (50, 0), (50,)])
+def test_features_of_another_shape_are_refused(shape) -> None:
+    with pytest.raises(ParameterError, match="frames x dims"):
+        analyze(np.zeros(shape), KINEME)
+
+
+def test_a_gap_in_the_features_is_named() -> None:
+    rows = np.zeros((50, 2))
+    rows[20, 1] = np.nan
+    with pytest.raises(ParameterError, match="not finite, first in frame 20"):
+        analyze(rows, KINEME)
+
+
+def test_progress_and_timings_name_the_stages() -> None:
+    names: list[str] = []
+    found = analyze(np.zeros((40, 2)), KINEME, progress=names.append)
+    stages = ["views", "segments", "borders", "repetitions", "events", "confidence"]
+    assert names == [*found.timings] == stages

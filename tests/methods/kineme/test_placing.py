@@ -1,0 +1,121 @@
+"""Occurrences in their place: nothing is cut, periodic activities keep their repetitions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from kineme.methods.kineme.events import Occurrences
+from kineme.methods.kineme.placing import (
+    Segments,
+    given_up,
+    of_actions,
+    placed,
+    without_still,
+)
+
+BORDERS = np.array([0, 100, 130, 300, 400])
+LABELS = np.array([0, -1, 1, 0])
+
+
+def segments() -> Segments:
+    """An activity of two repetitions, a transition, an activity of one, and the first again."""
+    return Segments(
+        BORDERS,
+        LABELS,
+        np.array([0.9, np.nan, 0.8, 0.7]),
+        np.array([0, 50, 100, 130, 300, 400]),
+        np.array([0, 0, -1, 1, 0]),
+        np.empty(0, np.int64),
+    )
+
+
+def occurring(*spans: tuple[int, int]) -> Occurrences:
+    starts, stops = np.array(spans, np.int64).reshape(-1, 2).T
+    return Occurrences(starts, stops, np.zeros(len(spans), np.int64), np.full(len(spans), 0.5))
+
+
+FREE = np.array([False, True, True, False])
+
+
+def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
+    found = placed(segments(), occurring((140, 180), (220, 260)), FREE)
+    assert found.primitives.tolist() == [0, 50, 100, 130, 140, 180, 220, 260, 300, 400]
+    assert found.clusters.tolist() == [0, 0, -1, -1, 2, -1, 2, -1, 0]
+    assert found.repeats.tolist() == [True, True] + 6 * [False] + [True]
+    assert found.borders.tolist() == BORDERS.tolist()
+    assert found.not_periodic.tolist() == [1]
+
+
+def test_without_occurrences_a_free_activity_has_no_primitive() -> None:
+    found = placed(segments(), occurring(), FREE)
+    assert found.clusters.tolist() == [0, 0, -1, -1, 0]
+
+
+def test_numbers_go_on_after_repetitions_that_are_another_movement() -> None:
+    parts = replace(segments(), clusters=np.array([0, 3, -1, 2, 0]))
+    found = placed(parts, occurring((140, 180), (220, 260)), FREE)
+    assert found.clusters.tolist() == [0, 2, -1, -1, 3, -1, 3, -1, 0]
+    untouched = placed(parts, occurring(), np.zeros(4, np.bool_))
+    assert untouched.clusters.tolist() == [0, 2, -1, 3, 0]
+    assert untouched.not_periodic.size == 0
+
+
+def test_borders_go_to_the_nearer_end_of_an_occurrence() -> None:
+    found = placed(segments(), occurring((120, 180), (220, 260)), FREE)
+    assert found.borders.tolist() == [0, 100, 120, 300, 400]
+    found = placed(segments(), occurring((100, 135), (220, 260)), FREE)
+    assert found.borders.tolist() == [0, 100, 135, 300, 400]
+
+
+def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
+    found = placed(segments(), occurring((100, 270), (280, 300)), FREE)
+    assert found.borders.tolist() == [0, 100, 300, 400]
+    assert found.labels.tolist() == [0, 1, 0]
+    assert found.clusters.tolist() == [0, 0, 2, -1, 2, 0]
+
+
+def alone() -> Segments:
+    """An activity of one repetition, which is 30 long, one that repeats, and one of what recurs."""
+    return Segments(
+        np.array([0, 30, 100, 300]),
+        np.array([0, 1, 2]),
+        np.array([0.9, 0.9, 0.8]),
+        np.array([0, 30, 65, 100, 180, 220, 300]),
+        np.array([0, 1, 1, -1, 3, -1]),
+        np.array([2]),
+    )
+
+
+@pytest.mark.parametrize(("near", "kept"), [(14, True), (15, False), (1000, False)])
+def test_a_single_repetition_that_hardly_moves_is_none(near, kept) -> None:
+    rows = np.arange(300, dtype=np.float32)[:, None]  # 14.5 from the mean of 30 at most
+    found = without_still(alone(), rows, near)
+    assert (found.clusters >= 0).tolist() == [kept, True, True, False, True, False]
+    assert found.not_periodic.tolist() == [2] if kept else [0, 2]
+
+
+def test_repetitions_that_are_given_up_are_no_primitives() -> None:
+    found = given_up(alone(), np.array([1]))
+    assert found.clusters.tolist() == [0, -1, -1, -1, 3, -1]
+    assert found.not_periodic.tolist() == [1, 2]
+    assert found.counts.tolist() == [1, 0, 0]
+    same = alone()
+    assert given_up(same, np.empty(0, np.int64)) is same
+
+
+def test_shares_are_those_of_actions() -> None:
+    shares = np.array([0.8, np.nan, 0.5, 0.2])
+    found = of_actions(shares, np.diff(BORDERS), LABELS)
+    np.testing.assert_allclose(found, [0.5, 0, 0.5, 0.5])
+    found = of_actions(shares, np.diff(BORDERS) * [True, True, False, False], LABELS)
+    np.testing.assert_allclose(found, [0.8, 0, 0, 0.8])
+
+
+def test_occurrences_within_some_segments_recur_there() -> None:
+    found = occurring((140, 180), (220, 260), (310, 350))
+    kept = found.within(BORDERS, FREE)
+    assert kept.starts.tolist() == [140, 220]
+    assert not len(occurring((140, 180), (310, 350)).within(BORDERS, FREE))

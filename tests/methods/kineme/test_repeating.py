@@ -1,0 +1,198 @@
+"""Whether a segment repeats: the kernels' naive twins, and what is saved by what."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import kineme
+import naive
+from gestures import stacked, wandering
+from kineme.datasets import random_recording
+from kineme.methods.kineme import _repeating_kernels as kernels
+from kineme.methods.kineme.found import KinemeFound
+from kineme.methods.kineme.preset import KINEME
+from kineme.methods.kineme.repeating import Repeating
+
+seconds = settings(max_examples=60)
+FPS = round(KINEME.working_fps)
+
+
+def alike(seed: int, count: int, noise: float) -> np.ndarray:
+    """Repetitions of one movement, each of a size of its own, (count, places, dims)."""
+    rng = np.random.default_rng(seed)
+    shape = rng.normal(size=(6, 3)).cumsum(axis=0)
+    sizes = rng.uniform(0.6, 1.4, (count, 1, 1))
+    return sizes * shape + noise * rng.normal(size=(count, 6, 3)) + rng.normal(size=(count, 1, 3))
+
+
+def centered(repetitions: np.ndarray) -> np.ndarray:
+    found = repetitions.copy()
+    kernels.center(found)
+    return found
+
+
+shapes = st.integers(0, 2**32 - 1), st.integers(2, 9), st.sampled_from([0.1, 0.5, 2.0])
+
+
+@given(*shapes)
+@seconds
+def test_repetitions_are_centered_each_on_its_own_mean(seed, count, noise) -> None:
+    repetitions = alike(seed, count, noise)
+    means = repetitions.mean(axis=1, keepdims=True)
+    np.testing.assert_allclose(centered(repetitions), repetitions - means, atol=1e-12)
+
+
+@given(*shapes)
+@seconds
+def test_what_is_explained_is_that_of_the_naive_version(seed, count, noise) -> None:
+    rng = np.random.default_rng(seed)
+    repetitions = alike(seed, count, noise)
+    visits = np.append(0, np.cumsum(rng.integers(4, 12, count)))
+    poses = rng.normal(size=(visits[-1] + 3, 3)).cumsum(axis=0)
+    path = np.append(0, np.cumsum(rng.uniform(0.1, 2, len(poses))))
+    found = kernels.explained(poses, path, visits, centered(repetitions))
+    expected = naive.explained(poses, path, visits.tolist(), list(repetitions))
+    assert found == pytest.approx(expected, abs=1e-9)
+    assert -1e-12 <= found <= 1
+
+
+@given(*shapes)
+@seconds
+def test_the_best_parting_is_that_of_the_naive_version(seed, count, noise) -> None:
+    repetitions = centered(alike(seed, count, noise))
+    found = kernels.best_parted(repetitions)
+    assert found == pytest.approx(naive.best_parted(list(repetitions)), abs=1e-9)
+    assert 0 <= found <= 1
+    if count < 4:  # two of each are the fewest
+        assert found == 1
+
+
+@given(st.integers(0, 99), st.integers(1, 30), st.integers(0, 29), st.integers(1, 30))
+@seconds
+def test_the_spread_is_that_of_the_naive_version(seed, n, start, length) -> None:
+    view = np.random.default_rng(seed).normal(size=(n, 3)).astype(np.float32)
+    start = min(start, n - 1)
+    found = kernels.spread(view, start, start + length, 32)
+    assert found == pytest.approx(naive.spread(view, start, start + length), rel=1e-5, abs=1e-6)
+
+
+def test_few_samples_tell_the_spread_of_many() -> None:
+    view = np.random.default_rng(0).normal(size=(2000, 4)).astype(np.float32)
+    whole, some = (kernels.spread(view, 0, 2000, most) for most in (2000, 32))
+    assert some == pytest.approx(whole, rel=0.1)
+
+
+# --- what is saved ----------------------------------------------------------------------------
+
+
+def squats(count: int, *, seed: int = 0, first: int = 0, period: float = 4.0) -> np.ndarray:
+    """Slow ones, slower and less deep from one to the next; joints shake."""
+    rng = np.random.default_rng(seed)
+    drift = np.linspace(0, 1, count)
+    parts = []
+    for share in drift:
+        frames = round(FPS * period * (1 + 0.25 * share) * rng.uniform(0.95, 1.05))
+        depth = (1 - 0.25 * share) * rng.uniform(0.95, 1.05)
+        angle = np.arange(frames) / frames * 2 * np.pi
+        poses = np.zeros((frames, 6))
+        poses[:, first] = 0.4 * depth * (1 - np.cos(angle))
+        poses[:, (first + 1) % 6] = 0.2 * depth * np.sin(angle)
+        parts.append(poses)
+    rows = np.concatenate(parts)
+    return rows + rng.normal(0, 0.005, rows.shape)
+
+
+def standing(seconds: float, seed: int = 0) -> np.ndarray:
+    return np.random.default_rng(seed).normal(0, 0.005, (round(seconds * FPS), 6))
+
+
+def share_saved(rows: np.ndarray) -> float:
+    """Of what the poses spread, as a view of which each dimension is one of a pose."""
+    view = np.ascontiguousarray(rows[:: round(FPS / KINEME.rate)], np.float32)
+    repeating = Repeating(np.ascontiguousarray(rows, np.float32), KINEME.counting())
+    saved = repeating.saved(view, 2.0, 0, len(view))
+    assert saved == repeating.saved(view, 2.0, 0, len(view))  # what was asked once is known
+    assert 2 * saved == pytest.approx(repeating.saved(view, 1.0, 0, len(view)))
+    return 2.0 * saved / max(kernels.spread(view, 0, len(view), 10_000), 1e-12)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_slow_repetitions_save_most_of_what_they_spread(seed: int) -> None:
+    """Though pace and depth drift."""
+    assert share_saved(squats(10, seed=seed)) > 0.5
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_more_repetitions_save_a_larger_share(seed: int) -> None:
+    shares = [share_saved(squats(count, seed=seed)) for count in (2, 5, 10)]
+    assert shares == sorted(shares)
+
+
+def test_two_repetitions_save_nothing() -> None:
+    """But what is as good as none: up and down are alike where they are slow."""
+    assert share_saved(squats(2)) < 0.05
+    assert share_saved(squats(2, period=3.0)) < 0.05
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_who_stands_or_never_does_the_same_saves_nothing(seed: int) -> None:
+    assert share_saved(standing(30, seed)) == 0
+    assert share_saved(wandering(np.random.default_rng(seed), 30 * FPS)) < 0.1
+    assert share_saved(np.zeros((20 * FPS, 6))) == 0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_two_movements_one_after_the_other_save_nothing_as_one(seed: int) -> None:
+    one, other = squats(6, seed=seed), squats(6, seed=seed + 10, first=3)
+    assert min(share_saved(one), share_saved(other)) > 0.3
+    rows = np.concatenate([one, other]).astype(np.float32)
+    view = np.ascontiguousarray(rows[::6])
+    repeating, (border, end) = Repeating(rows, KINEME.counting()), (len(one) / FPS, len(rows) / FPS)
+    found = repeating.division(0, len(view))
+    if found is not None:
+        start, stop = found.start / KINEME.rate, found.stop / KINEME.rate
+        assert 0 <= start < stop <= end + 1 / KINEME.rate
+        assert found.told < 0.05 or min(border - start, stop - border) < 2
+
+
+def test_what_is_too_short_or_too_long_saves_nothing() -> None:
+    assert share_saved(squats(10)[:20]) == 0
+    assert share_saved(np.tile(squats(10), (3, 1))) == 0  # asked in parts
+
+
+# --- recordings -------------------------------------------------------------------------------
+
+
+def found_in(*parts: np.ndarray) -> KinemeFound:
+    return KINEME.analyze(stacked(np.concatenate(parts)))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_ten_slow_repetitions_are_one_activity_counted_ten(seed: int) -> None:
+    found = found_in(squats(10, seed=seed))
+    assert found.segments.labels.tolist() == [0]
+    assert found.segments.counts.tolist() == [10]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_two_exercises_one_after_the_other_are_two_activities(seed: int) -> None:
+    one, other = squats(8, seed=seed), squats(9, seed=seed + 10, first=3)
+    found = found_in(one, other)
+    assert found.segments.labels.tolist() == [0, 1]
+    assert abs(found.borders[1] - len(one)) <= FPS
+    assert found.segments.counts.tolist() == [8, 9]
+
+
+@pytest.mark.parametrize("seconds", [2, 20, 90])
+def test_where_nothing_moves_is_one_activity_without_primitives(seconds: int) -> None:
+    motion = random_recording(0).motion
+    held = kineme.Motion(
+        motion.skeleton, np.repeat(motion.positions[:1], round(seconds * 30), axis=0), 30.0
+    )
+    found = kineme.segment(held)
+    assert found.activities.stop_frame.tolist() == [held.n_frames]
+    assert (found.primitives.cluster == -1).all()
+    assert not any(found.repetitions().values())

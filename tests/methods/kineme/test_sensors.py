@@ -1,0 +1,251 @@
+"""Sensors: what is posture and energy, a tree of segments, and the level that fits."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sklearn.metrics import normalized_mutual_info_score
+
+import kineme
+import naive
+from kineme.errors import ParameterError
+from kineme.methods.kineme import _tree_kernels as kernels
+from kineme.methods.kineme import tree
+from kineme.methods.kineme.level import part_ends
+from kineme.methods.kineme.preset import SENSORS
+from kineme.methods.kineme.statistics import channel_statistics
+from kineme.methods.kineme.views import holding_down, mutual_information, seen
+
+FPS = 50.0
+DONE = ((0, 0, 0), (0, 1.8, 1), (0, 0, 0), (0, 2.8, 3), (2, 0, 0), (0, 1.8, 1))
+"""Posture, pace and strength of each."""
+
+
+def worn(seed: int = 0) -> tuple[np.ndarray, list[int]]:
+    """Standing, walking, standing, running, lying, walking: six channels, and where each ends."""
+    rng = np.random.default_rng(seed)
+    parts = []
+    for posture, pace, strength in (
+        (0, 0, 0),
+        (0, 1.8, 1),
+        (0, 0, 0),
+        (0, 2.8, 3),
+        (2, 0, 0),
+        (0, 1.8, 1),
+    ):
+        t = np.arange(int(12 * FPS)) / FPS
+        phases = rng.uniform(0, 6, 6)
+        waves = strength * np.sin(2 * np.pi * pace * t[:, None] + phases)
+        parts.append(posture * np.array([1, -1, 0, 0, 0, 0]) + waves)
+    borders = np.cumsum([len(part) for part in parts])[:-1]
+    rows = np.concatenate(parts)
+    return rows + 0.1 * rng.standard_normal(rows.shape), borders.tolist()
+
+
+def samples() -> st.SearchStrategy[np.ndarray]:
+    def made(shape: tuple[int, int, int]) -> np.ndarray:
+        return np.random.default_rng(shape[2]).normal(size=shape[:2]).astype(np.float32)
+
+    return st.tuples(st.integers(2, 12), st.integers(1, 3), st.integers(0, 99)).map(made)
+
+
+@given(samples(), st.integers(1, 14), st.floats(0.1, 5))
+@settings(max_examples=60)
+def test_the_band_is_that_of_the_naive_version(features, width, unit) -> None:
+    width = min(width, len(features))
+    found = np.empty((len(features), width), np.float32)
+    kernels.similarity_band(features, unit, 0, len(features), found)
+    np.testing.assert_allclose(found, naive.similarity_band(features, unit, width), atol=1e-5)
+
+
+@given(samples(), st.data())
+@settings(max_examples=60)
+def test_distances_of_segments_are_those_of_the_naive_version(features, data) -> None:
+    cuts = data.draw(st.sets(st.integers(1, len(features) - 1)))
+    borders = np.array([0, *sorted(cuts), len(features)])
+    sums = tree.between_segments(features, borders, 2.0)
+    segments = [range(a, b) for a, b in pairwise(borders.tolist())]
+    expected = np.array(naive.mean_distances(features, segments, 2.0))
+    lengths = np.diff(borders)
+    np.testing.assert_allclose(sums, expected * np.outer(lengths, lengths), atol=1e-4)
+
+
+@given(samples(), st.integers(1, 8), st.floats(0, 2), st.floats(0, 2), st.floats(0, 1))
+@settings(max_examples=60)
+def test_the_cheapest_grouping_is_that_of_the_naive_version(
+    features, most, run, cluster, share
+) -> None:
+    n = len(features)
+    lengths = 1.0 + np.arange(n) % 3
+    means = np.linalg.norm(features[:, None] - features, axis=2) + 0.1
+    sums = np.ascontiguousarray(means * np.outer(lengths, lengths))
+    cost, groups = naive.cheapest_grouping(sums, lengths, most, run, cluster, share)
+    labels = np.empty(n, np.int64)
+    assert kernels.cheapest_grouping(
+        sums.copy(), lengths.copy(), most, run, cluster, share, labels
+    ) == pytest.approx(cost)
+    assert sorted(np.flatnonzero(labels == g).tolist() for g in np.unique(labels)) == groups
+
+
+def test_two_stretches_of_much_movement_are_one_sooner_than_two_postures() -> None:
+    rng = np.random.default_rng(0)
+    lively, still = rng.normal(size=(40, 8)), 2 + 0.05 * rng.normal(size=(40, 8))
+    still[20:] += 1.0
+    features = np.concatenate([lively, still]).astype(np.float32)
+    sums = tree.between_segments(features, np.arange(0, 81, 20), 1.0)
+    labels = np.empty(4, np.int64)
+    for share, expected in ((0.0, [0, 1, 2, 2]), (SENSORS.spread_share, [0, 0, 2, 3])):
+        kernels.cheapest_grouping(sums.copy(), np.full(4, 20.0), 3, 0.0, 1.0, share, labels)
+        assert labels.tolist() == expected
+
+
+@given(samples(), st.data())
+@settings(max_examples=60)
+def test_each_level_has_the_borders_of_the_coarser_ones(features, data) -> None:
+    cuts = data.draw(st.sets(st.integers(1, len(features) - 1)))
+    borders = np.array([0, *sorted(cuts), len(features)])
+    levels = tree.levels(borders, tree.between_segments(features, borders, 1.0))
+    assert [len(level) - 1 for level in levels] == list(range(1, len(borders)))
+    for coarse, fine in pairwise(levels):
+        assert set(coarse.tolist()) <= set(fine.tolist())
+
+
+def test_activities_of_sensors_are_found_and_known_again() -> None:
+    for seed in range(5):
+        rows, borders = worn(seed)
+        found = kineme.segment(kineme.Signals(rows, FPS))
+        assert found.provenance["preset"] == "sensors"
+        cuts = found.cuts()
+        assert len(cuts) <= len(borders) + 1
+        assert all(np.abs(cuts - border).min() <= FPS for border in borders)
+        middles = np.array([0, *borders]) + int(6 * FPS)
+        standing, walking, again, running, lying, last = found.per_frame("cluster")[middles]
+        assert standing == again
+        assert walking == last
+        assert len({standing, walking, running, lying}) == 4
+
+
+def test_a_slow_recording_has_no_energies_above_its_rate() -> None:
+    fast = channel_statistics(worn()[0], FPS, rate=5, window=1, bands=SENSORS.bands)
+    slow = channel_statistics(worn()[0][::10], FPS / 10, rate=5, window=1, bands=SENSORS.bands)
+    assert (fast.shape[1], slow.shape[1]) == (30, 18)
+    found = kineme.segment(kineme.Signals(worn()[0][::10], FPS / 10))
+    assert found.provenance["parameters"]["working_fps"] == FPS / 10
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3, 10, 60])
+def test_short_and_still_recordings_are_one_activity(frames: int) -> None:
+    rows = np.ones((frames, 2))
+    found = kineme.segment(kineme.Signals(rows, FPS))
+    assert found.activities.stop_frame.tolist() == [frames]
+
+
+def test_dearer_segments_are_fewer_and_cheaper_ones_more() -> None:
+    rows, _ = worn()
+    counts = [
+        len(kineme.segment(kineme.Signals(rows, FPS), segment_cost=cost).activities)
+        for cost in (0.02, 0.15, 2.0, 40.0)
+    ]
+    assert counts == sorted(counts, reverse=True)
+    assert counts[-1] == 1
+
+
+def test_steps_are_counted() -> None:
+    t = np.arange(int(20 * FPS)) / FPS
+    swing = np.column_stack([np.sin(2 * np.pi * t), np.sin(4 * np.pi * t + 1)])
+    rows = swing + 0.02 * np.random.default_rng(0).standard_normal(swing.shape)
+    found = kineme.segment(kineme.Signals(rows, FPS))
+    assert abs(sum(found.repetitions().values()) - 20) <= 1
+
+
+def test_up_and_down_are_one_repetition_though_the_sensor_shakes_alike() -> None:
+    """It is held otherwise on the way up and on the way down."""
+    for times in range(4, 9):
+        phase = 2 * np.pi * np.arange(int(times * 3 * FPS)) / (3 * FPS)
+        shaken = np.column_stack([np.sin(2 * phase), np.cos(2 * phase), np.sin(4 * phase + 1)])
+        held = 0.8 * np.tanh(3 * np.sin(phase))
+        found = kineme.segment(kineme.Signals(np.column_stack([shaken, held]), FPS))
+        assert np.count_nonzero(found.primitives.kind == "activity") == times
+
+
+def test_long_recordings_are_cut_as_finely_as_their_parts_and_known_again() -> None:
+    rows, borders = worn()
+    one, ends = len(rows), [*borders, len(rows)]
+    found = kineme.segment(kineme.Signals(np.tile(rows, (4, 1)), FPS), part=one / FPS)
+    cuts = found.cuts()
+    expected = [turn * one + end for turn in range(4) for end in ends][:-1]
+    assert all(np.abs(cuts - border).min() <= FPS for border in expected)
+    assert len(cuts) <= len(expected) + 4
+    middles = np.array([0, *borders]) + int(6 * FPS)
+    turns = [found.per_frame("cluster")[turn * one + middles].tolist() for turn in range(4)]
+    assert turns[1:] == turns[:1] * 3
+
+
+@given(st.integers(1, 10_000), st.integers(1, 500))
+def test_parts_are_whole_and_none_is_too_long(n: int, longest: int) -> None:
+    lengths = np.diff(part_ends(n, longest))
+    assert lengths.sum() == n
+    assert 1 <= lengths.min() <= lengths.max() <= longest
+
+
+def test_what_channels_share_is_held_down() -> None:
+    rng = np.random.default_rng(0)
+    channels = rng.standard_normal((4000, 1)) + 0.5 * rng.standard_normal((4000, 6))
+    channels = (channels - channels.mean(axis=0)) / channels.std(axis=0)
+
+    def shared(of: np.ndarray) -> float:
+        return float(np.linalg.eigvalsh(np.corrcoef(of.T))[-1])
+
+    assert shared(channels) > 4.5
+    held = channels @ holding_down(channels, 0.3)
+    assert shared(held) < 1.5
+    np.testing.assert_allclose(held.std(axis=0), 1.0)
+    assert holding_down(channels, 1e4) is None
+
+
+def test_the_order_of_channels_changes_nothing() -> None:
+    rows = worn()[0] * [1, -2, 3, 1, 1, 1]
+    rows[:, 3:] = np.cumsum(rows[:, 3:], axis=0)  # slower ones
+    order = np.random.default_rng(0).permutation(6)
+    given, turned = (kineme.segment(kineme.Signals(each, FPS)) for each in (rows, rows[:, order]))
+    assert given.cuts().tolist() == turned.cuts().tolist()
+    assert given.table.cluster.tolist() == turned.table.cluster.tolist()
+
+
+def test_one_channel_has_no_halves_and_one_view_no_rivals() -> None:
+    alone = SENSORS.replace(shared=(0.3,), weights=(1.0,), restless_over=(1.0,))
+    assert len(seen(worn()[0], SENSORS).halves) == 4
+    assert not seen(worn()[0][:, :1], SENSORS).halves
+    assert not seen(worn()[0], alone).halves
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), min_size=2, max_size=40))
+def test_agreement_is_the_mutual_information(pairs) -> None:
+    first, second = np.array(pairs, np.int64).T
+    expected = normalized_mutual_info_score(first, second)
+    assert mutual_information(first, second) == pytest.approx(expected, abs=1e-9)
+
+
+def test_views_need_a_number_of_each_kind() -> None:
+    with pytest.raises(ParameterError, match="a number for each view, not 2, 9 and 9"):
+        SENSORS.replace(shared=(1.0, 0.3))
+    alone = SENSORS.replace(shared=(0.3,), weights=(1.0,), restless_over=(1.0,))
+    found = kineme.segment(kineme.Signals(worn()[0], FPS), preset=alone)
+    assert len(found.activities) >= 6
+
+
+def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
+    t = np.arange(int(60 * FPS)) / FPS
+    height = np.abs((t / 6) % 2 - 1)
+    channels = np.column_stack([height, 2 * height**2])
+    down, up, again = np.round(np.array([15, 21, 27]) * SENSORS.rate).astype(int)  # halfway each
+    joints, sensors = (seen(channels, SENSORS, joints=each).views for each in (True, False))
+    for told, plain in zip(joints, sensors, strict=True):
+        unit = tree.median_distance(plain)
+        assert np.linalg.norm(plain[down] - plain[up]) < 0.05 * unit
+        assert np.linalg.norm(told[down] - told[up]) > 0.3 * unit
+        assert np.linalg.norm(told[down] - told[again]) < 0.05 * unit
