@@ -159,6 +159,8 @@ def looks_at_the_next(screen: Screen) -> None:
     state(screen, "k.selected !== null", "j")
     first = screen.state["selected"]
     state(screen, f"k.selected.start_frame !== {first['start_frame']}", "j")
+    if screen.state["selected"]["level"] == "activity":
+        state(screen, "k.selected === null || k.selected.level === 'primitive'", "a")
 
 
 def checks(key: str) -> Check:

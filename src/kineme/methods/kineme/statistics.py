@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,20 @@ Ints = NDArray[np.int64]
 
 NYQUIST = 0.45
 """Share of the rate up to which a band of frequency can be told."""
+FILTERED = 16
+"""Channels that are filtered at once: that takes several times the memory that they do."""
+
+
+class Mixture(NamedTuple):
+    """Some channels, as they are or multiplied by a matrix."""
+
+    channels: Ints
+    by: Floats | None = None
+
+    def of(self, rows: Floats) -> Floats:
+        """The mixture of the columns of an array."""
+        chosen = rows if len(self.channels) == rows.shape[1] else rows[:, self.channels]
+        return chosen if self.by is None else np.asarray(chosen @ self.by, np.float64)
 
 
 def channel_statistics(
@@ -51,28 +66,34 @@ def channel_statistics(
     >>> channel_statistics(still, 50.0, rate=5.0, window=1.0, bands=(1.0, 4.0, 16.0)).shape
     (50, 6)
     """
-    return means_and_energies(in_bands(channels, fps, bands), fps, rate=rate, window=window)
+    every = Mixture(np.arange(channels.shape[1]))
+    return in_mixtures(channels, [every], fps, rate=rate, window=window, bands=bands)[0]
 
 
-def in_bands(channels: Floats, fps: float, bands: tuple[float, ...]) -> list[Floats]:
-    """The channels as they are, and in each band of frequency."""
-    return [channels] + [
-        _band(channels, fps, low, high) for low, high in pairwise(bands) if low < NYQUIST * fps
-    ]
+def in_mixtures(
+    channels: Floats,
+    mixtures: Sequence[Mixture],
+    fps: float,
+    *,
+    rate: float,
+    window: float,
+    bands: tuple[float, ...],
+) -> list[Floats]:
+    """The statistics of each of these mixtures of the channels.
 
-
-def means_and_energies(
-    parts: Sequence[Floats], fps: float, *, rate: float, window: float
-) -> Floats:
-    """The statistics of what `in_bands` gives, or of its mixtures, `rate` times a second."""
-    frames = len(parts[0])
-    at = sampled_at(frames, fps, rate)
-    width = max(1, round(window * fps))
-    first = np.clip(at - width // 2, 0, frames)
-    last = np.clip(at - width // 2 + width, 0, frames)
-    groups = [_means(parts[0], first, last)]
-    groups += [np.sqrt(np.maximum(_means(band**2, first, last), 0.0)) for band in parts[1:]]
-    return np.hstack(groups)
+    A band at a time: all bands of a long recording are many times as large as itself.
+    """
+    at, width = sampled_at(len(channels), fps, rate), max(1, round(window * fps))
+    first = np.clip(at - width // 2, 0, len(channels))
+    last = np.clip(at - width // 2 + width, 0, len(channels))
+    told = [low < NYQUIST * fps for low in bands[:-1]]
+    edges = [None, *(each for each, known in zip(pairwise(bands), told, strict=True) if known)]
+    groups = []
+    for edge in edges:
+        band = channels if edge is None else _band(channels, fps, *edge)
+        mixed = (mixture.of(band) for mixture in mixtures)
+        groups.append([_means(each, first, last, squared=edge is not None) for each in mixed])
+    return [np.hstack(each) for each in zip(*groups, strict=True)]
 
 
 def sampled_at(frames: int, fps: float, rate: float) -> Ints:
@@ -82,11 +103,16 @@ def sampled_at(frames: int, fps: float, rate: float) -> Ints:
     return at
 
 
-def _means(values: Floats, first: Ints, last: Ints) -> Floats:
-    """The means over the frames from first to last, at the ends over what is there."""
-    sums = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
+def _means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
+    """The means over the frames from first to last, at the ends over what is there.
+
+    Of squares, the root of it.
+    """
+    sums = np.zeros((len(values) + 1, values.shape[1]))
+    np.multiply(values, values if squared else 1.0, out=sums[1:])
+    np.cumsum(sums[1:], axis=0, out=sums[1:])
     means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
-    return means
+    return np.sqrt(np.maximum(means, 0.0)) if squared else means
 
 
 def _band(channels: Floats, fps: float, low: float, high: float) -> Floats:
@@ -98,4 +124,8 @@ def _band(channels: Floats, fps: float, low: float, high: float) -> Floats:
         return np.zeros_like(channels)
     sections = butter(2, edges, "bandpass", fs=fps, output="sos")
     padding = min(len(channels) - 1, int(3 * fps / low))
-    return np.asarray(sosfiltfilt(sections, channels, axis=0, padlen=padding), np.float64)
+    found = np.empty_like(channels)
+    for start in range(0, channels.shape[1], FILTERED):
+        some = slice(start, start + FILTERED)
+        found[:, some] = sosfiltfilt(sections, channels[:, some], axis=0, padlen=padding)
+    return found

@@ -17,14 +17,14 @@ something else than who stands, however little of it channels show.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.kineme.statistics import in_bands, means_and_energies, sampled_at
+from kineme.methods.kineme.statistics import Mixture, in_mixtures, sampled_at
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -62,6 +62,14 @@ class Seen:
     halves: list[NDArray[np.float32]]
 
 
+class Scale(NamedTuple):
+    """What a view answers to both questions, see `KinemeConstants`."""
+
+    shared: float
+    weight: float
+    restless_over: float
+
+
 def seen(
     channels: Floats,
     preset: KinemeConstants,
@@ -87,23 +95,16 @@ def seen(
     """
     centred = channels - channels.mean(axis=0)
     scaled = np.asarray(centred / _deviations(centred), np.float64)
-    bands = in_bands(scaled, preset.working_fps, preset.bands)
-    every = range(len(preset.shared))
-    ends = (every[0], every[-1]) if len(every) > 1 else ()
-    weight = preset.velocity_weight if joints else 0.0
-    views = _in_scales(bands, every, preset, weight)
-    halves = [
-        view
-        for half in slow_and_fast(scaled)
-        for view in _in_scales([band[:, half] for band in bands], ends, preset, weight)
-    ]
+    scales = [*map(Scale, preset.shared, preset.weights, preset.restless_over)]
+    wanted = [(np.arange(scaled.shape[1]), scale) for scale in scales]
+    if len(scales) > 1:
+        halves = slow_and_fast(scaled)
+        wanted += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
+    found = _in_scales(scaled, wanted, preset, preset.velocity_weight if joints else 0.0)
     if carried is not None and carried.any():
         riding = carried[sampled_at(len(carried), preset.working_fps, preset.rate)]
-        views, halves = (
-            [with_rides(view, riding, preset.ride_weight) for view in each]
-            for each in (views, halves)
-        )
-    return Seen(views, halves)
+        found = [with_rides(view, riding, preset.ride_weight) for view in found]
+    return Seen(found[: len(scales)], found[len(scales) :])
 
 
 def with_rides(view: NDArray[np.float32], riding: Floats, weight: float) -> NDArray[np.float32]:
@@ -151,32 +152,38 @@ def slow_and_fast(scaled: Floats) -> list[Ints]:
 
 
 def _in_scales(
-    bands: Sequence[Floats], which: Iterable[int], preset: KinemeConstants, weight: float
+    scaled: Floats,
+    wanted: Sequence[tuple[Ints, Scale]],
+    preset: KinemeConstants,
+    velocity_weight: float,
 ) -> list[NDArray[np.float32]]:
-    """Statistics of channels of which all bands are given, in these scales of the preset.
-
-    With velocities, so many times, if that is not 0.
-    """
-    channels = bands[0].shape[1]
-    raw: dict[float, Floats] = {}
+    """Statistics of channels, these of them in that scale; with velocities, so many times."""
+    mixtures = {
+        (channels.tobytes(), scale.shared): Mixture(
+            channels, holding_down(scaled[:, channels], scale.shared)
+        )
+        for channels, scale in wanted
+    }
+    mixed = in_mixtures(
+        scaled,
+        list(mixtures.values()),
+        preset.working_fps,
+        rate=preset.rate,
+        window=preset.averaging,
+        bands=preset.bands,
+    )
+    statistics = dict(zip(mixtures, mixed, strict=True))
     found = []
-    for i in which:
-        shared, over = preset.shared[i], preset.restless_over[i]
-        if shared not in raw:
-            mixing = holding_down(bands[0], shared)
-            raw[shared] = means_and_energies(
-                bands if mixing is None else [band @ mixing for band in bands],
-                preset.working_fps,
-                rate=preset.rate,
-                window=preset.averaging,
-            )
+    for channels, scale in wanted:
+        own = statistics[channels.tobytes(), scale.shared]
         view = (
-            by_restlessness(raw[shared], round(preset.samples(over)), preset.weights[i])
-            if over
-            else by_deviation(raw[shared], channels, preset.weights[i])
+            by_restlessness(own, round(preset.samples(scale.restless_over)), scale.weight)
+            if scale.restless_over
+            else by_deviation(own, len(channels), scale.weight)
         )
         steps = max(1, round(preset.samples(VELOCITY_OVER)))
-        found.append(with_velocities(view, channels, steps, weight) if weight else view)
+        weight = velocity_weight
+        found.append(with_velocities(view, len(channels), steps, weight) if weight else view)
     return found
 
 
