@@ -128,8 +128,12 @@ def moves_a_border(screen: Screen) -> None:
 
 
 def to_a_segment(screen: Screen) -> None:
-    """A few frames into the fifth primitive."""
+    """To the fifth primitive, whichever level what came before has left."""
     state(screen, "k.frame === 0", "0", "Home")
+    state(screen, "k.frame > 0 && k.selected !== null", "Shift+ArrowRight")
+    if screen.state["selected"]["level"] == "activity":
+        screen.page.keyboard.press("a")
+    state(screen, "k.frame === 0", "Home")
     fifth = screen.starts()[4]
     state(screen, f"k.frame === {fifth}", *["Shift+ArrowRight"] * 4)
 
@@ -159,8 +163,6 @@ def looks_at_the_next(screen: Screen) -> None:
     state(screen, "k.selected !== null", "j")
     first = screen.state["selected"]
     state(screen, f"k.selected.start_frame !== {first['start_frame']}", "j")
-    if screen.state["selected"]["level"] == "activity":
-        state(screen, "k.selected === null || k.selected.level === 'primitive'", "a")
 
 
 def checks(key: str) -> Check:

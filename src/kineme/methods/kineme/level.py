@@ -1,9 +1,5 @@
 """The segments of a stretch of samples: its tree, and the level of it that fits.
 
-Change points are averaged over a second, so what lies between two activities
-can look like one of its own: clusters that are too short to be an action are
-given to their neighbours.
-
 A long recording is cut into equal parts, for the shortest description of hours is coarser than
 that of their minutes, and takes the square of the time. Each part has the level that it would have
 alone. Then clusters of different parts are one, the nearest first, as long as they are nearer to
@@ -27,6 +23,7 @@ from kineme.methods.segments import by_first_appearance
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
+Floats = NDArray[np.float64]
 Samples = NDArray[np.int64]
 
 COMPARED = 64
@@ -83,58 +80,34 @@ def level_of(
         cost=preset.samples(preset.fine_cost),
     )
     sums = tree.between_segments(features, fine, unit)
-    level = tree.best_level(
-        fine,
-        sums,
-        segment_cost=preset.samples(preset.segment_cost),
-        cluster_cost=preset.cluster_price(len(features)),
+    prices = tree.Prices(
+        segment=preset.samples(preset.segment_cost),
+        cluster=preset.cluster_price(len(features)),
         spread_share=preset.spread_share,
         most_clusters=preset.max_clusters,
-        saved=saved,
+        shortest=round(preset.samples(preset.min_action)),
     )
-    borders, labels = joined(
-        level.borders, level.labels, shortest=round(preset.samples(preset.min_action))
-    )
-    return Level(fine, borders, labels, _preference(fine, sums, level, borders))
-
-
-def joined(borders: Samples, labels: Samples, *, shortest: int = 0) -> tuple[Samples, Samples]:
-    """Borders and labels with neighbours of one cluster as one segment.
-
-    A cluster of which no segment has `shortest` samples is what a change looks like while
-    it is averaged over: its segments are parted between their neighbours.
-    """
-    lengths = np.diff(borders)
-    longest = np.zeros(int(labels.max()) + 1, np.int64)
-    np.maximum.at(longest, labels, lengths)
-    rare = longest[labels] < shortest
-    if rare.all():
-        return borders[[0, -1]], np.zeros(1, np.int64)
-    per_sample = np.repeat(np.where(rare, -1, labels), lengths)
-    known = np.flatnonzero(per_sample >= 0)
-    samples = np.arange(len(per_sample))
-    after = np.minimum(np.searchsorted(known, samples), len(known) - 1)
-    before = np.maximum(after - 1, 0)
-    later = np.abs(known[after] - samples) <= np.abs(samples - known[before])
-    per_sample = per_sample[known[np.where(later, after, before)]]
-    first = np.flatnonzero(np.diff(per_sample, prepend=-1))
-    return np.append(first, len(samples)), by_first_appearance(per_sample[first])
-
-
-def _preference(
-    fine: Samples, sums: NDArray[np.float64], level: tree.Grouped, borders: Samples
-) -> NDArray[np.float64]:
-    """How much nearer each segment is to its own cluster than to the next, where it began."""
+    level = tree.best_level(fine, sums, prices, saved)
     at = np.searchsorted(fine, level.borders[:-1])
-    lengths = np.diff(level.borders).astype(np.float64)
-    inner = np.add.reduceat(np.add.reduceat(sums, at, 0), at, 1)
-    members = np.eye(int(level.labels.max()) + 1)[level.labels]
-    means = (inner @ members) / np.outer(lengths, lengths @ members)
-    own = means[np.arange(len(lengths)), level.labels]
-    means[np.arange(len(lengths)), level.labels] = np.inf
-    surer = np.clip(1 - own / np.maximum(means.min(axis=1), 1e-12), 0, 1)
-    middles = (borders[:-1] + borders[1:]) // 2
-    return np.asarray(surer[np.searchsorted(level.borders, middles, "right") - 1], np.float64)
+    preference = preferences(tree.added(sums, at), np.diff(level.borders), level.labels)
+    return Level(fine, level.borders, level.labels, preference)
+
+
+def preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
+    """How much nearer each segment is to its own cluster than to the next, 0 to 1.
+
+    Parameters
+    ----------
+    sums : (segments, segments) array
+        Summed distances of their samples.
+    lengths, labels : (segments,) array
+    """
+    members = np.eye(int(labels.max()) + 1)[labels]
+    means = (sums @ members) / np.outer(lengths, lengths @ members)
+    each = np.arange(len(labels))
+    own = means[each, labels]
+    means[each, labels] = np.inf
+    return np.asarray(np.clip(1 - own / np.maximum(means.min(axis=1), 1e-12), 0, 1), np.float64)
 
 
 def part_ends(n: int, longest: int) -> list[int]:
@@ -172,12 +145,10 @@ def linked(features: NDArray[np.float32], parts: Sequence[Level]) -> Level:
     per_sample = np.repeat(own, np.diff(ends))
     means = _mean_distances(features, per_sample, int(firsts[-1]))
     part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
-    borders, labels = joined(
-        ends, by_first_appearance(link(means, part_of, tree.median_distance(features))[own])
-    )
+    labels = by_first_appearance(link(means, part_of, tree.median_distance(features))[own])
+    first = np.flatnonzero(np.diff(labels, prepend=-1))
     surest = np.concatenate([part.preference for part in parts])
-    middles = (borders[:-1] + borders[1:]) // 2
-    return Level(fine, borders, labels, surest[np.searchsorted(ends, middles, "right") - 1])
+    return Level(fine, np.append(ends[first], ends[-1]), labels[first], surest[first])
 
 
 def link(means: NDArray[np.float64], part_of: Samples, unit: float) -> Samples:

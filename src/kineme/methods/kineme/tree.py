@@ -7,8 +7,10 @@
 3. At each level segments are grouped, the nearest clusters first. Their distance is the
    mean one of their samples, less a share of those within each: where much is going on,
    no two samples are near each other, whatever they are of.
-4. The level and the number of clusters are those of the shortest description:
-   what samples differ within clusters, and a price for each segment and cluster.
+4. Means over a second change slowly, so what lies between two activities looks like one of its
+   own: segments of clusters that are too short to be an action are given to their neighbours.
+5. The level and the number of clusters are those of the shortest description of what is
+   left: what samples differ within clusters, and a price for each segment and cluster.
 
 Sources: change points after Arlot, Celisse and Harchaoui 2019; bottom-up
 segmentation after Keogh, Chu, Hart and Pazzani 2001; distances of clusters less those
@@ -18,8 +20,8 @@ within are Székely and Rizzo's energy distance (2005) where the share is 1; the
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,8 +44,28 @@ EACH_LEVEL, LEVELS = 150, 60
 """Levels up to so many segments are tried one by one; of the others so many."""
 
 
-@dataclass(frozen=True, eq=False)
-class Grouped:
+class Prices(NamedTuple):
+    """What a description costs, in samples at the median distance, and what is told as one.
+
+    Attributes
+    ----------
+    segment, cluster : float
+        Of each.
+    spread_share : float
+        Of the distances within two clusters, by which these are nearer than their samples.
+    most_clusters : int
+    shortest : int
+        Samples of the longest segment of a cluster, at least.
+    """
+
+    segment: float
+    cluster: float
+    spread_share: float
+    most_clusters: int
+    shortest: int
+
+
+class Grouped(NamedTuple):
     """A level of the tree, grouped.
 
     Attributes
@@ -51,11 +73,17 @@ class Grouped:
     borders : (segments + 1,) array
         Samples, from 0 to the end.
     labels : (segments,) array
-        Cluster of each.
+        Cluster of each, numbered as they appear.
+    cost : float
+        Of its description, by samples that stay alike.
+    alone : (segments,) array
+        What the samples of a segment cost, told by themselves: it can save no more by repeating.
     """
 
     borders: Samples
     labels: Samples
+    cost: float
+    alone: Floats
 
 
 def median_distance(features: NDArray[np.float32]) -> float:
@@ -147,14 +175,7 @@ def levels(borders: Samples, sums: Floats) -> list[Samples]:
 
 
 def best_level(
-    borders: Samples,
-    sums: Floats,
-    *,
-    segment_cost: float,
-    cluster_cost: float,
-    spread_share: float,
-    most_clusters: int,
-    saved: Callable[[int, int], float],
+    borders: Samples, sums: Floats, prices: Prices, saved: Callable[[int, int], float]
 ) -> Grouped:
     """The level and clusters of the shortest description.
 
@@ -164,11 +185,7 @@ def best_level(
         Of the finest level.
     sums : (segments, segments) array
         Of `between_segments`.
-    segment_cost, cluster_cost : float
-        What a segment and a cluster cost: samples at the median distance.
-    spread_share : float
-        Of the distances within two clusters, by which these are nearer than their samples.
-    most_clusters : int
+    prices : Prices
     saved : callable
         What a segment, from one sample to another, saves by repeating itself. Grouping does not
         see it: it is taken off the cost of a level, so it decides where segments end.
@@ -177,26 +194,92 @@ def best_level(
     -------
     Grouped
     """
-    best, cheapest = Grouped(borders[[0, -1]], np.zeros(1, np.int64)), np.inf
     tree = levels(borders, sums.copy())
     tried = {*range(min(len(tree), EACH_LEVEL))}
     tried |= {int(at) for at in np.geomspace(1, len(tree), LEVELS).astype(np.int64) - 1}
+    found = [grouped(borders[tree[at]], added(sums, tree[at][:-1]), prices) for at in sorted(tried)]
     known: dict[tuple[int, int], float] = {}
-    for at in sorted(tried):
-        level = tree[at]
-        lengths = np.diff(borders[level]).astype(np.float64)
-        inner = np.add.reduceat(np.add.reduceat(sums, level[:-1], 0), level[:-1], 1)
-        cost = 0.0
-        for span, alone in zip(
-            pairwise(borders[level].tolist()), np.diag(inner) / (2 * lengths), strict=True
-        ):
-            if span not in known:  # what costs less than a segment saves no segment
-                known[span] = min(saved(*span), alone) if alone > segment_cost else 0.0
-            cost -= known[span]
-        labels = np.empty(len(lengths), np.int64)
-        cost += kernels.cheapest_grouping(
-            inner, lengths, most_clusters, segment_cost, cluster_cost, spread_share, labels
-        )
+    best, cheapest = found[0], np.inf
+    for level in sorted(found, key=lambda level: level.cost - level.alone.sum()):
+        if level.cost - level.alone.sum() >= cheapest:  # nor are those that follow cheaper
+            break
+        cost = level.cost
+        for span, alone in zip(pairwise(level.borders.tolist()), level.alone, strict=True):
+            if alone > prices.segment:  # what costs less than a segment saves none
+                if span not in known:
+                    known[span] = saved(*span)
+                cost -= min(known[span], alone)
         if cost < cheapest:
-            cheapest, best = cost, Grouped(borders[level], by_first_appearance(labels))
+            best, cheapest = level, cost
     return best
+
+
+def grouped(borders: Samples, sums: Floats, prices: Prices) -> Grouped:
+    """Segments in clusters, without clusters that are too short, and what that costs.
+
+    Parameters
+    ----------
+    borders : (segments + 1,) array
+    sums : (segments, segments) array
+        Summed distances of their samples.
+    prices : Prices
+    """
+    lengths = np.diff(borders).astype(np.float64)
+    labels = np.empty(len(lengths), np.int64)
+    kernels.cheapest_grouping(
+        sums.copy(),
+        lengths.copy(),
+        prices.most_clusters,
+        prices.segment,
+        prices.cluster,
+        prices.spread_share,
+        labels,
+    )
+    labels = without_short(labels, lengths, sums, prices.shortest)
+    first = np.flatnonzero(np.diff(labels, prepend=-1))
+    lengths, sums = np.add.reduceat(lengths, first), added(sums, first)
+    labels = by_first_appearance(labels[first])
+    members = np.eye(int(labels.max()) + 1)[labels]
+    within = np.einsum("sc,st,tc->c", members, sums, members) / (2 * lengths @ members)
+    cost = within.sum() + prices.segment * len(labels) + prices.cluster * len(within)
+    return Grouped(
+        np.append(borders[first], borders[-1]), labels, cost, np.diag(sums) / (2 * lengths)
+    )
+
+
+def without_short(labels: Samples, lengths: Floats, sums: Floats, shortest: float) -> Samples:
+    """Clusters of segments, those of clusters of which no run is that long given to neighbours.
+
+    Of those between two that are long enough the first go to the one before and the others to the
+    one after, such that they are nearest to its cluster.
+
+    Examples
+    --------
+    >>> places = np.array([0.0, 1.0, 4.0, 5.0])
+    >>> lengths = np.array([9.0, 2.0, 2.0, 9.0])
+    >>> sums = np.abs(places - places[:, None]) * np.outer(lengths, lengths)
+    >>> without_short(np.arange(4), lengths, sums, 7).tolist()
+    [0, 0, 3, 3]
+    """
+    first = np.flatnonzero(np.diff(labels, prepend=-1))
+    longest = np.zeros(int(labels.max()) + 1)
+    np.maximum.at(longest, labels[first], np.add.reduceat(lengths, first))
+    known = np.flatnonzero(longest[labels] >= shortest)
+    if not len(known):
+        return np.zeros_like(labels)
+    kept = labels.copy()
+    kept[: known[0]], kept[known[-1] :] = labels[known[0]], labels[known[-1]]
+    members = np.eye(len(longest))[labels]
+    apart = (sums @ members) / np.maximum(lengths @ members, 1.0)
+    for before, after in pairwise(known.tolist()):
+        short = slice(before + 1, after)
+        gained = apart[short, labels[after]] - apart[short, labels[before]]
+        given = int(np.cumsum([0.0, *-gained]).argmin())
+        kept[before + 1 : before + 1 + given] = labels[before]
+        kept[before + 1 + given : after] = labels[after]
+    return kept
+
+
+def added(sums: Floats, first: Samples) -> Floats:
+    """Sums of segments as those of runs of them that begin at `first`."""
+    return np.asarray(np.add.reduceat(np.add.reduceat(sums, first, 0), first, 1), np.float64)
