@@ -122,7 +122,7 @@ class KinemeConstants(Preset):
     )
     chance_period: float = constant(
         "what repeats within this is one thing to samples already", unit="s", limits=SOME_TIME,
-        fine=True, default=1.7,
+        fine=True, default=1.6,
     )  # fmt: skip
     max_repetition: float = constant(
         "longest repetition: what lasts longer is a course of activities", unit="s",
@@ -130,7 +130,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     uneven: float = constant(
         "standard deviation of the logarithms of durations from which nothing repeats",
-        limits=SOME_FACTOR, fine=True, default=0.6,
+        limits=SOME_FACTOR, fine=True, default=0.8,
     )  # fmt: skip
     # Borders, to the frame.
     border_shift: float = constant(
