@@ -238,6 +238,17 @@ def test_views_need_a_number_of_each_kind() -> None:
     assert len(found.activities) >= 6
 
 
+def test_what_samples_differ_by_does_not_hang_on_what_else_a_file_has() -> None:
+    rng = np.random.default_rng(0)
+    minute = np.repeat(rng.normal(size=(6, 4)), 50, axis=0) + rng.normal(0, 0.1, (300, 4))
+    others = [10 * k + minute for k in range(20)]
+    alone, joined = (
+        tree.median_distance(np.float32(features), SENSORS.near)
+        for features in (minute, np.concatenate(others))
+    )
+    assert alone == pytest.approx(joined, rel=0.25)
+
+
 def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
     t = np.arange(int(60 * FPS)) / FPS
     height = np.abs((t / 6) % 2 - 1)
@@ -245,7 +256,7 @@ def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
     down, up, again = np.round(np.array([15, 21, 27]) * SENSORS.rate).astype(int)  # halfway each
     joints, sensors = (seen(channels, SENSORS, joints=each).views for each in (True, False))
     for told, plain in zip(joints, sensors, strict=True):
-        unit = tree.median_distance(plain)
+        unit = tree.median_distance(plain, SENSORS.near)
         assert np.linalg.norm(plain[down] - plain[up]) < 0.05 * unit
         assert np.linalg.norm(told[down] - told[up]) > 0.3 * unit
         assert np.linalg.norm(told[down] - told[again]) < 0.05 * unit

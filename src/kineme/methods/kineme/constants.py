@@ -1,8 +1,8 @@
 """The constants of the method, stage by stage, with their values for bodies.
 
-Costs are times at the median distance of two samples of the recording: a cost of 0.15 s is
+Costs are times at the median distance of two samples within a minute: a cost of 0.15 s is
 paid off by 0.15 s of samples as far apart as any two usually are. So they mean the same whatever
-is measured. Lengths of events are in body sizes.
+is measured, and for however long. Lengths of events are in body sizes.
 """
 
 from __future__ import annotations
@@ -81,6 +81,10 @@ class KinemeConstants(Preset):
     part: float = constant(
         "a longer recording is segmented in parts of this at most", unit="s", limits=SOME_TIME,
         fine=True, default=600.0,
+    )  # fmt: skip
+    unit_over: float = constant(
+        "the median distance is that of samples within this of each other", unit="s",
+        limits=SOME_TIME, fine=True, default=60.0,
     )  # fmt: skip
     fine_cost: float = constant(
         "what a border of the finest level must gain: time at the median distance", unit="s",
@@ -252,6 +256,11 @@ class KinemeConstants(Preset):
     def samples(self, seconds: float) -> float:
         """Seconds in samples, at `rate`."""
         return seconds * self.rate
+
+    @property
+    def near(self) -> int:
+        """`unit_over` in samples."""
+        return max(2, round(self.samples(self.unit_over)))
 
     @property
     def step(self) -> int:

@@ -68,7 +68,7 @@ def level_of(
     repeating : Repeating, optional
         What tells how much a span saves by repeating itself; by default nothing does.
     """
-    unit = tree.median_distance(features)
+    unit = tree.median_distance(features, preset.near)
 
     def saved(start: int, stop: int) -> float:
         return repeating.saved(features, unit, start, stop) if repeating else 0.0
@@ -122,7 +122,7 @@ def part_ends(n: int, longest: int) -> list[int]:
     return [round(n * part / count) for part in range(count + 1)]
 
 
-def linked(features: NDArray[np.float32], parts: Sequence[Level]) -> Level:
+def linked(features: NDArray[np.float32], parts: Sequence[Level], unit: float) -> Level:
     """The parts one after the other, with clusters that mean the same in all of them.
 
     Parameters
@@ -130,6 +130,8 @@ def linked(features: NDArray[np.float32], parts: Sequence[Level]) -> Level:
     features : (samples, dims) array
         Of the whole recording.
     parts : sequence of Level
+    unit : float
+        Clusters farther apart are not linked.
     """
     if len(parts) == 1:
         return parts[0]
@@ -145,7 +147,7 @@ def linked(features: NDArray[np.float32], parts: Sequence[Level]) -> Level:
     per_sample = np.repeat(own, np.diff(ends))
     means = _mean_distances(features, per_sample, int(firsts[-1]))
     part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
-    labels = by_first_appearance(link(means, part_of, tree.median_distance(features))[own])
+    labels = by_first_appearance(link(means, part_of, unit)[own])
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     surest = np.concatenate([part.preference for part in parts])
     return Level(fine, np.append(ends[first], ends[-1]), labels[first], surest[first])

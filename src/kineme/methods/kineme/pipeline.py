@@ -42,9 +42,10 @@ Rows = NDArray[np.float32]
 
 
 class Agreed(NamedTuple):
-    """A view, (samples, dims), and its level."""
+    """A view, (samples, dims), the distance in it that counts as 1, and its level."""
 
     view: Rows
+    unit: float
     level: Level
 
 
@@ -100,7 +101,7 @@ def _analyze(
     with stage("views"):
         statistics = seen(rows, preset, carried, joints=joints)
     with stage("segments"):
-        features, level = _agreed(statistics.views, statistics.halves, slower, preset)
+        features, unit, level = _agreed(statistics.views, statistics.halves, slower, preset)
     with stage("borders"):
         frames = _in_frames(level.borders, preset, len(rows))
         frames = to_the_frame(rows, frames, preset)
@@ -115,7 +116,6 @@ def _analyze(
     with stage("confidence"):
         shown = evidence(slower, segments, counting)
     fine = carried_over(level.fine, level.borders, in_samples(frames, preset, len(features)))
-    unit = median_distance(features)
     return KinemeFound(features, preset, unit, segments, len(rows), shown, fine, timings)
 
 
@@ -135,7 +135,8 @@ def _agreed(views: list[Rows], halves: list[Rows], slower: Rows, preset: KinemeC
     if len(views) > 1:
         answers, others = [plain(view) for view in views], [plain(half) for half in halves]
         chosen = views[most_agreed(answers, others)]
-    return Agreed(chosen, linked(chosen, map_threads(whole, spans)))
+    unit = median_distance(chosen, preset.near)
+    return Agreed(chosen, unit, linked(chosen, map_threads(whole, spans), unit))
 
 
 def _in_frames(borders: Frames, preset: KinemeConstants, n: int) -> Frames:

@@ -34,7 +34,7 @@ from kineme.methods.segments import by_first_appearance
 Floats = NDArray[np.float64]
 Samples = NDArray[np.int64]
 
-PAIRS = 1000
+PAIRED = 1000
 """Samples whose distances tell the median one."""
 COMPARED = 12_000
 """Samples that stand for all segments of a long recording."""
@@ -86,13 +86,24 @@ class Grouped(NamedTuple):
     alone: Floats
 
 
-def median_distance(features: NDArray[np.float32]) -> float:
-    """The median distance of two samples; 1 where all are equal."""
+def median_distance(features: NDArray[np.float32], width: int) -> float:
+    """The median distance of two samples that are so near in time; 1 where all are equal.
+
+    What is done in an hour differs more than what is done in each of its minutes: of all samples,
+    the distance would tell how long a recording is.
+
+    Parameters
+    ----------
+    features : (samples, dims) array
+    width : int
+        Samples.
+    """
     from scipy.spatial.distance import pdist
 
-    n = min(len(features), PAIRS)
-    at = (np.arange(n) * len(features)) // n
-    middle = float(np.median(pdist(features[at]))) if n > 1 else 0.0
+    at = spread(0, len(features), PAIRED)
+    near = pdist(at[:, None]) < max(width, 2 * len(features) // PAIRED)
+    apart = pdist(features[at])[near]
+    middle = float(np.median(apart)) if len(apart) else 0.0
     return middle if middle > 1e-9 else 1.0
 
 
