@@ -241,12 +241,13 @@ def test_views_need_a_number_of_each_kind() -> None:
 def test_what_samples_differ_by_does_not_hang_on_what_else_a_file_has() -> None:
     rng = np.random.default_rng(0)
     minute = np.repeat(rng.normal(size=(6, 4)), 50, axis=0) + rng.normal(0, 0.1, (300, 4))
-    others = [10 * k + minute for k in range(20)]
+    others = [k + minute for k in range(20)]
     alone, joined = (
         tree.median_distance(np.float32(features), SENSORS.near)
         for features in (minute, np.concatenate(others))
     )
-    assert alone == pytest.approx(joined, rel=0.25)
+    assert joined < 1.5 * alone
+    assert tree.median_distance(np.float32(np.concatenate(others)), 10**6) > 4 * alone
 
 
 def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
