@@ -10,6 +10,8 @@ from kineme._compiled import OPTIONS
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 LEAST = 2
 """Repetitions of a movement."""
+ROUGH = 0.02
+"""Share of their variance by which repetitions of one movement differ anyhow."""
 
 
 @njit("void(float64[:, :, ::1])", **OPTIONS)
@@ -97,12 +99,16 @@ def best_parted(centered):
     for k in range(count):
         for e in range(rows.shape[1]):
             sums[k + 1, e] = sums[k, e] + rows[k, e]
-    whole = max(_left(rows, sums[count], 0, count), 1e-12)
+    rough = 1e-12
+    for k in range(count):
+        for e in range(rows.shape[1]):
+            rough += ROUGH * rows[k, e] * rows[k, e]
+    whole = _left(rows, sums[count], 0, count)
     best = 1.0
     for cut in range(LEAST, count - LEAST + 1):
         parted = _left(rows, sums[cut], 0, cut)
         parted += _left(rows, sums[count] - sums[cut], cut, count)
-        best = min(best, parted / whole)
+        best = min(best, (parted + rough) / (whole + rough))
     return best
 
 
