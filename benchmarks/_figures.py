@@ -27,6 +27,7 @@ _measured: dict[str, float | str] = {}
 
 
 def add_option(parser: argparse.ArgumentParser) -> None:
+    atexit.register(_tell)
     parser.add_argument(OPTION, action="store_true", help=f"keep the numbers in {FILE.name}")
 
 
@@ -38,8 +39,6 @@ def record(name: str, value: float | str, *, unit: str = "") -> None:
     if is_quick():
         return
     if OPTION not in sys.argv:
-        if not _measured:
-            atexit.register(lambda: print("\n".join(compared(_measured))))
         _measured[name] = value
         return
     figures = _kept()
@@ -67,6 +66,11 @@ def compared(measured: dict[str, float | str]) -> list[str]:
             other = "" if kept["command"] == _command() else f" by {kept['command']}"
             lines.append(f"  {name}: {value}, {kept['value']} recorded {kept['date']}{other}")
     return [f"{same} of {len(measured)} figures as recorded{':' if lines else ''}", *lines]
+
+
+def _tell() -> None:
+    if _measured:
+        print("\n".join(compared(_measured)))
 
 
 def _kept() -> dict[str, dict[str, float | str]]:

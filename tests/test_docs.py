@@ -27,7 +27,6 @@ import kineme
 from kineme.datasets import bundled_recording
 from kineme.labels import read_segments, write_segments
 from kineme.segments.table import DESCRIBED
-from typed_figures import MARKED
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -35,6 +34,7 @@ NOTEBOOKS = sorted((ROOT / "docs").rglob("*.ipynb"))
 RUN = runpy.run_path(str(ROOT / "docs" / "run_pages.py"))
 FIGURES = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))
 FILL = runpy.run_path(str(ROOT / "docs" / "fill_figures.py"))
+QUOTED = FILL["quoted"](FILL["QUOTED"].read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -146,27 +146,23 @@ def test_a_benchmark_records_only_when_asked(
     _figures.record("noise.borders", "3 of 4")
     figures = json.loads(file.read_text(encoding="utf-8"))
     assert figures["noise.counts"]["command"] == "python -m benchmarks noise --seeds 3"
-    page = (
-        "<!-- figure: noise.counts .0f -->91<!-- / -->, <!-- figure: noise.borders s -->?<!-- / -->"
-    )
-    shown = re.sub("<!--.*?-->", "", FILL["filled"](page, figures))
-    assert shown == "92, 3 of 4"
+    assert FILL["filled"](
+        "91 %, ? of 4.\n91 again, 2 of\n4 right",
+        ["{noise.counts .0f} %", "again, {noise.borders s} right"],
+        figures,
+    ) == ("92 %, ? of 4.\n91 again, 3 of 4 right")
 
 
-@pytest.mark.parametrize("page", FILL["PAGES"], ids=lambda page: page.name)
-def test_marked_figures_are_the_recorded_ones(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    assert FILL["filled"](text, FIGURES) == text, "run python docs/fill_figures.py"
-    assert len(re.findall("<!-- figure:", text)) == len(FILL["MARK"].findall(text))
-    assert not re.search("^ *<!-- (figure|stated):", text, flags=re.MULTILINE), (
-        "a mark begins a line"
-    )
+@pytest.mark.parametrize("page", QUOTED)
+def test_quoted_figures_are_the_recorded_ones(page: str) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    assert FILL["filled"](text, QUOTED[page], FIGURES) == text, "run python docs/fill_figures.py"
 
 
-def test_scores_in_the_readme_are_marked() -> None:
+def test_scores_in_the_readme_are_quoted() -> None:
     """Or say where they come from, as those that the papers print."""
-    text = MARKED.sub("", (ROOT / "README.md").read_text(encoding="utf-8"))
-    assert not re.findall(r"\d\.\d{3}", text)
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert not re.findall(r"\d\.\d{3}", FILL["unquoted"](text, QUOTED["README.md"]))
 
 
 def test_results_are_the_recorded_figures() -> None:

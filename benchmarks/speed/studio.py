@@ -11,6 +11,7 @@ Compiled code is cached, as after the first run ever.
 
 from __future__ import annotations
 
+import atexit
 import json
 import os
 import re
@@ -66,6 +67,7 @@ def start(folder: Path) -> Studio:
     process = subprocess.Popen(
         [*command, "--no-browser", "--port", "0"], stdout=subprocess.PIPE, text=True
     )
+    atexit.register(process.kill)  # so that it does not outlive a benchmark that fails
     found = re.search(r"(http://\S+)/\?token=(\S+)", process.stdout.readline())  # type: ignore[union-attr]
     return Studio(process, found[1], found[2])  # type: ignore[index]
 
@@ -139,7 +141,7 @@ def again(folder: Path, runs: int) -> dict[str, Took]:
     revision = revision_found(studio, one)
     found = {}
     for preset in (DEFAULT, *PUBLISHED):
-        constant = "border_cost" if preset == "kineme" else "radius"
+        constant = "segment_cost" if preset == "kineme" else "radius"
         value = getattr(PRESETS[preset], constant)
         times = []
         for run in range(runs + 1):
