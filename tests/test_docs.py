@@ -106,6 +106,18 @@ def test_tables_of_constants_are_those_of_the_presets() -> None:
     }
 
 
+def test_constants_on_the_page_of_the_method_are_those_of_the_preset() -> None:
+    """And of the preset for sensors, where that stands in brackets."""
+    text = (ROOT / "docs" / "method.md").read_text(encoding="utf-8")
+    told = re.findall(r"`(\w+)`\s=\s([\d.]*\d)(?:\s\(([\d.]+)\))?", text)
+    for name, bodies, sensors in told:
+        for preset, value in (("kineme", bodies), ("sensors", sensors)):
+            if value:
+                shipped = getattr(kineme.PRESETS[preset], name)
+                assert shipped in (float(value), (float(value),)), f"{name} of {preset}"
+    assert len(told) > 30
+
+
 def test_every_constant_of_the_published_methods_has_its_source() -> None:
     method = (ROOT / "docs" / "published.md").read_text(encoding="utf-8")
     chapter = method.partition("## Constants\n")[2].partition("\n## ")[0]
