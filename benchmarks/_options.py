@@ -1,8 +1,9 @@
 """What every benchmark asks of its command line, and how it says that it cannot run.
 
 ``--quick`` goes the whole way on as little as there is, in seconds: it shows that the benchmark
-runs, not what it finds, and its figures are never recorded. ``benchmarks/quick.py`` runs all of
-them so. What recordings, packages or programs a benchmark lacks, it says, and ends as skipped.
+runs, not what it finds, and its figures are never recorded. ``python -m benchmarks all --quick``
+runs all of them so. What recordings, packages or programs a benchmark lacks, it says, and ends as
+skipped.
 """
 
 from __future__ import annotations

@@ -27,7 +27,6 @@ import kineme
 from kineme.datasets import bundled_recording
 from kineme.labels import read_segments, write_segments
 from kineme.segments.table import DESCRIBED
-from typed_figures import MARKED
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -35,6 +34,7 @@ NOTEBOOKS = sorted((ROOT / "docs").rglob("*.ipynb"))
 RUN = runpy.run_path(str(ROOT / "docs" / "run_pages.py"))
 FIGURES = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))
 FILL = runpy.run_path(str(ROOT / "docs" / "fill_figures.py"))
+QUOTED = FILL["quoted"](FILL["QUOTED"].read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -106,6 +106,18 @@ def test_tables_of_constants_are_those_of_the_presets() -> None:
     }
 
 
+def test_constants_on_the_page_of_the_method_are_those_of_the_preset() -> None:
+    """And of the preset for sensors, where that stands in brackets."""
+    text = (ROOT / "docs" / "method.md").read_text(encoding="utf-8")
+    told = re.findall(r"`(\w+)`\s=\s([\d.]*\d)(?:\s\(([\d.]+)\))?", text)
+    for name, bodies, sensors in told:
+        for preset, value in (("kineme", bodies), ("sensors", sensors)):
+            if value:
+                shipped = getattr(kineme.PRESETS[preset], name)
+                assert shipped in (float(value), (float(value),)), f"{name} of {preset}"
+    assert len(told) > 30
+
+
 def test_every_constant_of_the_published_methods_has_its_source() -> None:
     method = (ROOT / "docs" / "published.md").read_text(encoding="utf-8")
     chapter = method.partition("## Constants\n")[2].partition("\n## ")[0]
@@ -125,9 +137,9 @@ def test_set_up_commands_are_the_first_of_the_readme() -> None:
 
 def test_figures_say_what_measured_them() -> None:
     for name, figure in FIGURES.items():
-        script = re.fullmatch(r"python benchmarks/(\w+)\.py.*", figure["command"])
+        script = re.match(r"python -m benchmarks (\w+)", figure["command"])
         assert script, name
-        assert (ROOT / "benchmarks" / f"{script[1]}.py").is_file()
+        assert list((ROOT / "benchmarks").glob(f"*/{script[1]}.py"))
         assert name.startswith(f"{script[1]}.")
         assert dt.date.fromisoformat(figure["date"])
         assert figure.keys() == {"value", "unit", "command", "version", "date"}
@@ -138,35 +150,31 @@ def test_a_benchmark_records_only_when_asked(
 ) -> None:
     file = tmp_path / "figures.json"
     monkeypatch.setattr(_figures, "FILE", file)
-    monkeypatch.setattr(sys, "argv", ["benchmarks/noise.py", "--seeds", "3"])
+    monkeypatch.setattr(sys, "argv", ["benchmarks/papers/noise.py", "--seeds", "3"])
     _figures.record("noise.counts", 91.0, unit="%")
     assert not file.exists()
     monkeypatch.setattr(sys, "argv", [*sys.argv, "--record"])
     _figures.record("noise.counts", 92.5, unit="%")
     _figures.record("noise.borders", "3 of 4")
     figures = json.loads(file.read_text(encoding="utf-8"))
-    assert figures["noise.counts"]["command"] == "python benchmarks/noise.py --seeds 3"
-    page = (
-        "<!-- figure: noise.counts .0f -->91<!-- / -->, <!-- figure: noise.borders s -->?<!-- / -->"
-    )
-    shown = re.sub("<!--.*?-->", "", FILL["filled"](page, figures))
-    assert shown == "92, 3 of 4"
+    assert figures["noise.counts"]["command"] == "python -m benchmarks noise --seeds 3"
+    assert FILL["filled"](
+        "91 %, ? of 4.\n91 again, 2 of\n4 right",
+        ["{noise.counts .0f} %", "again, {noise.borders s} right"],
+        figures,
+    ) == ("92 %, ? of 4.\n91 again, 3 of 4 right")
 
 
-@pytest.mark.parametrize("page", FILL["PAGES"], ids=lambda page: page.name)
-def test_marked_figures_are_the_recorded_ones(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    assert FILL["filled"](text, FIGURES) == text, "run python docs/fill_figures.py"
-    assert len(re.findall("<!-- figure:", text)) == len(FILL["MARK"].findall(text))
-    assert not re.search("^ *<!-- (figure|stated):", text, flags=re.MULTILINE), (
-        "a mark begins a line"
-    )
+@pytest.mark.parametrize("page", QUOTED)
+def test_quoted_figures_are_the_recorded_ones(page: str) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    assert FILL["filled"](text, QUOTED[page], FIGURES) == text, "run python docs/fill_figures.py"
 
 
-def test_scores_in_the_readme_are_marked() -> None:
+def test_scores_in_the_readme_are_quoted() -> None:
     """Or say where they come from, as those that the papers print."""
-    text = MARKED.sub("", (ROOT / "README.md").read_text(encoding="utf-8"))
-    assert not re.findall(r"\d\.\d{3}", text)
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert not re.findall(r"\d\.\d{3}", FILL["unquoted"](text, QUOTED["README.md"]))
 
 
 def test_results_are_the_recorded_figures() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import runpy
 from pathlib import Path
 
@@ -15,13 +14,17 @@ MADE_WHOLE = ("results", "changes")
 """Pages made from a template, which another test holds to its figures, and the changelog."""
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FILL = runpy.run_path(str(ROOT / "docs" / "fill_figures.py"))
+QUOTED = FILL["quoted"](FILL["QUOTED"].read_text(encoding="utf-8"))
+FIGURE = "It takes {growth.kineme.1_h.seconds .1f} s."
 
 
 @pytest.mark.parametrize(
     "page", [page for page in PAGES if page.stem not in MADE_WHOLE], ids=lambda page: page.stem
 )
 def test_speed_and_memory_are_measured_or_say_where_they_come_from(page: Path) -> None:
-    assert list(typed_figures(page.read_text(encoding="utf-8"))) == []
+    text = page.read_text(encoding="utf-8")
+    passages = QUOTED.get(page.relative_to(ROOT).as_posix(), ())
+    assert list(typed_figures(FILL["unquoted"](text, passages))) == []
 
 
 @pytest.mark.parametrize(
@@ -42,8 +45,6 @@ def test_a_typed_figure_is_found(typed: str) -> None:
     "fine",
     [
         "A border counts within 0.25 s of the true one.",
-        "It takes <!-- figure: growth.kineme.1_h.seconds .1f -->3.0<!-- / --> s.",
-        "It takes <!-- stated: the paper -->35.3 s<!-- / -->.",
         "It takes what it is given:\n\n```python\nsleep(3)  # takes 3 s\n```\n",
         "| | border F1 (0.5 s) |\n|---|---|\n| a | 0.70 |",
     ],
@@ -52,7 +53,35 @@ def test_what_is_measured_or_no_cost_is_fine(fine: str) -> None:
     assert list(typed_figures(fine)) == []
 
 
+@pytest.mark.parametrize(
+    ("page", "passage"),
+    [
+        ("Much.\nIt takes\n3.0 s.", FIGURE),
+        ("It takes 35.3 s.", "takes {35.3 s; stated: the paper}."),
+        ("| file | seconds |\n|---|---|\n| a | 0.12 |", "| a | {reading.a.seconds .2f} |"),
+    ],
+)
+def test_a_quoted_figure_is_no_typed_one(page: str, passage: str) -> None:
+    assert list(typed_figures(page))
+    assert not list(typed_figures(FILL["unquoted"](page, [passage])))
+
+
 def test_a_figure_still_to_be_measured_is_a_dash() -> None:
-    page = "<!-- figure: growth.kineme.1_h.seconds .1f -->11.0<!-- / --> s"
-    filled = FILL["filled"](page, {"growth.kineme.1_h.seconds": {"value": None}})
-    assert re.sub("<!--.*?-->", "", filled) == "– s"
+    page, named = "It takes 11.0 s. It takes 11.0 h.", "growth.kineme.1_h.seconds"
+    assert FILL["filled"](page, [FIGURE], {named: {"value": None}}) == (
+        "It takes – s. It takes 11.0 h."
+    )
+    dash = FILL["filled"](page, [FIGURE], {named: {"value": None}})
+    assert FILL["filled"](dash, [FIGURE], {named: {"value": 11}}) == page
+
+
+@pytest.mark.parametrize("page", ["It takes long.", "It takes 1 s. It takes 2 s."])
+def test_a_passage_is_there_as_often_as_it_is_listed(page: str) -> None:
+    with pytest.raises(LookupError, match="not 1 times there"):
+        FILL["filled"](page, [FIGURE], {})
+
+
+def test_rows_that_look_alike_are_told_by_their_order() -> None:
+    page, figures = "| a | 1 |\n\n| a | 2 |\n| a | 1 | 2 |", {"x": {"value": 3}, "y": {"value": 4}}
+    found = FILL["filled"](page, ["| a | {x d} |", "| a | {y d} |"], figures)
+    assert found == "| a | 3 |\n\n| a | 4 |\n| a | 1 | 2 |"

@@ -2,8 +2,8 @@
 
 Lengths of time are also what a method is told ("borders within 0.25 s"), so seconds count where
 the sentence is about what work takes; memory and "times as fast" count anywhere, and so does
-every number in a column whose head is a unit of either. What ``docs/fill_figures.py`` fills in,
-and what says with ``<!-- stated: why -->`` where it comes from, is not typed.
+every number in a column whose head is a unit of either. What ``docs/quoted.txt`` lists is measured
+or says where it comes from: it is to be taken off before.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ import re
 from collections.abc import Iterator
 from itertools import groupby
 
-MARKED = re.compile(r"<!-- (?:figure|stated): .*?-->.*?<!-- / -->", re.DOTALL)
 CODE = re.compile(r"^```.*?^```|`[^`\n]*`", re.DOTALL | re.MULTILINE)
 NUMBER = r"(?<![\w.,/@-])\d[\d.,]*(?: to \d[\d.,]*)?"
 MEMORY = re.compile(NUMBER + r"\s(?:kB|MB|GB|TB|ms|µs)\b")
@@ -27,7 +26,7 @@ HEAD = re.compile(r"\b(?:seconds|milliseconds|MB|GB|memory|times (?:the split|as
 
 def typed_figures(page: str) -> Iterator[str]:
     """Each such number with the words around it."""
-    text = CODE.sub("", MARKED.sub("", page))
+    text = CODE.sub("", page)
     lines = text.splitlines()
     for is_table, group in groupby(lines, key=lambda line: line.startswith("|")):
         if is_table:

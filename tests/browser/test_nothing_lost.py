@@ -1,6 +1,6 @@
 """A robot edits on a slow line, reloads, kills the server and changes tabs: nothing is lost.
 
-benchmarks/studio_robot.py lets it do so 500 times on three recordings, with five seeds.
+`python -m benchmarks studio_robot` lets it do so 500 times on three recordings, with five seeds.
 """
 
 from __future__ import annotations

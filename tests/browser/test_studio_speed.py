@@ -1,6 +1,6 @@
 """The studio is quick enough to work with, whatever else the machine does.
 
-What it reaches on its own is printed by benchmarks/studio_in_browser.py.
+What it reaches on its own is printed by `python -m benchmarks studio_in_browser`.
 """
 
 from __future__ import annotations

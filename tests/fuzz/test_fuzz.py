@@ -1,4 +1,4 @@
-"""Some thousand damaged files, as `benchmarks/fuzz.py` makes them for hours."""
+"""Some thousand damaged files, as `python -m benchmarks fuzz` makes them for hours."""
 
 from __future__ import annotations
 
@@ -9,17 +9,19 @@ from pathlib import Path
 
 import pytest
 
-FUZZ = Path(__file__).parents[2] / "benchmarks" / "fuzz.py"
+FUZZ = [sys.executable, "-m", "benchmarks", "fuzz"]
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="workers are forks")
 @pytest.mark.parametrize("how", [[], ["--structure"]])
 def test_a_thousand_damaged_files(how: list[str]) -> None:
     ran = subprocess.run(
-        [sys.executable, str(FUZZ), "--minutes", "4", "--files", "1000", "--seed", "0", *how],
+        [*FUZZ, "--minutes", "4", "--files", "1000", "--seed", "0", *how],
         capture_output=True,
         text=True,
         timeout=300,
         check=False,
+        cwd=ROOT,
     )
     assert ran.returncode == 0, ran.stdout + ran.stderr

@@ -7,7 +7,7 @@ away, and fixed axes are kept, along which copies of a segment (faster, slower, 
 mirrored, noisy) differ little and different segments much. The result is a unit vector, and the
 distance of two the chord between them.
 
-Mean and axes are in ``axes.npz``, which ``benchmarks/embedding_axes.py`` makes.
+Mean and axes are in ``axes.npz``, which ``benchmarks/truth/embedding_axes.py`` makes.
 """
 
 from __future__ import annotations

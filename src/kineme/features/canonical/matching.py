@@ -6,7 +6,7 @@ movements, each divided by a shrunk deviation, and made a unit vector: what coun
 departs from the mean one, not how far. The distance of two is the chord between them: 0 is equal,
 1.41 has nothing in common, 2 is opposite.
 
-Mean and axes are in ``basis.npz``, which ``benchmarks/canonical_basis.py`` makes.
+Mean and axes are in ``basis.npz``, which ``benchmarks/truth/canonical_basis.py`` makes.
 """
 
 from __future__ import annotations

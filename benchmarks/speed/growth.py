@@ -1,0 +1,129 @@
+"""How time and memory grow with the length of a recording.
+
+    python -m benchmarks growth [--hours 1 4] [--presets kineme ...] [--everywhere] [--record]
+
+Features of the five trials, end to end over and over with a little noise, so
+that no hour is like another. The published methods with ``max_lag`` 10 s unless
+``--everywhere``; `kineme` as it is.
+Every size runs in a process of its own, first on a minute so that compiled
+code is loaded; peak memory is the whole process's. docs/speed.md quotes what
+``--record`` keeps: seconds by the clock, so let nothing else run.
+
+Limits: an hour by `kineme` in 3 s and 0.5 GB, four in 4.2 times that.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import subprocess
+import sys
+import warnings
+from collections.abc import Sequence
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+import kineme
+from _figures import add_option, record
+from _measure import verdict
+from _options import QUICK, command_line, few, needed
+from kineme.methods.base import Preset
+from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
+from kineme.segmentation.bodies import motion_features
+
+TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
+NOISE = 0.02  # of the spread of the features
+MAX_LAG_S = 10.0
+
+
+def features_of(preset: Preset, hours: float) -> NDArray[np.float64]:
+    """So many hours of the trials, no repetition of them like another."""
+    folder = needed("cmu86")
+    once = np.concatenate(
+        [
+            motion_features(kineme.read(folder / f"{trial}.amc"), preset)
+            for trial in few(TRIALS, TRIALS[:1])
+        ]
+    )
+    frames = round(hours * 3600 * preset.working_fps)
+    features = np.resize(once, (frames, once.shape[1]))
+    noise = np.random.default_rng(0)
+    for part in np.array_split(features, max(1, frames // 10_000)):
+        part[:] += noise.normal(0, NOISE * once.std(), part.shape)
+    return features
+
+
+def one(preset: Preset, hours: float) -> None:
+    """Prints seconds and peak memory in GB of one run; meant for a process of its own."""
+    features = features_of(preset, hours)
+    preset.analyze(features[: round(60 * preset.working_fps)])
+    start = perf_counter()
+    found = preset.analyze(features)
+    took = perf_counter() - start
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+    print(took, peak)
+    stages = ", ".join(f"{stage} {seconds:.1f}" for stage, seconds in found.timings.items())
+    print(stages, file=sys.stderr)
+
+
+def run(name: str, hours: float, *, near: bool) -> tuple[float, float, str]:
+    """Seconds, gigabytes and stages of one run in a process of its own."""
+    command = [sys.executable, __file__, "--one", "--presets", name, "--hours", str(hours)]
+    command += [] if near else ["--everywhere"]
+    done = subprocess.run(
+        [*command, *few([], [QUICK])], check=False, capture_output=True, text=True
+    )
+    if done.returncode:
+        sys.stderr.write(done.stderr)
+        sys.exit(done.returncode)
+    seconds, gigabytes = map(float, done.stdout.split())
+    return seconds, gigabytes, done.stderr.strip()
+
+
+def show(name: str, lengths: Sequence[float], *, near: bool) -> None:
+    """A line for each length, and what was promised of it."""
+    how = ".max_lag" if near else ""
+    first: tuple[float, float, float] | None = None
+    for hours in lengths:
+        seconds, gigabytes, stages = run(name, hours, near=near)
+        line = f"{name}{how.replace('.', ', ')}, {hours:g} h: {seconds:.1f} s, {gigabytes:.2f} GB"
+        key = f"growth.{name}{how}.{hours:g}_h"
+        record(f"{key}.seconds", round(seconds, 2), unit="s")
+        record(f"{key}.gigabytes", round(gigabytes, 3), unit="GB")
+        if first is not None:
+            times = seconds / first[1], gigabytes / first[2]
+            line += f"; {times[0]:.2f} and {times[1]:.2f} times {first[0]:g} h"
+            record(f"{key}.times_{first[0]:g}_h", round(times[0], 2), unit="times")
+            record(f"{key}.memory_times_{first[0]:g}_h", round(times[1], 2), unit="times")
+        if name == DEFAULT and hours == 1:
+            line += f"; s {verdict(seconds, 3)}, GB {verdict(gigabytes, 0.5)}"
+        if name == DEFAULT and (first or (0,))[0] == 1 and hours == 4:
+            line += f", {verdict(max(times), 4.2)}"
+        first = first or (hours, seconds, gigabytes)
+        print(f"{line}\n  of which {stages}", flush=True)
+
+
+def main() -> None:
+    parser = command_line(__doc__)
+    parser.add_argument("--hours", type=float, nargs="+", default=few([1, 4], [0.01, 0.04]))
+    parser.add_argument("--presets", nargs="+", choices=PRESETS, default=[DEFAULT, *PUBLISHED])
+    parser.add_argument("--everywhere", action="store_true", help="without max_lag alone")
+    parser.add_argument("--one", action="store_true", help=argparse.SUPPRESS)
+    add_option(parser)
+    options = parser.parse_args()
+    if options.one:
+        max_lag = None if options.everywhere else MAX_LAG_S
+        preset = PRESETS[options.presets[0]]
+        if hasattr(preset, "max_lag"):
+            preset = preset.replace(max_lag=max_lag)
+        one(preset, options.hours[0])
+        return
+    for name in options.presets:
+        show(name, options.hours, near=not options.everywhere and name != DEFAULT)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    main()

@@ -1,0 +1,84 @@
+"""Counts and borders on synthetic recordings: how many are right, by preset.
+
+    python -m benchmarks synthetic [--seeds 50] [--noise 0.0] [--record]
+
+Each seed is one `kineme.datasets.random_recording`: six activities, every other
+one walking, three to eight repetitions each.
+
+- **counts**: activities whose true number of repetitions is found. A found
+  primitive counts for the true activity that most of it lies in.
+- **borders**: true transitions with a found border in them, or at most 0.25 s
+  from them.
+- **extra**: found borders farther than that from every transition, per recording.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+
+import numpy as np
+
+from _figures import add_option, record
+from _options import command_line, few
+from kineme.datasets import random_recording
+from kineme.methods.presets import DEFAULT, PUBLISHED
+from kineme.segmentation.segmenter import segment
+from kineme.segments.segmentation import Segmentation
+
+TOLERANCE_S = 0.25
+
+
+def found_counts(found: Segmentation, truth: Segmentation) -> list[tuple[str, int, int]]:
+    """Label, true count and found count of each true activity."""
+    spans = truth.activities
+    primitives = found.primitives
+    middle = (primitives.start_frame + primitives.stop_frame) // 2
+    home = np.searchsorted(spans.start_frame, middle, side="right") - 1
+    counted = Counter(home[primitives.kind == "activity"].tolist())
+    true = Counter(truth.primitives.activity.tolist())
+    return [
+        (row.label, true[row.activity], counted[row.activity])
+        for row in spans
+        if row.kind == "activity"
+    ]
+
+
+def border_hits(found: Segmentation, truth: Segmentation) -> tuple[int, int, int]:
+    """True transitions, those with a found border near, found borders near none."""
+    spans = truth.activities.select(truth.activities.kind == "transition")
+    cuts = found.cuts() / found.fps
+    near = (cuts[:, None] >= spans.start_s - TOLERANCE_S) & (
+        cuts[:, None] <= spans.stop_s + TOLERANCE_S
+    )
+    return len(spans), int(near.any(axis=0).sum()), int((~near.any(axis=1)).sum())
+
+
+def main() -> None:
+    parser = command_line(__doc__)
+    parser.add_argument("--seeds", type=int, default=few(50, 1))
+    parser.add_argument("--noise", type=float, default=0.0, help="metres")
+    add_option(parser)
+    options = parser.parse_args()
+    recordings = [random_recording(seed, noise=options.noise) for seed in range(options.seeds)]
+    for preset in (DEFAULT, *PUBLISHED):
+        right: dict[str, list[bool]] = defaultdict(list)
+        borders = np.zeros(3, int)
+        for recording in recordings:
+            found = segment(recording.motion, preset=preset)
+            for label, true, counted in found_counts(found, recording.truth):
+                right[label].append(true == counted)
+            borders += border_hits(found, recording.truth)
+        all_counts = [exact for label in right for exact in right[label]]
+        true, hit, extra = borders
+        print(
+            f"{preset}: counts {np.mean(all_counts):.3f} of {len(all_counts)}, "
+            f"borders {hit / true:.3f} of {true}, extra {extra / options.seeds:.2f} per recording"
+        )
+        record(f"synthetic.{preset}.counts", 100 * float(np.mean(all_counts)), unit="%")
+        record(f"synthetic.{preset}.activities", len(all_counts))
+        for label in sorted(right):
+            print(f"  {label:12} {np.mean(right[label]):.3f} of {len(right[label])}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,225 @@
+"""How well the clusters of a library agree with what people say, one mapping for all recordings.
+
+    python -m benchmarks vocabulary [--most 400] [--keep FOLDER] [--record]
+
+Three libraries: the five trials of subject 86; six sequences of HDM05 exercises, two of each of
+three people; all of them. Each cluster of a library stands for one action at most, the same in all
+its recordings; told is the share of frames that are right then, and how many clusters there are
+for how many actions. Then the mean of five more libraries, of six other sequences each, which
+were looked at when the constants were chosen. ``--most`` lets so many words at most be compared
+each with each, as in larger libraries. ``--keep`` keeps what was found in each recording alone
+for the next time.
+
+``--growth 100 1000 10000`` measures instead what joining so many words takes, those of shaken
+copies of subject 86: processor seconds of the tasks and of what is done between them, how many
+bytes go to the tasks and come back, and seconds by the clock with one thread and in two processes,
+which find the same.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter, process_time
+from typing import Any
+
+import numpy as np
+
+import kineme.library.compiling
+from _figures import add_option, record
+from _libraries import SHAKEN, library_of
+from _options import command_line, few
+from _recordings import Case, hdm05, subject_86
+from kineme import Library
+from kineme.evaluation import Annotation, Labelling
+from kineme.evaluation.frames import one_to_one_accuracy
+from kineme.evaluation.labelling import TRANSITION
+from kineme.library.compiling import compiled
+from kineme.library.constants import VOCABULARY
+from kineme.library.executors import Executor, Outcome, Task
+from kineme.library.executors.processes import processes
+from kineme.library.storage.layout import PIECES
+from kineme.library.storage.pieces import read_features, read_piece, write_piece
+from kineme.library.vocabulary.words import places_in
+
+SEQUENCES, MORE = 6, few(5, 1)
+
+
+def said_in(case: Case) -> np.ndarray:
+    """The action at each frame of a recording's truth, called the same in all recordings."""
+    if case.made is None:
+        return case.truth.labelling().per_frame()
+    rows = case.made.activities
+    names = [TRANSITION if row.kind == "transition" else row.label for row in rows]
+    return np.repeat(np.array(names, dtype=object), rows.stop_frame - rows.start_frame)
+
+
+def found_in(library: Library, case: Case) -> np.ndarray:
+    """The cluster of the library at each frame of a recording's truth, as text."""
+    columns = library.table("segments").to_pydict()
+    labels = [
+        np.repeat(TRANSITION if kind == "transition" else f"{cluster}", stop - start)
+        for recording, level, kind, start, stop, cluster in zip(
+            *(
+                columns[key]
+                for key in ("recording", "level", "kind", "start_frame", "stop_frame", "cluster")
+            ),
+            strict=True,
+        )
+        if recording == case.name and level == "activity"
+    ]
+    found = Labelling.from_frames(np.concatenate(labels), fps=case.motion.fps)
+    return found.at(frames=case.truth.frames, fps=case.truth.fps).per_frame()
+
+
+def score(name: str, folder: Path, cases: list[Case]) -> tuple[float, float, int, int]:
+    """Shares that are right, of all frames and without borders; clusters and actions."""
+    library = library_of(folder / name, [(case.name, case.motion) for case in cases])
+    wanted = np.concatenate([said_in(case) for case in cases])
+    given = np.concatenate([found_in(library, case) for case in cases])
+    fps = cases[0].truth.fps
+    truth = Annotation.from_labelling(Labelling.from_frames(wanted, fps=fps))
+    right, agreed = one_to_one_accuracy(truth, Labelling.from_frames(given, fps=fps))
+    return right, agreed, len({*given} - {TRANSITION}), len({*wanted} - {TRANSITION})
+
+
+def show(name: str, folder: Path, cases: list[Case]) -> None:
+    """One line on a library of these."""
+    right, agreed, clusters, actions = score(name, folder, cases)
+    print(
+        f"{name}: one-to-one {right:.3f}, without borders {agreed:.3f}; {clusters} clusters, "
+        f"{actions} actions",
+        flush=True,
+    )
+    record(f"vocabulary.{name}.one_to_one", round(right, 2))
+    record(f"vocabulary.{name}.agreed", round(agreed, 2))
+    record(f"vocabulary.{name}.clusters", clusters)
+    record(f"vocabulary.{name}.actions", actions)
+
+
+def show_others(folder: Path) -> None:
+    """One line on libraries of other sequences."""
+    scores = [
+        score(f"others_{i}", folder, list(hdm05(SEQUENCES, first=i * SEQUENCES)))
+        for i in range(1, MORE + 1)
+    ]
+    right, agreed, clusters, actions = np.mean(scores, axis=0)
+    shown = " ".join(f"{each[0]:.3f}" for each in scores)
+    print(
+        f"others: one-to-one {right:.3f}, without borders {agreed:.3f} ({shown}); "
+        f"{clusters:.1f} clusters, {actions:.1f} actions"
+    )
+    record("vocabulary.others.one_to_one", round(float(right), 2))
+    record("vocabulary.others.agreed", round(float(agreed), 2))
+    record("vocabulary.others.clusters", round(float(clusters), 1))
+    record("vocabulary.others.actions", round(float(actions), 1))
+
+
+def show_growth(folder: Path, sizes: list[int], most: int) -> None:
+    """What joining so many words takes, in this process and in two."""
+    os.environ["KINEME_THREADS"] = "1"
+    kineme.library.compiling.VOCABULARY = replace(VOCABULARY, most=most)
+    cases = subject_86()
+    library = library_of(folder / "subject_86", [(case.name, case.motion) for case in cases])
+    for size in sizes:
+        with TemporaryDirectory() as home:
+            entries = many(library, size, Path(home))
+            kept = sum(path.stat().st_size for path in (Path(home) / PIECES).glob("*.npy"))
+            clocks, made = {}, []
+            for jobs in (1, 2):
+                with processes(jobs) as executor:
+                    counted = Counted(executor)
+                    started, clock = process_time(), perf_counter()
+                    tables, _ = compiled(Path(home), entries, {}, 0, counted, lambda _: None)
+                    clocks[jobs] = perf_counter() - clock
+                    spent = process_time() - started
+                made.append(tables["words"])
+                if jobs == 1:
+                    work, rest, travelled = counted.seconds, spent - counted.seconds, counted.bytes
+            n, clusters = len(made[0]), len(set(made[0].column("cluster").to_pylist()))
+            assert repr(made[0].to_pydict()) == repr(made[1].to_pydict())  # of nan as well
+        print(
+            f"{n} words: {work:.1f} s in {counted.tasks} tasks and {rest:.1f} s between them, "
+            f"{travelled / 1e6:.1f} MB there and back, {clusters} clusters; by the clock "
+            f"{clocks[1]:.1f} s, in two processes {clocks[2]:.1f} s",
+            flush=True,
+        )
+        record(f"vocabulary.growth.{size}.seconds", round(work, 1), unit="s")
+        record(f"vocabulary.growth.{size}.rest", round(rest, 2), unit="s")
+        record(f"vocabulary.growth.{size}.features", round(kept / 1e6), unit="MB")
+        record(f"vocabulary.growth.{size}.travels", round(travelled / 1e6, 1), unit="MB")
+
+
+class Counted:
+    """An executor that counts the processor seconds of tasks, and the bytes of them and back."""
+
+    def __init__(self, executor: Executor):
+        self._executor = executor
+        self.tasks, self.bytes, self.seconds = 0, 0, 0.0
+
+    def completed(
+        self, work: Callable[[Task], Outcome], tasks: Sequence[Task], **options: Any
+    ) -> Iterator[tuple[Task, Outcome | None]]:
+        self.tasks += len(tasks)
+        for task, told in self._executor.completed(partial(timed, work), tasks, **options):
+            outcome, seconds, size = told or (None, 0.0, 0)
+            self.seconds += seconds
+            self.bytes += size
+            yield task, outcome
+
+
+def timed(work: Callable[[Task], Outcome], task: Task) -> tuple[Outcome, float, int]:
+    start = process_time()
+    outcome = work(task)
+    seconds = process_time() - start
+    return outcome, seconds, len(pickle.dumps(task)) + len(pickle.dumps(outcome))
+
+
+def many(library: Library, size: int, home: Path) -> list[tuple[str, Path, str]]:
+    """Shaken copies of recordings with so many words, each of which is shaken in its own way."""
+    (home / PIECES).mkdir()
+    keys = library.recordings["piece"]
+    own = [(read_piece(library.folder / PIECES, key), key) for key in keys]
+    entries, n = [], 0
+    while n < size:
+        piece, key = own[len(entries) % len(own)]
+        rng = np.random.default_rng(len(entries))
+        features = read_features(library.folder / PIECES, key)
+        features = features + np.float32(SHAKEN) * rng.standard_normal(features.shape, np.float32)
+        features /= np.linalg.norm(features, axis=1, keepdims=True)
+        name = f"{len(entries):032x}"
+        write_piece(home / PIECES, name, piece, features)
+        entries.append((name, home / name, name))
+        n += len(places_in(piece, 0))
+    return entries
+
+
+def main() -> None:
+    options = command_line(__doc__)
+    options.add_argument("--most", type=int, default=VOCABULARY.most)
+    options.add_argument("--keep", type=Path)
+    options.add_argument("--growth", type=int, nargs="+", default=[])
+    add_option(options)
+    given = options.parse_args()
+    kineme.library.compiling.VOCABULARY = replace(VOCABULARY, most=given.most)
+    with TemporaryDirectory() as folder:
+        home = given.keep or Path(folder)
+        if given.growth:
+            show_growth(home, given.growth, given.most)
+            return
+        trials, sequences = subject_86(), list(hdm05(SEQUENCES))
+        show("subject_86", home, trials)
+        show("hdm05", home, sequences)
+        show("both", home, [*trials, *sequences])
+        show_others(home)
+        if given.quick:
+            show_growth(home, [20], given.most)
+
+
+if __name__ == "__main__":
+    main()
