@@ -1,6 +1,6 @@
 """Are probabilities right? On recordings of sources that they were not learnt from.
 
-    python benchmarks/confidence.py [--every N] [--near S] [--record]
+    python -m benchmarks confidence [--every N] [--near S] [--record]
 
 A link, a border, a count and a cut between two repetitions are each right or wrong, as people or
 the maker of the recording say. One statistic of each (``methods/kineme/confidence.py``) and two

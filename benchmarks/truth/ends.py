@@ -1,6 +1,6 @@
 """Are the first and the last repetition of an activity as long as they are?
 
-    python benchmarks/ends.py [--seeds 50] [--record]
+    python -m benchmarks ends [--seeds 50] [--record]
 
 On synthetic recordings (see ``_recordings.synthetic``): by how much a repetition is
 longer than the true one, as mean and standard deviation over all activities with

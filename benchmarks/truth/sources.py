@@ -1,8 +1,8 @@
 """All kinds of recordings in one run, and constants chosen with each source left out.
 
-    python benchmarks/sources.py [SOURCE ...] [--every N] [--presets kineme sensors] [--record]
-    python benchmarks/sources.py --free NAME=VALUE,VALUE,... [--free ...] [--presets NAME]
-    python benchmarks/sources.py --same [--record]
+    python -m benchmarks sources [SOURCE ...] [--every N] [--presets kineme sensors] [--record]
+    python -m benchmarks sources --free NAME=VALUE,VALUE,... [--free ...] [--presets NAME]
+    python -m benchmarks sources --same [--record]
 
 Sources (`_sources.py`) are bodies that people cut, tagged or counted, sensors that people labelled,
 and recordings that are made, HuGaDB once more with the files of each person joined. The second

@@ -1,6 +1,6 @@
 """Events that recur now and then: how many are found, beside what is promised.
 
-    python benchmarks/sparse_events.py [--seeds 50] [--record]
+    python -m benchmarks sparse_events [--seeds 50] [--record]
 
 HDM05 exercises at irregular times among walking and other movement (see
 ``_sparse_recordings``). Each exercise has the cluster, on the primitive level,

@@ -2,8 +2,15 @@
 
 A match is a warping of the whole example onto successive samples of the recording, at half to
 twice its speed: from one pair of samples to the next both go on by one, or one of them by two.
-Its distance is the mean over the samples of the example of the distance to the one, or the mean
+Its cost is the mean over the samples of the example of the distance to the one, or the mean
 of the two, of the recording that it is laid on. Every place is looked at; nothing is thinned out.
+
+The distance of a match is its cost in proportion to how far the smaller of both movements goes,
+
+    distance = cost / √(2 · the smaller variance),
+
+so that one threshold serves small movements and large ones: 0 is equal, and from 1 on the two are
+as far from each other as any two samples of one of them.
 
 The steps are those of Müller, Information Retrieval for Music and Motion (2007), section 4.4.
 """
@@ -23,7 +30,9 @@ Ints = NDArray[np.int64]
 Float32s = NDArray[np.float32]
 
 THRESHOLD = 0.85
-"""Distance of unit vectors up to which two movements are one, whoever makes them."""
+"""Distance up to which two movements are one, whoever makes them."""
+STILL = 0.05
+"""Least variance of a movement of unit vectors: of who stands, noise is most of it."""
 BLOCK = 4096
 """Samples compared at a time."""
 
@@ -79,13 +88,14 @@ def search(
     if top is not None and not (is_number(top) and top >= 1):
         raise ParameterError(f"top must be a whole number above 0, not {top!r:.60}")
     costs, starts = warped(example, recording)
-    ends = np.flatnonzero(costs <= np.float32(threshold))
-    ends = ends[np.argsort(costs[ends], kind="stable")]
+    distances = _in_proportion(costs, starts, _checked(example, "example"), recording)
+    ends = np.flatnonzero(distances <= np.float32(threshold))
+    ends = ends[np.argsort(distances[ends], kind="stable")]
     chosen = np.empty(len(ends), np.int64)
     most = len(ends) if top is None else int(top)
     n = apart(ends, starts, most, np.zeros(len(costs), np.bool_), chosen)
     ends = chosen[:n]
-    return Matches(starts[ends].astype(np.int64), ends + 1, costs[ends])
+    return Matches(starts[ends].astype(np.int64), ends + 1, distances[ends])
 
 
 def two_way_distance(one: ArrayLike, other: ArrayLike) -> float:
@@ -124,6 +134,29 @@ def warped(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[
         found = costs[span], starts[span]
         warp_along(products, _squares(part), own_squares, first, sums, begins, rows, *found)
     return costs, starts
+
+
+def _in_proportion(
+    costs: Float32s, starts: NDArray[np.int32], example: Float32s, recording: ArrayLike
+) -> Float32s:
+    """The costs of matches in proportion to how far the example goes, or the match if that is less.
+
+    Sums go up to the end of a match less those up to its start, about the mean of the example.
+    """
+    mean = example.mean(axis=0)
+    offsets = _checked(recording, "recording") - mean
+    squares = _squares(offsets)
+    sums = np.zeros((len(offsets) + 1, offsets.shape[1]))
+    np.cumsum(offsets, axis=0, dtype=np.float64, out=sums[1:])
+    squared = np.append(0.0, np.cumsum(squares, dtype=np.float64))
+    ends = np.arange(1, len(offsets) + 1)
+    firsts = np.minimum(starts, ends - 1)
+    lengths = ends - firsts
+    means = (sums[ends] - sums[firsts]) / lengths[:, None]
+    variances = (squared[ends] - squared[firsts]) / lengths - np.einsum("ij,ij->i", means, means)
+    own = float(np.einsum("ij,ij->", example - mean, example - mean)) / len(example)
+    smaller = np.maximum(np.minimum(variances, own), STILL)
+    return np.asarray(costs / np.sqrt(2 * smaller), np.float32)
 
 
 def _squares(features: Float32s) -> Float32s:

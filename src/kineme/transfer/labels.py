@@ -21,7 +21,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
-from kineme.matching import THRESHOLD
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable
 from kineme.transfer.choosing import (
@@ -35,7 +34,7 @@ from kineme.transfer.choosing import (
 )
 from kineme.transfer.features import FPS, working_frames
 from kineme.transfer.knowledge import KnowledgeBase
-from kineme.transfer.matching import Floats, Primitives, same_movements
+from kineme.transfer.matching import THRESHOLD, Floats, Primitives, same_movements
 from kineme.transfer.unsegmented import found_by_search, segmented_as_found
 
 LARGEST = 1e6

@@ -31,6 +31,8 @@ Ints = NDArray[np.int64]
 # Which primitive, in which run of the other side, at what cost.
 Matches = tuple[Ints, Ints, Floats]
 
+THRESHOLD = 0.85
+"""Cost of unit vectors up to which two primitives are one movement, whoever makes them."""
 _WALL = 1e6  # so far is what lies between two runs from any feature
 
 

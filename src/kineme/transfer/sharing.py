@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import ParameterError
-from kineme.matching import THRESHOLD
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.features import transfer_features
 from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.labels import transfer_labels
+from kineme.transfer.matching import THRESHOLD
 from kineme.transfer.moments import moments_of
 from kineme.transfer.vocabulary import share_by_moments
 
