@@ -13,7 +13,7 @@ from kineme.errors import ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
 from kineme.evaluation.folder import evaluate_folder
 from kineme.evaluation.recordings import Reading, recordings_below
-from kineme.evaluation.score import Ratio, Score, _known, over_all, register, scores, value_of
+from kineme.evaluation.score import SCORES, Ratio, Score, over_all, register, scores, value_of
 from kineme.evaluation.segmental_scores import edit_distance
 from kineme.labels.collections import labels_of
 from kineme.segments.segmentation import Segmentation
@@ -193,7 +193,7 @@ def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
         with pytest.raises(ParameterError, match="register takes a Score, not function"):
             register(longest)
     finally:
-        _known().pop("longest")
+        SCORES.remove("longest")
 
 
 def longest(compared: Comparison) -> float:

@@ -14,19 +14,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
-from importlib import import_module
-from types import MappingProxyType
 from typing import Literal, NamedTuple, get_args
 
-from kineme._checks import check_one_of, check_type
-from kineme._plugins import plugins
-from kineme.errors import ParameterError
+from kineme._checks import check_one_of
+from kineme._registry import Registry
 from kineme.evaluation.comparison import Comparison
 
-MODULES = ("label_scores", "segmental_scores", "cut_scores")
-"""Modules of this package that end in a tuple ``SCORES``, in the order shown."""
-GROUP = "kineme.scores"
 Counted = Literal["frames", "segments", "borders", "clusters"]
 
 
@@ -81,8 +74,18 @@ class Score:
         check_one_of(self.level, get_args(Counted), f"level of {self.name!r:.60}")
 
 
+SCORES: Registry[Score] = Registry(
+    Score,
+    "score",
+    "kineme.scores",
+    home="kineme.evaluation",
+    own=("label_scores:SCORES", "segmental_scores:SCORES", "cut_scores:SCORES"),
+)
+"""In the order in which they are shown."""
+
+
 def scores() -> Mapping[str, Score]:
-    """The known scores by name, the package's own first.
+    """The scores by name, the package's own first.
 
     Returns
     -------
@@ -94,26 +97,25 @@ def scores() -> Mapping[str, Score]:
     >>> list(scores())[:3]
     ['mof', 'one_to_one', 'ari']
     """
-    return MappingProxyType(_known())
+    return SCORES
 
 
-def register(new: Score) -> None:
-    """Make a score known to `kineme evaluate FOLDER`.
+def register(new: Score, *, replace: bool = False) -> None:
+    """Make a score known to `kineme evaluate`.
 
     Parameters
     ----------
     new : Score
-        With a name that no other score has.
+        What is added.
+    replace : bool
+        Whether it takes the place of a score of the same name.
 
     Raises
     ------
     ParameterError
         There is a score of this name, or it is none.
     """
-    check_type(new, Score, "register", "see kineme.evaluation.Score")
-    if new.name in _known():
-        raise ParameterError(f"there is a score {new.name!r} already: choose another name")
-    _known()[new.name] = new
+    SCORES.register(new, replace=replace)
 
 
 def value_of(result: float | Ratio) -> float:
@@ -145,9 +147,3 @@ def over_all(results: Iterable[float | Ratio]) -> float:
         return Ratio(sum(r.part for r in ratios), sum(r.whole for r in ratios)).value
     numbers = [value for value in map(value_of, kept) if math.isfinite(value)]
     return sum(numbers) / len(numbers) if numbers else math.nan
-
-
-@cache
-def _known() -> dict[str, Score]:
-    own = [s for module in MODULES for s in import_module(f"kineme.evaluation.{module}").SCORES]
-    return {known.name: known for known in (*own, *plugins(GROUP))}

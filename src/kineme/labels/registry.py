@@ -7,37 +7,39 @@ by `register`, or by naming the object in the entry point group ``kineme.label_f
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
-from importlib import import_module
 from os import PathLike
 from pathlib import Path
-from types import MappingProxyType
 
-from kineme._checks import check_type, is_one_of
-from kineme._plugins import plugins
+from kineme._checks import is_one_of
+from kineme._registry import Registry
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 
-MODULES = (
-    "csv_table",
-    "json_table",
-    "parquet_table",
-    "audacity",
-    "elan",
-    "textgrid",
-    "bids",
-    "boris",
-    "babel",
-    "ms_tcn",
-    "clip_list",
-    "c3d_events",
+FORMATS: Registry[LabelFormat] = Registry(
+    LabelFormat,
+    "label format",
+    "kineme.label_formats",
+    home="kineme.labels",
+    own=(
+        "csv_table:FORMAT",
+        "json_table:FORMAT",
+        "parquet_table:FORMAT",
+        "audacity:FORMAT",
+        "elan:FORMAT",
+        "textgrid:FORMAT",
+        "bids:FORMAT",
+        "boris:FORMAT",
+        "babel:FORMAT",
+        "ms_tcn:FORMAT",
+        "clip_list:FORMAT",
+        "c3d_events:FORMAT",
+    ),
 )
-"""Modules of this package that end in a `LabelFormat` called ``FORMAT``, in the order shown."""
-GROUP = "kineme.label_formats"
+"""In the order in which they are shown, and tried."""
 
 
 def label_formats() -> Mapping[str, LabelFormat]:
-    """The known label formats by name, the package's own first.
+    """The label formats by name, the package's own first.
 
     Returns
     -------
@@ -49,26 +51,25 @@ def label_formats() -> Mapping[str, LabelFormat]:
     >>> list(label_formats())[:3]
     ['csv', 'json', 'parquet']
     """
-    return MappingProxyType(_known())
+    return FORMATS
 
 
-def register(new: LabelFormat) -> None:
+def register(new: LabelFormat, *, replace: bool = False) -> None:
     """Make a format known to `read_segments`, `write_segments`, command line and studio.
 
     Parameters
     ----------
     new : LabelFormat
-        With a name that no other format has.
+        What is added.
+    replace : bool
+        Whether it takes the place of a format of the same name.
 
     Raises
     ------
     ParameterError
         There is a format of this name, or it is none.
     """
-    check_type(new, LabelFormat, "register", "see kineme.labels.LabelFormat")
-    if new.name in _known():
-        raise ParameterError(f"there is a label format {new.name!r} already: choose another name")
-    _known()[new.name] = new
+    FORMATS.register(new, replace=replace)
 
 
 def written_suffixes() -> tuple[str, ...]:
@@ -160,12 +161,6 @@ def holds_labels(path: str | PathLike[str]) -> bool:
     suffix = target.suffix.lower()
     fitting = [known for known in label_formats().values() if suffix in known.suffixes]
     return any(_speaks(known, target) for known in fitting)
-
-
-@cache
-def _known() -> dict[str, LabelFormat]:
-    own = [import_module(f"kineme.labels.{module}").FORMAT for module in MODULES]
-    return {known.name: known for known in (*own, *plugins(GROUP))}
 
 
 def _speaks(known: LabelFormat, path: Path) -> bool:
