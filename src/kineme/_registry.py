@@ -83,7 +83,7 @@ class Registry(Mapping[str, T]):
         self._newest_first = newest_first
         self._objects: dict[str, T] = {}
         self._lock = RLock()
-        self._loading = self._loaded = False
+        self._begun = self._loaded = False
 
     def register(self, new: T, *, replace: bool = False) -> None:
         """Add an object under its name.
@@ -147,17 +147,18 @@ class Registry(Mapping[str, T]):
         if self._loaded:
             return
         with self._lock:
-            if self._loaded or self._loading:
+            if self._begun:  # further up by this thread, or by another that is done by now
                 return
-            self._loading = True
+            self._begun = True
             try:
                 own = [new for path in self._own for new in _objects_at(path, self._home)]
                 for new in reversed(own) if self._newest_first else own:
                     self._add(new)
                 self._add_plugins()
                 self._loaded = True
-            finally:
-                self._loading = False
+            except BaseException:
+                self._objects, self._begun = {}, False
+                raise
 
     def _add_plugins(self) -> None:
         from importlib.metadata import entry_points  # slow to load: not before it is asked for
