@@ -16,8 +16,7 @@ from pathlib import Path
 
 from _options import DATA, command_line, few, is_quick, needed
 from agreement import CONFIGURATIONS
-from kineme.reproduction.benchmark import mean_scores, run
-from kineme.reproduction.methods import METHODS, preset_method
+from kineme.reproduction.benchmark import METHODS, mean_scores, preset_method, run
 from kineme.reproduction.trials import find_folder, load_trials
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")

@@ -18,8 +18,7 @@ import kineme
 from _figures import add_option, record
 from _options import command_line
 from _recordings import subject_86
-from kineme.evaluation import Comparison, Labelling, labelling_of, scores
-from kineme.evaluation.labelling import TRANSITION
+from kineme.evaluation import TRANSITION, Comparison, Labelling, labelling_of, scores
 from kineme.evaluation.score import over_all
 
 PROMISED = {"mof": 0.96, "f1@50": 0.97}

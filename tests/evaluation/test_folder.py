@@ -14,7 +14,7 @@ from kineme.evaluation.comparison import Comparison, best_mapping, compare
 from kineme.evaluation.folder import evaluate_folder
 from kineme.evaluation.recordings import Reading, recordings_below
 from kineme.evaluation.score import SCORES, Ratio, Score, over_all, register, scores, value_of
-from kineme.evaluation.segmental_scores import edit_distance
+from kineme.evaluation.segments import edit_distance
 from kineme.labels.collections import labels_of
 from kineme.segments.segmentation import Segmentation
 from labelled_corpus import make_corpus
@@ -129,6 +129,18 @@ def test_frames_without_a_label_count_in_nothing() -> None:
     nothing = segments([("transition", 0, 10, "", -1)])
     with pytest.raises(ParameterError, match="every frame is unlabelled"):
         compare(nothing, found)
+
+
+def test_repetitions_are_those_within_labelled_frames() -> None:
+    columns = {"level": ["activity", "primitive", "primitive"], "kind": ["activity"] * 3,
+               "start_frame": [0, 0, 6], "stop_frame": [10, 6, 10], "cluster": [0] * 3}  # fmt: skip
+    found = Segmentation.from_columns(columns, n_frames=10, fps=10)
+    truth = segments([("activity", 0, 4, "walk", -1), ("transition", 4, 7, "", -1),
+                      ("activity", 7, 10, "run", -1)])  # fmt: skip
+    compared = compare(truth, found)
+    assert compared.spans.primitives.borders.tolist() == [0, 4, 7]
+    assert scores()["length_mean"].function(compared) == pytest.approx(0.35)
+    assert scores()["count_error"].function(compared) is None
 
 
 def test_one_mapping_for_the_folder_asks_for_clusters_that_mean_the_same() -> None:

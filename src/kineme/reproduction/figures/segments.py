@@ -16,12 +16,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Rectangle
-from scipy.optimize import linear_sum_assignment
-from sklearn.metrics.cluster import contingency_matrix
 
 from kineme._colors import PALETTE
-from kineme.evaluation.annotated_scores import labelling_of
-from kineme.evaluation.labelling import TRANSITION, Labelling
+from kineme.evaluation.comparison import Comparison, labelling_of
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 from kineme.reproduction.benchmark import Result
 from kineme.reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
 from kineme.reproduction.trials import Trial
@@ -101,15 +99,15 @@ def _colors(
 
 def _assignment(truth: Labelling, found: Labelling) -> dict[str, str]:
     """The best one-to-one assignment of clusters to classes, over the certain frames."""
-    wanted, given = truth.per_frame(), found.per_frame()
-    certain = (wanted != TRANSITION) & (given != TRANSITION)
+    wanted, given = truth.numbers(), found.numbers()
+    certain = (wanted != UNLABELLED) & (given != UNLABELLED)
     if not certain.any():
         return {}
-    wanted, given = wanted[certain].astype(str), given[certain].astype(str)
-    table = contingency_matrix(wanted, given)
-    classes, clusters = np.unique(wanted), np.unique(given)
-    pairs = zip(*linear_sum_assignment(table, maximize=True), strict=True)
-    return {str(clusters[j]): str(classes[i]) for i, j in pairs if table[i, j]}
+    compared = Comparison(wanted[certain], given[certain], truth.fps)
+    right = compared.mapped == compared.truth
+    clusters, classes = found.names(), truth.names()
+    pairs = set(zip(compared.found[right].tolist(), compared.truth[right].tolist(), strict=True))
+    return {clusters[cluster]: classes[kind] for cluster, kind in pairs}
 
 
 def _draw_row(
