@@ -43,8 +43,8 @@ class Registry(Mapping[str, T]):
         for one object or a tuple of them. What cannot be loaded or taken is left out, and a
         `KinemeWarning` names it.
     home : str
-        The package that the names of ``own`` are relative to.
-    own : sequence of str
+        The package that the names of ``builtins`` are relative to.
+    builtins : sequence of str
         The package's own, as ``module:NAME`` of one object or a tuple of them.
     newest_first : bool
         Whether objects that are added later stand ahead of the others.
@@ -72,14 +72,14 @@ class Registry(Mapping[str, T]):
         group: str,
         *,
         home: str = "",
-        own: Sequence[str] = (),
+        builtins: Sequence[str] = (),
         newest_first: bool = False,
     ) -> None:
         self._kind = kind
         self._what = what
         self._group = group
         self._home = home
-        self._own = own
+        self._builtins = builtins
         self._newest_first = newest_first
         self._objects: dict[str, T] = {}
         self._lock = RLock()
@@ -151,8 +151,8 @@ class Registry(Mapping[str, T]):
                 return
             self._begun = True
             try:
-                own = [new for path in self._own for new in _objects_at(path, self._home)]
-                for new in reversed(own) if self._newest_first else own:
+                builtins = [new for path in self._builtins for new in _objects_at(path, self._home)]
+                for new in reversed(builtins) if self._newest_first else builtins:
                     self._add(new)
                 self._add_plugins()
                 self._loaded = True

@@ -9,11 +9,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kineme.errors import ParameterError, ReadError
+from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
 from kineme.evaluation.folder import evaluate_folder
 from kineme.evaluation.recordings import Reading, recordings_below
-from kineme.evaluation.score import SCORES, Ratio, Score, over_all, register, scores, value_of
+from kineme.evaluation.score import (
+    SCORES,
+    Ratio,
+    Score,
+    over_all,
+    register,
+    results_of,
+    scores,
+    value_of,
+)
 from kineme.evaluation.segments import edit_distance
 from kineme.labels.collections import labels_of
 from kineme.segments.segmentation import Segmentation
@@ -206,6 +215,17 @@ def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
             register(longest)
     finally:
         SCORES.remove("longest")
+
+
+def test_a_score_that_fails_costs_itself_only() -> None:
+    register(Score("broken", "broken", "divides by nothing", "frames", lambda _: 1 / 0))
+    try:
+        with pytest.warns(KinemeWarning, match="the score 'broken' is left out, it fails: ZeroDiv"):
+            found = results_of(Comparison([0, 0, 1], [4, 4, 4], fps=1))
+    finally:
+        SCORES.remove("broken")
+    assert found["mof"] == Ratio(2, 3)
+    assert "broken" not in found
 
 
 def longest(compared: Comparison) -> float:

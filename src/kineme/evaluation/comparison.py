@@ -87,7 +87,7 @@ class Comparison:
     transitions : bool
         Whether -1 on either side is a transition: then a found one is right in those of the
         truth and nowhere else. By default -1 is a cluster as any other.
-    given : Spans, optional
+    intervals : Spans, optional
         Both sides in intervals; by default the runs of these numbers.
 
     Raises
@@ -109,7 +109,7 @@ class Comparison:
     fps: float
     mapping: Mapping[int, int] | None = None
     transitions: bool = False
-    given: Spans | None = None
+    intervals: Spans | None = None
     _results: dict[Callable[[Comparison], Any], Any] = field(
         default_factory=dict, init=False, repr=False
     )
@@ -169,7 +169,7 @@ class Comparison:
             groups.numbers(),
             truth.fps,
             transitions=True,
-            given=Spans(truth, spans, units, positions, features),
+            intervals=Spans(truth, spans, units, positions, features),
         )
 
     @cached_property
@@ -197,8 +197,8 @@ class Comparison:
     @cached_property
     def spans(self) -> Spans:
         """Both sides in intervals."""
-        if self.given is not None:
-            return self.given
+        if self.intervals is not None:
+            return self.intervals
         found = _labelling(self.found_runs, self.fps)
         truth = _labelling(self.true_runs, self.fps)
         actions = Truth.from_labelling(truth, tolerance_s=LABELS_TOLERANCE_S)
@@ -266,16 +266,16 @@ def compare(
             f"the labels are of {truth.n_frames} frames, the result of {found.n_frames}"
         )
     numbers = {} if classes is None else classes
-    wanted = [
+    classes_of_rows = [
         UNLABELLED if row.kind == "transition" else numbers.setdefault(text_of(row), len(numbers))
         for row in truth.activities
     ]
     lonely = 1 + max(found.activities.cluster.tolist(), default=0)
-    given = [
+    groups = [
         UNLABELLED if row.kind == "transition" else row.cluster if row.cluster >= 0 else lonely + i
         for i, row in enumerate(found.activities)
     ]
-    labels, clusters = _spread(truth, wanted), _spread(found, given)
+    labels, clusters = _spread(truth, classes_of_rows), _spread(found, groups)
     counted = labels != UNLABELLED
     if not counted.any():
         raise ParameterError("the labels say nothing of this recording: every frame is unlabelled")
@@ -283,7 +283,7 @@ def compare(
     if not len(found.primitives):
         return compared
     primitives = labelling_of(found.primitives, fps=found.fps).within(counted)
-    return replace(compared, given=replace(compared.spans, primitives=primitives))
+    return replace(compared, intervals=replace(compared.spans, primitives=primitives))
 
 
 def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:

@@ -44,11 +44,11 @@ def read_result(path: Path, *, fps: float | None = None) -> Segmentation:
     ReadError
         It cannot be read or understood, or counts frames without a frame rate.
     """
-    known, content = read_content(path)
+    label_format, content = read_content(path)
     if isinstance(content, Segmentation):
         return content
     rate = content.fps or fps or (FPS if content.unit == "seconds" else None)
-    return as_segmentation(content, path, known.name, fps=rate)[0]
+    return as_segmentation(content, path, label_format.name, fps=rate)[0]
 
 
 def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> Truth:
@@ -79,12 +79,12 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
         Labels were joined or left out, such as those that meet no frame.
     """
     n_frames, rate = comparison(found)
-    known, content = read_content(path)
+    label_format, content = read_content(path)
     try:
         if isinstance(content, Labels):
             counted = content.fps or (rate if content.unit == "seconds" else fps or found.fps)
             content = by_clock(content, found.clock, length_s=found.n_frames / found.fps)
-            content, unusual = as_segmentation(content, path, known.name, fps=counted)
+            content, unusual = as_segmentation(content, path, label_format.name, fps=counted)
             if unusual:
                 warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
         return truth_of(content, n_frames=n_frames, fps=rate)

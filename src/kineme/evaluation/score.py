@@ -12,6 +12,7 @@ Other packages add scores by `register`, or by naming them in the entry point gr
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, get_args
@@ -21,6 +22,7 @@ from numpy.typing import ArrayLike
 
 from kineme._checks import check_one_of
 from kineme._registry import Registry
+from kineme.errors import KinemeError, KinemeWarning
 from kineme.evaluation.comparison import Comparison, labelling_of
 from kineme.evaluation.truth import Labelling, Truth
 from kineme.segments.segmentation import Segmentation
@@ -88,7 +90,7 @@ SCORES: Registry[Score] = Registry(
     "score",
     "kineme.scores",
     home="kineme.evaluation",
-    own=(
+    builtins=(
         "frames:SCORES",
         "segments:SCORES",
         "borders:SCORES",
@@ -136,6 +138,8 @@ def register(new: Score, *, replace: bool = False) -> None:
 def results_of(compared: Comparison) -> dict[str, float | Ratio]:
     """All scores of a comparison by name, those left out that cannot be had.
 
+    A score that fails costs itself only: a `KinemeWarning` names it.
+
     Parameters
     ----------
     compared : Comparison
@@ -145,7 +149,7 @@ def results_of(compared: Comparison) -> dict[str, float | Ratio]:
     dict of str to float or Ratio
         In the order in which they are shown.
     """
-    found = {name: score.function(compared) for name, score in scores().items()}
+    found = {name: _result(score, compared) for name, score in scores().items()}
     return {name: result for name, result in found.items() if result is not None}
 
 
@@ -261,6 +265,18 @@ def over_all(results: Iterable[Value]) -> float:
         return Ratio(sum(r.part for r in ratios), sum(r.whole for r in ratios)).value
     numbers = [value for value in map(value_of, kept) if math.isfinite(value)]
     return sum(numbers) / len(numbers) if numbers else math.nan
+
+
+def _result(score: Score, compared: Comparison) -> Value:
+    try:
+        return score.function(compared)
+    except KinemeError:
+        raise
+    except Exception as error:  # noqa: BLE001 (whatever a stranger's score raises)
+        reason = f"{type(error).__name__}: {error}"
+        text = f"the score {score.name!r:.60} is left out, it fails: {reason:.200}"
+        warnings.warn(text, KinemeWarning, stacklevel=2)
+        return None
 
 
 def one_of(

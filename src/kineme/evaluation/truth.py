@@ -138,10 +138,10 @@ class Labelling:
         ParameterError
             The lengths in seconds differ by more than one frame of the slower rate.
         """
-        own, other = self.frames / self.fps, frames / fps
-        if abs(own - other) > 1 / min(self.fps, fps) + 1e-9:
+        length, other = self.frames / self.fps, frames / fps
+        if abs(length - other) > 1 / min(self.fps, fps) + 1e-9:
             raise ParameterError(
-                f"the labels cover {own:.3f} s ({self.frames} frames at {self.fps:g} fps), the "
+                f"the labels cover {length:.3f} s ({self.frames} frames at {self.fps:g} fps), the "
                 f"recording lasts {other:.3f} s ({frames} frames at {fps:g} fps)"
             )
         moved = round_half_up(self.borders * (fps / self.fps))

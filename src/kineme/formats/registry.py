@@ -103,7 +103,7 @@ FORMATS: Registry[Format] = Registry(
     "format",
     "kineme.formats",
     home="kineme.formats",
-    own=(
+    builtins=(
         "keypoints.pose_json:OPENPOSE",
         "keypoints.pose_json:COCO",
         "keypoints.pose_json:MEDIAPIPE",
@@ -153,7 +153,7 @@ def supported_formats() -> tuple[Format, ...]:
 
     Examples
     --------
-    >>> {"AMC", "BVH", "C3D"} <= {known.name for known in supported_formats()}
+    >>> {"AMC", "BVH", "C3D"} <= {candidate.name for candidate in supported_formats()}
     True
     """
     return tuple(FORMATS.values())
@@ -164,13 +164,13 @@ def recognise(content: FileContent) -> Format:
     head = content.data[:HEAD]
     suffix = content.path.suffix.lower()
     formats = supported_formats()
-    by_content = [known for known in formats if speaks(known, head)]
-    by_suffix = [known for known in formats if suffix in known.suffixes]
+    by_content = [candidate for candidate in formats if speaks(candidate, head)]
+    by_suffix = [candidate for candidate in formats if suffix in candidate.suffixes]
     if suffix in INSTEAD and not by_suffix:
         raise ReadError(content.path, f"{suffix} is not read: {INSTEAD[suffix]}")
-    for known in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
-        return known
-    suffixes = sorted({s for known in formats for s in known.suffixes})
+    for candidate in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
+        return candidate
+    suffixes = sorted({s for candidate in formats for s in candidate.suffixes})
     raise ReadError(
         content.path,
         f"neither its content nor its suffix {suffix!r} is known: kineme reads "
@@ -178,11 +178,11 @@ def recognise(content: FileContent) -> Format:
     )
 
 
-def speaks(known: Format, head: bytes) -> bool:
+def speaks(candidate: Format, head: bytes) -> bool:
     """Whether a file's first bytes look like a format; one that cannot tell costs itself only."""
     try:
-        return known.recognises(head)
+        return candidate.recognises(head)
     except Exception as error:  # noqa: BLE001 (whatever a stranger's format raises)
         reason = f"{type(error).__name__}: {error}"
-        warn(f"the format {known.name} is passed over, it cannot tell its files: {reason:.200}")
+        warn(f"the format {candidate.name} is passed over, it cannot tell its files: {reason:.200}")
         return False

@@ -20,7 +20,7 @@ FORMATS: Registry[LabelFormat] = Registry(
     "label format",
     "kineme.label_formats",
     home="kineme.labels",
-    own=(
+    builtins=(
         "csv_table:FORMAT",
         "json_table:FORMAT",
         "parquet_table:FORMAT",
@@ -80,8 +80,8 @@ def written_suffixes() -> tuple[str, ...]:
     tuple of str
         Lower case, with the dot, each once.
     """
-    writers = [known for known in label_formats().values() if known.write]
-    return tuple(dict.fromkeys(known.written_suffix.lower() for known in writers))
+    writers = [candidate for candidate in label_formats().values() if candidate.write]
+    return tuple(dict.fromkeys(candidate.written_suffix.lower() for candidate in writers))
 
 
 def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
@@ -97,12 +97,12 @@ def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelF
     if name is not None:
         return _named(name)
     suffix = Path(path).suffix.lower()
-    fitting = [known for known in label_formats().values() if suffix in known.suffixes]
+    fitting = [candidate for candidate in label_formats().values() if suffix in candidate.suffixes]
     if not fitting:
         reason = f"segments are stored as {_suffixes_read()}, not {suffix or 'that'!r}"
         raise ReadError(path, reason)
-    fitting.sort(key=lambda known: known.written_suffix.lower() != suffix)
-    return next((known for known in fitting if _speaks(known, Path(path))), fitting[0])
+    fitting.sort(key=lambda candidate: candidate.written_suffix.lower() != suffix)
+    return next((candidate for candidate in fitting if _speaks(candidate, Path(path))), fitting[0])
 
 
 def format_to_write(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
@@ -122,11 +122,11 @@ def format_to_write(path: str | PathLike[str], name: str | None = None) -> Label
             raise WriteError(path, f"{name} is only read: segments go into {stored}")
         return chosen
     suffix = Path(path).suffix.lower()
-    fitting = [known for known in label_formats().values() if suffix in known.suffixes]
-    writers = [known for known in fitting if known.write]
-    for known in writers:
-        if suffix == known.written_suffix.lower():
-            return known
+    fitting = [candidate for candidate in label_formats().values() if suffix in candidate.suffixes]
+    writers = [candidate for candidate in fitting if candidate.write]
+    for candidate in writers:
+        if suffix == candidate.written_suffix.lower():
+            return candidate
     if writers:
         return writers[0]
     stored = ", ".join(written_suffixes())
@@ -159,21 +159,21 @@ def holds_labels(path: str | PathLike[str]) -> bool:
     if target.name.endswith(".provenance.json"):  # of the table beside it
         return False
     suffix = target.suffix.lower()
-    fitting = [known for known in label_formats().values() if suffix in known.suffixes]
-    return any(_speaks(known, target) for known in fitting)
+    fitting = [candidate for candidate in label_formats().values() if suffix in candidate.suffixes]
+    return any(_speaks(candidate, target) for candidate in fitting)
 
 
-def _speaks(known: LabelFormat, path: Path) -> bool:
-    return known.recognises is None or known.recognises(path)
+def _speaks(candidate: LabelFormat, path: Path) -> bool:
+    return candidate.recognises is None or candidate.recognises(path)
 
 
 def _named(name: str) -> LabelFormat:
-    known = label_formats()
-    if not is_one_of(name, known):
-        raise ParameterError(f"format must be one of {', '.join(known)}, not {name!r}")
-    return known[name]
+    formats = label_formats()
+    if not is_one_of(name, formats):
+        raise ParameterError(f"format must be one of {', '.join(formats)}, not {name!r}")
+    return formats[name]
 
 
 def _suffixes_read() -> str:
-    every = (suffix for known in label_formats().values() for suffix in known.suffixes)
+    every = (suffix for candidate in label_formats().values() for suffix in candidate.suffixes)
     return ", ".join(dict.fromkeys(every))

@@ -29,7 +29,7 @@ PRESETS: Registry[Preset] = Registry(
     "preset",
     "kineme.presets",
     home="kineme.methods",
-    own=(
+    builtins=(
         "kineme.preset:KINEME",
         "kineme.preset:SENSORS",
         "region_growing.preset:VOEGELE2014",
@@ -100,7 +100,7 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
             f"there are {', '.join(PRESETS)}"
         )
     for name in overrides:
-        others = [other for other, known in PRESETS.items() if hasattr(known, name)]
+        others = [other for other, candidate in PRESETS.items() if hasattr(candidate, name)]
         if others and not hasattr(chosen, name):
             raise ParameterError(
                 f"{chosen.name} has no parameter {name!r}: it is one of {' and '.join(others)}, "

@@ -92,8 +92,8 @@ def preset_method(preset: Preset) -> Method:
 
 def _by_name(name: str, trial: Trial) -> Segmentation:
     n_classes = len(set(trial.truth.labels) - {TRANSITION})
-    own = OF_TRIALS.get((name, trial.name), {})
-    return segment_by(name, trial.motion, n_classes=n_classes, **own)
+    constants = OF_TRIALS.get((name, trial.name), {})
+    return segment_by(name, trial.motion, n_classes=n_classes, **constants)
 
 
 def _by_preset(preset: Preset, trial: Trial) -> Segmentation:

@@ -177,8 +177,8 @@ def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
         warnings.simplefilter("ignore", KinemeWarning)
         trials = read_trials(path, fps=fps)
     if name not in trials:
-        known = ", ".join(trials)
-        raise ReadError(path, f"holds no trial {name!r}: name one of {known} with --trial")
+        names = ", ".join(trials)
+        raise ReadError(path, f"holds no trial {name!r}: name one of {names} with --trial")
     return trials[name]
 
 

@@ -88,8 +88,8 @@ def make_tables(
     trials = list(dict.fromkeys(r.trial for r in results))
     tables = {"means": markdown_scores(mean_scores(results))}
     for trial in trials:
-        own = {r.method: r.scores for r in results if r.trial is trial}
-        tables[trial.name] = markdown_scores(own)
+        columns = {r.method: r.scores for r in results if r.trial is trial}
+        tables[trial.name] = markdown_scores(columns)
     tables["uniform cuts"] = _uniform_table(trials)
     if published:
         tables["published cuts"] = _published_table(published)
@@ -114,9 +114,15 @@ def _published_table(found: Sequence[PublishedCuts]) -> str:
     names = ("strict", "tolerant")
     rows = []
     for method in ("aca", "haca"):
-        own = [p for p in found if p.method == method]
-        lines = [(p.trial, p.scores, p.printed) for p in own]
-        lines.append(("**mean**", mean([p.scores for p in own]), mean([p.printed for p in own])))
+        cuts_of_method = [p for p in found if p.method == method]
+        lines = [(p.trial, p.scores, p.printed) for p in cuts_of_method]
+        lines.append(
+            (
+                "**mean**",
+                mean([p.scores for p in cuts_of_method]),
+                mean([p.printed for p in cuts_of_method]),
+            )
+        )
         for trial, scores, printed in lines:
             cells = [shown(scores[n]) for n in names] + [shown(printed[n]) for n in names]
             cells += [f"{printed[n] - scores[n]:+.3f}" for n in names]

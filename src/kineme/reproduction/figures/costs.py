@@ -148,13 +148,13 @@ def plot_sensitivity(trials: Sequence[Trial], path: Path) -> Path:
     return save(figure, path)
 
 
-def _draw(axes: Axes, scores: Sequence[tuple[float, Scores]], own: float) -> None:
+def _draw(axes: Axes, scores: Sequence[tuple[float, Scores]], preset_value: float) -> None:
     for name, (label, color) in CURVES.items():
         axes.plot(
             [value for value, _ in scores], [row[name] for _, row in scores],
             "o-", ms=3, lw=1.2, color=color, label=label,
         )  # fmt: skip
-    axes.axvline(own, color=FAINT, linestyle="--", linewidth=1)
+    axes.axvline(preset_value, color=FAINT, linestyle="--", linewidth=1)
     axes.set_ylim(0, 1.02)
     tidy(axes)
 
@@ -172,8 +172,8 @@ def _wider(preset: RegionGrowingPreset, share: float) -> RegionGrowingPreset:
 
 def _with_neighbors(preset: RegionGrowingPreset, k: int) -> RegionGrowingPreset:
     changed = {
-        name: max(1, round(own * k / preset.max_neighbors))
+        name: max(1, round(value * k / preset.max_neighbors))
         for name in ("growth_neighbors", "cluster_neighbors")
-        if (own := getattr(preset, name)) is not None
+        if (value := getattr(preset, name)) is not None
     }
     return preset.replace(max_neighbors=k, **changed)

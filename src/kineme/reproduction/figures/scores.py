@@ -76,9 +76,9 @@ def _draw_accuracies(
         heights.append(float(np.nanmean(heights)))
         axes.bar(places + offset, heights, 0.92 * width, color=method_color(method))
         if method in printed:
-            said = [printed[method][trial] for trial in trials]
-            said.append(float(np.mean(said)))
-            axes.plot(places + offset, said, "D", mfc="white", mec=INK, ms=3.5, mew=0.8)
+            published_values = [printed[method][trial] for trial in trials]
+            published_values.append(float(np.mean(published_values)))
+            axes.plot(places + offset, published_values, "D", mfc="white", mec=INK, ms=3.5, mew=0.8)
     axes.set_xticks(places, [*trials, "mean"])
     axes.set_ylim(0, 1.02)
     tidy(axes)
@@ -89,9 +89,9 @@ def plot_published_cuts(found: Sequence[PublishedCuts], path: Path) -> Path:
     figure = new_figure(9.2, 5.2)
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
     for row, method in zip(panels, ("aca", "haca"), strict=True):
-        own = [p for p in found if p.method == method]
+        cuts = [p for p in found if p.method == method]
         for axes, score in zip(row, ("strict", "tolerant"), strict=True):
-            _draw_gap(axes, own, score)
+            _draw_gap(axes, cuts, score)
             heading(axes, f"{method.upper()}, {score}")
     handles = [
         Line2D([], [], marker="o", color=INK, ls="", ms=5, label="authors' function"),
@@ -160,9 +160,9 @@ def plot_by_class(clusters: Sequence[Measured], path: Path) -> Path:
         width, offsets = grouped(len(names), len(methods))
         for method, offset in zip(methods, offsets, strict=True):
             for place, name in enumerate(names):
-                own = [m for m in clusters if (m.method, m.name) == (method, name)]
-                if own:
-                    _draw_bar(axes, place + offset, width, own, values)
+                group = [m for m in clusters if (m.method, m.name) == (method, name)]
+                if group:
+                    _draw_bar(axes, place + offset, width, group, values)
         axes.set_xticks(range(len(names)), names, rotation=20, ha="right", rotation_mode="anchor")
         axes.set_xlim(-0.6, len(names) - 0.4)
         axes.set_ylim(bottom=0)
@@ -179,12 +179,12 @@ def plot_by_class(clusters: Sequence[Measured], path: Path) -> Path:
 
 
 def _draw_bar(
-    axes: Axes, place: float, width: float, own: Sequence[Measured], values: Values
+    axes: Axes, place: float, width: float, group: Sequence[Measured], values: Values
 ) -> None:
-    mean, variance = np.nanmean([values(m) for m in own], axis=0)
-    axes.bar(place, mean, 0.92 * width, color=method_color(own[0].method))
+    mean, variance = np.nanmean([values(m) for m in group], axis=0)
+    axes.bar(place, mean, 0.92 * width, color=method_color(group[0].method))
     axes.plot(place, variance, "_", color=INK, ms=5, mew=1.4)
-    count = sum(m.cloud.segments for m in own)
+    count = sum(m.cloud.segments for m in group)
     axes.annotate(
         str(count), (place, mean), (0, 1.5), textcoords="offset points",
         ha="center", fontsize=5.5, color=INK,

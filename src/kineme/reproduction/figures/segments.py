@@ -53,12 +53,12 @@ def draw_bars(axes: Axes, trial: Trial, results: Sequence[Result]) -> None:
     """The rows of one trial."""
     truth = trial.truth.labelling()
     classes = list(dict.fromkeys(label for label in truth.labels if label != TRANSITION))
-    own = {label: (PALETTE[i % len(PALETTE)], 0.0) for i, label in enumerate(classes)}
-    _draw_row(axes, 0, truth, own)
-    _name_classes(axes, truth, own)
+    colors = {label: (PALETTE[i % len(PALETTE)], 0.0) for i, label in enumerate(classes)}
+    _draw_row(axes, 0, truth, colors)
+    _name_classes(axes, truth, colors)
     for row, result in enumerate(results, 1):
         found = units(result)
-        _draw_row(axes, row, found, _colors(truth, found, own))
+        _draw_row(axes, row, found, _colors(truth, found, colors))
     axes.set_yticks(range(len(results) + 1), ["truth", *(r.method for r in results)])
     axes.set_ylim(len(results) + 0.6, -0.6)
     axes.set_xlim(0, truth.frames / truth.fps)
@@ -87,12 +87,12 @@ def classes_of(truth: Labelling, found: Labelling) -> dict[str, str]:
 
 
 def _colors(
-    truth: Labelling, found: Labelling, own: Mapping[str, tuple[str, float]]
+    truth: Labelling, found: Labelling, colors: Mapping[str, tuple[str, float]]
 ) -> dict[str, tuple[str, float]]:
     """Colour and lightness per cluster."""
     best = _assignment(truth, found)
     return {
-        label: own[best[label]] if label in best else (own[name][0], LIGHTER)
+        label: colors[best[label]] if label in best else (colors[name][0], LIGHTER)
         for label, name in classes_of(truth, found).items()
     }
 
