@@ -126,7 +126,11 @@ class Labelling:
 
     def merged(self) -> Labelling:
         """The same labels with equal neighbours joined."""
-        return Labelling.from_frames(self.per_frame(), fps=self.fps)
+        labels = self.labels
+        rows = [i for i, label in enumerate(labels) if not i or label != labels[i - 1]]
+        return Labelling(
+            np.append(self.borders[rows], self.frames), tuple(labels[i] for i in rows), self.fps
+        )
 
     def at(self, *, frames: int, fps: float) -> Labelling:
         """The same intervals counted in frames of another rate.
