@@ -24,7 +24,7 @@ from kineme.labels.collections import labels_of
 from kineme.library import Library, build
 from kineme.library.storage.layout import SEEN
 from kineme.recordings import Motion
-from kineme.reproduction.annotations import is_annotations, read_trials
+from kineme.reproduction.trials import is_annotations, read_trials
 from kineme.segments import editing
 from kineme.segments.editing.marks import marked
 from kineme.segments.segmentation import Segmentation

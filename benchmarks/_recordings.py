@@ -17,7 +17,7 @@ import numpy as np
 import kineme
 from _options import DATA, few, needed
 from kineme.datasets import ACTIONS, Action, Exercise, exercise_sequence, synthesize
-from kineme.evaluation import Annotation, labelling_of
+from kineme.evaluation import Truth, labelling_of
 from kineme.recordings import Motion
 from kineme.reproduction.trials import find_folder, load_trials
 from kineme.segments.segmentation import Segmentation
@@ -39,7 +39,7 @@ class Case:
 
     name: str
     motion: Motion
-    truth: Annotation
+    truth: Truth
     made: Segmentation | None = None
     """The truth as a segmentation, repetitions and all, where it was made."""
 
@@ -112,11 +112,11 @@ def _factor(rng: np.random.Generator) -> float:
     return float(2 ** rng.uniform(-1, 1))
 
 
-def annotation(truth: Segmentation) -> Annotation:
+def annotation(truth: Segmentation) -> Truth:
     """A known truth in the form in which people's are: transitions are uncertain borders."""
     rows = truth.activities
     units = Counter(truth.primitives.activity.tolist())
-    marks = Annotation.from_labelling(labelling_of(rows, fps=truth.fps))
+    marks = Truth.from_labelling(labelling_of(rows, fps=truth.fps))
     counts = [units[row.activity] for row in rows if row.kind == "activity"]
     return replace(marks, counts=tuple(counts))
 

@@ -107,5 +107,5 @@ def register_rivals() -> tuple[list[str], list[str]]:
     """Names of the presets whose packages are here, and of the packages that are not."""
     here = [rival for rival in RIVALS if find_spec(rival.package)]
     for rival in here:
-        register(rival)
+        register(rival, replace=True)
     return [rival.name for rival in here], [r.package for r in RIVALS if r not in here]

@@ -18,9 +18,8 @@ from string import Template
 
 from kineme._version import __version__
 from kineme.evaluation.tables import shown
-from kineme.reproduction.benchmark import mean_scores, run
+from kineme.reproduction.benchmark import METHODS, mean_scores, run
 from kineme.reproduction.figures import make_figures
-from kineme.reproduction.methods import METHODS
 from kineme.reproduction.trials import find_folder, load_trials
 
 HERE = Path(__file__).parent

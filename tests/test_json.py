@@ -14,9 +14,9 @@ import kineme
 from kineme._json import DEEPEST, decoded, loaded
 from kineme.datasets import bundled_truth
 from kineme.errors import ParameterError, ReadError
-from kineme.evaluation.annotation import Annotation
+from kineme.evaluation import Truth
 from kineme.labels.collections import labels_of
-from kineme.reproduction.annotations import is_annotations, read_trials
+from kineme.reproduction.trials import is_annotations, read_trials
 from kineme.synthesis import MotionGraph
 from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
 
@@ -136,7 +136,7 @@ def test_marks_of_any_length_in_the_text(tmp_path: Path) -> None:
 
 def test_labels_of_an_annotation_are_texts() -> None:
     with pytest.raises(ParameterError, match="labels must be a list of texts"):
-        Annotation((["walk"],), [], [], [], 10, 30.0)  # type: ignore[arg-type]
+        Truth((["walk"],), [], [], [], 10, 30.0)  # type: ignore[arg-type]
 
 
 def test_times_beyond_all_measure_are_cut_off(tmp_path: Path) -> None:

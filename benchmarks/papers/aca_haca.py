@@ -27,7 +27,7 @@ from kineme.methods.baselines import aca, haca
 from kineme.methods.baselines.constants import AcaConstants, HacaConstants
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
 from kineme.reproduction import read_trials
-from kineme.reproduction.aca_protocol import aca_accuracy
+from kineme.reproduction.benchmark import aca_accuracy
 
 FOLDER = DATA / "cmu86"
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")

@@ -27,10 +27,16 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
-from kineme.evaluation import Labelling, border_score, labelling_of, one_to_one_accuracy
+from kineme.evaluation import (
+    Comparison,
+    Labelling,
+    border_score,
+    labelling_of,
+    one_to_one_accuracy,
+)
 from kineme.features import pose_features
 from kineme.recordings.operations import resample
-from kineme.reproduction.methods import METHODS
+from kineme.reproduction.benchmark import METHODS
 from kineme.reproduction.trials import FPS, Trial, find_folder, load_trials
 
 WINDOW = int(FPS)
@@ -174,7 +180,8 @@ def measured(name: str, trial: Trial) -> dict[str, Any]:
             seconds, found, labelled = result(name, trial)
     except Exception as error:  # noqa: BLE001 (a rival that fails is a result)
         return {"trial": trial.name, "method": name, "error": f"{type(error).__name__}: {error}"}
-    accuracy = one_to_one_accuracy(trial.truth, found)[0] if labelled else None
+    compared = Comparison.of(trial.truth, found)
+    accuracy = one_to_one_accuracy(compared) if labelled else None
     return {
         "trial": trial.name,
         "method": name,
@@ -183,7 +190,7 @@ def measured(name: str, trial: Trial) -> dict[str, Any]:
         "true_cuts": len(trial.truth.labels) - 1,
         "cuts": found.borders[1:-1].tolist(),
         "labels": list(found.labels) if labelled else None,
-        "border_f1": round(border_score(trial.truth, found).f1, 3),
+        "border_f1": round(border_score(compared).f1, 3),
         "frame_accuracy": None if accuracy is None else round(accuracy, 3),
     }
 

@@ -29,7 +29,7 @@ import kineme
 from _figures import add_option, record
 from _options import command_line, needed
 from _recordings import CONDITIONS, Case, hdm05, subject_86, synthetic
-from kineme.evaluation import Annotation, Labelling, evaluate, evaluate_segmentation
+from kineme.evaluation import Labelling, Truth, evaluate, evaluate_segmentation
 from kineme.methods.baselines.uniform import uniform
 from kineme.methods.presets import DEFAULT, PUBLISHED
 from kineme.recordings import Motion
@@ -79,7 +79,7 @@ def by_presets(cases: Iterable[Case]) -> dict[str, Scores]:
 
 
 def uniform_scores(cases: Iterable[Case]) -> Scores:
-    def score(truth: Annotation) -> Scores:
+    def score(truth: Truth) -> Scores:
         cuts = uniform(truth.frames, fps=truth.fps, seconds=0.5).cuts
         return evaluate(truth, Labelling.from_cuts(cuts, frames=truth.frames, fps=truth.fps))
 
@@ -98,7 +98,7 @@ def annotators_scores(cases: Iterable[Case]) -> dict[str, Scores]:
 def recorded_scores(cases: Iterable[Case], method: str) -> Scores:
     """ACA or HACA as their authors' program ran: five seeds per trial."""
 
-    def score(truth: Annotation, run: dict[str, list[int]]) -> Scores:
+    def score(truth: Truth, run: dict[str, list[int]]) -> Scores:
         cuts = np.array(run["cuts_30hz"]) - 1
         found = Labelling.from_cuts(cuts, run["clusters"], frames=truth.frames, fps=truth.fps)
         return evaluate(truth, found.merged())

@@ -24,7 +24,7 @@ from _figures import add_option, record
 from _options import command_line, few, needed
 from _recordings import by_recording, hdm05
 from kineme.evaluation import labelling_of
-from kineme.evaluation.counts import found_counts
+from kineme.evaluation.segments import found_counts
 from kineme.segments.segmentation import Segmentation
 from sensors import RIGHT, sensors
 

@@ -23,7 +23,7 @@ from _recordings import TRIALS
 from kineme import Signals, read, segment
 from kineme import _rotations as rot
 from kineme.datasets import random_recording
-from kineme.evaluation import Annotation, evaluate_segmentation, labelling_of
+from kineme.evaluation import Truth, evaluate_segmentation, labelling_of
 from kineme.evaluation.tables import markdown, shown
 from kineme.features import end_effectors, pose_features
 from kineme.recordings import Motion
@@ -32,7 +32,7 @@ from kineme.recordings.operations import resample
 from kineme.reproduction.trials import find_folder, load_trials
 
 Floats = NDArray[np.float64]
-Recording = tuple[Annotation, Signals]
+Recording = tuple[Truth, Signals]
 SYNTHETIC = range(100, few(108, 101))  # seeds
 FPS = 100.0
 GRAVITY = np.array([0.0, 9.81, 0.0])
@@ -96,7 +96,7 @@ def synthetic(make: Callable[[Motion], Signals]) -> list[Recording]:
     made = [random_recording(seed) for seed in SYNTHETIC]
     truths = [labelling_of(one.truth.activities, fps=one.truth.fps) for one in made]
     signals = [make(one.motion) for one in made]
-    return list(zip(map(Annotation.from_labelling, truths), signals, strict=True))
+    return list(zip(map(Truth.from_labelling, truths), signals, strict=True))
 
 
 def main() -> None:

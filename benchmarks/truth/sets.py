@@ -25,9 +25,8 @@ from _figures import add_option, record
 from _options import DATA, command_line, few, needed
 from _rival_presets import register_rivals
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.jobs import Answer, Job, worked_out
-from kineme.evaluation.joining import joined_comparisons
-from kineme.evaluation.recordings import Reading, recordings_below
+from kineme.evaluation.folder import joined_comparisons
+from kineme.evaluation.recordings import Answer, Job, Reading, recordings_below, worked_out
 from kineme.evaluation.score import over_all, scores
 from kineme.evaluation.tables import markdown
 from kineme.labels.collections import labels_of

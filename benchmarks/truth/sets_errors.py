@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 from _figures import add_option, record
 from _options import DATA, command_line, few, needed
 from kineme.evaluation.comparison import Comparison, Run
-from kineme.evaluation.jobs import Answer, Job
-from kineme.evaluation.recordings import recordings_below
+from kineme.evaluation.recordings import Answer, Job, recordings_below
 from kineme.evaluation.score import over_all, scores
 from kineme.evaluation.tables import markdown
 from kineme.labels.collections import labels_of

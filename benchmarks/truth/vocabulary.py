@@ -36,9 +36,7 @@ from _libraries import SHAKEN, library_of
 from _options import command_line, few
 from _recordings import Case, hdm05, subject_86
 from kineme import Library
-from kineme.evaluation import Annotation, Labelling
-from kineme.evaluation.frames import one_to_one_accuracy
-from kineme.evaluation.labelling import TRANSITION
+from kineme.evaluation import TRANSITION, Comparison, Labelling, Truth, one_to_one_accuracy
 from kineme.library.compiling import compiled
 from kineme.library.constants import VOCABULARY
 from kineme.library.executors import Executor, Outcome, Task
@@ -83,8 +81,9 @@ def score(name: str, folder: Path, cases: list[Case]) -> tuple[float, float, int
     wanted = np.concatenate([said_in(case) for case in cases])
     given = np.concatenate([found_in(library, case) for case in cases])
     fps = cases[0].truth.fps
-    truth = Annotation.from_labelling(Labelling.from_frames(wanted, fps=fps))
-    right, agreed = one_to_one_accuracy(truth, Labelling.from_frames(given, fps=fps))
+    truth = Truth.from_labelling(Labelling.from_frames(wanted, fps=fps))
+    compared = Comparison.of(truth, Labelling.from_frames(given, fps=fps))
+    right, agreed = one_to_one_accuracy(compared), one_to_one_accuracy(compared.agreed)
     return right, agreed, len({*given} - {TRANSITION}), len({*wanted} - {TRANSITION})
 
 

@@ -9,12 +9,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kineme.errors import ParameterError, ReadError
+from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, best_mapping, compare
 from kineme.evaluation.folder import evaluate_folder
 from kineme.evaluation.recordings import Reading, recordings_below
-from kineme.evaluation.score import Ratio, Score, _known, over_all, register, scores, value_of
-from kineme.evaluation.segmental_scores import edit_distance
+from kineme.evaluation.score import (
+    SCORES,
+    Ratio,
+    Score,
+    over_all,
+    register,
+    results_of,
+    scores,
+    value_of,
+)
+from kineme.evaluation.segments import edit_distance
 from kineme.labels.collections import labels_of
 from kineme.segments.segmentation import Segmentation
 from labelled_corpus import make_corpus
@@ -131,6 +140,18 @@ def test_frames_without_a_label_count_in_nothing() -> None:
         compare(nothing, found)
 
 
+def test_repetitions_are_those_within_labelled_frames() -> None:
+    columns = {"level": ["activity", "primitive", "primitive"], "kind": ["activity"] * 3,
+               "start_frame": [0, 0, 6], "stop_frame": [10, 6, 10], "cluster": [0] * 3}  # fmt: skip
+    found = Segmentation.from_columns(columns, n_frames=10, fps=10)
+    truth = segments([("activity", 0, 4, "walk", -1), ("transition", 4, 7, "", -1),
+                      ("activity", 7, 10, "run", -1)])  # fmt: skip
+    compared = compare(truth, found)
+    assert compared.spans.primitives.borders.tolist() == [0, 4, 7]
+    assert scores()["length_mean"].function(compared) == pytest.approx(0.35)
+    assert scores()["count_error"].function(compared) is None
+
+
 def test_one_mapping_for_the_folder_asks_for_clusters_that_mean_the_same() -> None:
     first = Comparison([0, 0, 1], [5, 5, 6], fps=1)
     second = Comparison([0, 1, 1, 1], [6, 5, 5, 5], fps=1)
@@ -193,7 +214,18 @@ def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
         with pytest.raises(ParameterError, match="register takes a Score, not function"):
             register(longest)
     finally:
-        _known().pop("longest")
+        SCORES.remove("longest")
+
+
+def test_a_score_that_fails_costs_itself_only() -> None:
+    register(Score("broken", "broken", "divides by nothing", "frames", lambda _: 1 / 0))
+    try:
+        with pytest.warns(KinemeWarning, match="the score 'broken' is left out, it fails: ZeroDiv"):
+            found = results_of(Comparison([0, 0, 1], [4, 4, 4], fps=1))
+    finally:
+        SCORES.remove("broken")
+    assert found["mof"] == Ratio(2, 3)
+    assert "broken" not in found
 
 
 def longest(compared: Comparison) -> float:

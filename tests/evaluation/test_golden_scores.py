@@ -18,8 +18,9 @@ from reference_results import (
 
 from kineme.evaluation import (
     TRANSITION,
-    Annotation,
+    Comparison,
     Labelling,
+    Truth,
     border_ratio,
     border_score,
     covering,
@@ -31,9 +32,17 @@ from kineme.evaluation import (
 )
 from kineme.reproduction import published, read_trials
 
+of = Comparison.of
+
+
+def right(truth: Truth, found: Labelling) -> tuple[float, float]:
+    """Of all frames, and of those on which people agree."""
+    compared = of(truth, found)
+    return one_to_one_accuracy(compared), one_to_one_accuracy(compared.agreed)
+
 
 @pytest.fixture(scope="module")
-def truths(data_dir: Path) -> dict[str, Annotation]:
+def truths(data_dir: Path) -> dict[str, Truth]:
     return read_trials(data_dir / "cmu86" / "annotations.json")
 
 
@@ -47,7 +56,7 @@ def stored(data_dir: Path) -> dict:
 def test_strict_and_tolerant_are_the_programs_to_all_digits(data_dir, truths, configuration, trial):
     result = reference(data_dir, configuration, trial)
     found = from_one(result["activity_cuts"], result["frames"])
-    scores = strict_and_tolerant(truths[trial], found)
+    scores = strict_and_tolerant(of(truths[trial], found))
     assert np.round(scores, 4) == pytest.approx(
         (result["accuracy_strict"], result["accuracy_tolerant"]), abs=1e-9
     )
@@ -58,7 +67,9 @@ def test_strict_and_tolerant_are_the_programs_to_all_digits(data_dir, truths, co
     [(36, 0.935, 0.961), (15, 0.972, 0.981), (5, 0.989, 0.995), (10**6, 0.203, 0.227)],
 )
 def test_uniform_cuts_pass_every_method_under_the_papers_protocol(truths, step, strict, tolerant):
-    scores = [strict_and_tolerant(truths[trial], uniform(truths[trial], step)) for trial in TRIALS]
+    scores = [
+        strict_and_tolerant(of(truths[trial], uniform(truths[trial], step))) for trial in TRIALS
+    ]
     assert np.mean(scores, axis=0) == pytest.approx((strict, tolerant), abs=6e-4)
 
 
@@ -69,7 +80,7 @@ def test_published_cuts_of_aca_and_haca_over_fourteen_trials(
     truths, stored, method, strict, tolerant
 ):
     scores = [
-        strict_and_tolerant(truth, from_one(stored[f"{method}_cuts_30hz"][trial], truth.frames))
+        strict_and_tolerant(of(truth, from_one(stored[f"{method}_cuts_30hz"][trial], truth.frames)))
         for trial, truth in truths.items()
     ]
     assert len(scores) == 14
@@ -84,7 +95,7 @@ def test_published_clusters_of_aca_and_haca_one_to_one(truths, stored, method, e
     for trial, truth in truths.items():
         cuts, numbers = (stored[f"{method}_{kind}"][trial] for kind in ("cuts_30hz", "cluster_ids"))
         if len(numbers) == len(cuts) + 1:  # HACA's of three trials do not fit, as published
-            scores.append(one_to_one_accuracy(truth, from_one(cuts, truth.frames, numbers)))
+            scores.append(right(truth, from_one(cuts, truth.frames, numbers)))
     assert np.mean(scores, axis=0) == pytest.approx((everywhere, agreed), abs=5e-3)
 
 
@@ -122,14 +133,14 @@ def test_fair_scores_of_the_authors_programs(
     for trial in TRIALS:
         result, truth = reference(data_dir, configuration, trial), truths[trial]
         groups, stretches = clusters(result), activities(result)
-        free.append(one_to_one_accuracy(truth, renamed(groups)))
-        ours.append(one_to_one_accuracy(truth, groups))
+        free.append(right(truth, renamed(groups)))
+        ours.append(right(truth, groups))
         plain = from_one(result["activity_cuts"], result["frames"])
         rest.append(
             (
-                border_score(truth, stretches).f1,
-                covering(truth, plain),
-                cut_ratio(truth, plain),
+                border_score(of(truth, stretches)).f1,
+                covering(of(truth, plain)),
+                cut_ratio(of(truth, plain)).value,
                 len(set(result["clusters"])),
             )
         )
@@ -141,7 +152,7 @@ def test_fair_scores_of_the_authors_programs(
     assert (
         np.mean(
             [
-                border_ratio(truths[t], activities(reference(data_dir, configuration, t)))
+                border_ratio(of(truths[t], activities(reference(data_dir, configuration, t)))).value
                 for t in TRIALS
             ]
         )
@@ -155,7 +166,7 @@ def test_majority_accuracy_is_near_the_rerun_of_others(truths, stored):
     found = from_one(
         stored["aca_cuts_30hz"]["86_01"], truth.frames, stored["aca_cluster_ids"]["86_01"]
     )
-    assert majority_accuracy(truth, found) == pytest.approx((0.8146, 0.9374), abs=1e-3)
+    assert majority_accuracy(of(truth, found)) == pytest.approx((0.8146, 0.9374), abs=1e-3)
 
 
 def test_published_figures_ship_with_their_sources(stored):
@@ -164,7 +175,7 @@ def test_published_figures_ship_with_their_sources(stored):
         assert tables[name] == stored[name]
 
 
-def uniform(truth: Annotation, step: int) -> Labelling:
+def uniform(truth: Truth, step: int) -> Labelling:
     return Labelling.from_cuts(
         np.arange(step, truth.frames, step), frames=truth.frames, fps=truth.fps
     )

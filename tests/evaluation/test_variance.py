@@ -13,8 +13,8 @@ import naive
 from kineme.errors import ParameterError
 from kineme.evaluation import (
     TRANSITION,
-    Annotation,
     Labelling,
+    Truth,
     evaluate,
     feature_variance,
     overall,
@@ -81,7 +81,7 @@ def test_each_ordered_pair_is_divided_by_the_length_of_its_first():
 
 
 def test_evaluate_adds_variances_where_it_has_the_data(walk):
-    truth = Annotation(("a",), [], [], [], 40, 30.0)
+    truth = Truth(("a",), [], [], [], 40, 30.0)
     found = Labelling([0, 20, 40], ("1", "1"), 30.0)
     scores = evaluate(truth, found, positions=walk, features=walk.reshape(40, 12))
     assert scores["cloud_distance"] > 0 < scores["feature_distance"]

@@ -24,21 +24,23 @@ def surprise(*_: object) -> None:
     raise SurprisingError("deep inside")
 
 
-def test_surprises_of_a_reader(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_surprises_of_a_reader(tmp_path: Path, request: pytest.FixtureRequest) -> None:
     path = tmp_path / "a.odd"
     path.write_text("anything")
     odd = registry.Format("odd", (".odd",), lambda _: False, surprise)  # type: ignore[arg-type]
-    monkeypatch.setattr(registry, "_formats", [odd])
+    registry.register(odd)
+    request.addfinalizer(lambda: registry.FORMATS.remove("odd"))
     with pytest.raises(ReadError, match=r"a\.odd: cannot be understood.*deep inside") as caught:
         kineme.read(path)
     assert isinstance(caught.value.__cause__, SurprisingError)
 
 
-def test_surprises_of_a_reader_of_labels(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_surprises_of_a_reader_of_labels(tmp_path: Path, request: pytest.FixtureRequest) -> None:
     path = tmp_path / "a.odd"
     path.write_text("anything")
     odd = label_format.LabelFormat("odd", "", (".odd",), "all", surprise)  # type: ignore[arg-type]
-    monkeypatch.setattr(label_registry, "_known", lambda: {"odd": odd})
+    label_registry.register(odd)
+    request.addfinalizer(lambda: label_registry.FORMATS.remove("odd"))
     with pytest.raises(ReadError, match=r"a\.odd: cannot be understood.*deep inside") as caught:
         kineme.read_segments(path)
     assert isinstance(caught.value.__cause__, SurprisingError)

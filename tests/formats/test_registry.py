@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -41,8 +42,9 @@ TOY = Format(
 
 
 @pytest.fixture
-def known(monkeypatch):
-    monkeypatch.setattr(registry, "_formats", list(supported_formats()))
+def known() -> Iterator[None]:
+    yield
+    registry.FORMATS.remove("toy")
 
 
 def test_what_is_worth_a_warning_is_warned_of_once(tmp_path: Path) -> None:
@@ -105,24 +107,13 @@ def test_a_format_of_another_package(tmp_path: Path, monkeypatch) -> None:
         again = kineme.read(tmp_path / "a.toy", columns=["1"])
     assert again.values.tolist() == signals.values.tolist()
     assert again.provenance.notes == ("line 3: read as a toy", "fun")
-    register(replace(TOY, suffixes=(".toy2",)))
+    with pytest.raises(ParameterError, match="there is a format 'toy' already"):
+        register(replace(TOY, suffixes=(".toy2",)))
+    register(replace(TOY, suffixes=(".toy2",)), replace=True)
     assert sum(known.name == "toy" for known in supported_formats()) == 1
+    assert supported_formats()[0].suffixes == (".toy2",)
     with pytest.raises(ParameterError, match="register takes a Format, not str"):
         register("toy")
-
-
-@pytest.mark.usefixtures("known")
-def test_formats_named_as_entry_points_are_known(tmp_path: Path, monkeypatch) -> None:
-    asked = []
-    monkeypatch.setattr(registry, "plugins", lambda group: asked.append(group) or [TOY])
-    registry._add_plugins.cache_clear()
-    try:
-        assert TOY in supported_formats()
-        assert TOY in supported_formats()
-        assert asked == ["kineme.formats"]
-    finally:
-        monkeypatch.undo()
-        registry._add_plugins.cache_clear()
 
 
 def test_writers_are_of_motions_or_of_signals(tmp_path: Path) -> None:

@@ -137,7 +137,7 @@ def test_a_format_of_ones_own_is_read_and_written_by_its_suffix(tmp_path: Path) 
         with pytest.raises(ParameterError, match="register takes a LabelFormat, not str"):
             register("toy")
     finally:
-        registry._known().pop("toy")
+        registry.FORMATS.remove("toy")
 
 
 TOY = """

@@ -17,9 +17,17 @@ from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.evaluation import Labelling, evaluate_segmentation
 from kineme.evaluation.tables import markdown_scores, write_records
 from kineme.methods.region_growing.preset import VOEGELE2014
-from kineme.reproduction.benchmark import as_records, mean, mean_scores, run, score_published_cuts
-from kineme.reproduction.methods import METHODS, method, preset_method
-from kineme.reproduction.reoccurrence import reoccurring
+from kineme.reproduction.benchmark import (
+    METHODS,
+    as_records,
+    mean,
+    mean_scores,
+    method,
+    preset_method,
+    run,
+    score_published_cuts,
+)
+from kineme.reproduction.figures.reoccurrence import reoccurring
 from kineme.reproduction.trials import Trial, find_folder, load_trials
 
 
@@ -68,7 +76,8 @@ def test_every_method_of_the_list_tiles_the_trial(trial):
 def test_every_call_reports_every_score(results):
     wanted = {
         *("strict", "tolerant", "majority", "majority_agreed"),
-        *("one_to_one", "one_to_one_agreed", "rand_index", "mutual_information"),
+        *("mof", "one_to_one", "one_to_one_agreed", "rand_index", "mutual_information"),
+        *("edit", "f1@10", "f1@25", "f1@50"),
         *("border_precision", "border_recall", "border_f1", "covering"),
         *("border_ratio", "cut_ratio", "cluster_ratio"),
         *("cloud_distance", "cloud_variance", "feature_distance", "feature_variance"),
@@ -188,15 +197,15 @@ def test_poses_reoccur_in_repetitions_and_not_in_a_single_motion():
 
 def test_the_papers_figures_and_tables_are_made_anew(results, folder, tmp_path, monkeypatch):
     from kineme.reproduction import figures
-    from kineme.reproduction.figures import sensitivity, timing
+    from kineme.reproduction.figures import costs
 
     (tmp_path / "data" / "cmu86").mkdir(parents=True)
     for name in ("86.asf", "86_11.amc", "annotations.json", "published.json"):
         (tmp_path / "data" / "cmu86" / name).symlink_to(folder / name)
-    monkeypatch.setattr(sensitivity, "SHARES", (0.9, 1.1))
-    monkeypatch.setattr(sensitivity, "NEIGHBORS", (64, 128))
-    monkeypatch.setattr(timing, "RUNS", 1)
-    monkeypatch.setattr(timing, "POINTS", 4)
+    monkeypatch.setattr(costs, "SHARES", (0.9, 1.1))
+    monkeypatch.setattr(costs, "NEIGHBORS", (64, 128))
+    monkeypatch.setattr(costs, "RUNS", 1)
+    monkeypatch.setattr(costs, "POINTS", 4)
     out = tmp_path / "figures"
     out.mkdir()
     tables = figures.make_figures(results, tmp_path / "data" / "cmu86", out)
@@ -211,7 +220,7 @@ def test_the_papers_figures_and_tables_are_made_anew(results, folder, tmp_path, 
 
 
 def test_a_cluster_has_the_colour_of_the_class_it_is_assigned_to():
-    from kineme.reproduction.figures.bars import _colors
+    from kineme.reproduction.figures.segments import _colors
 
     truth = Labelling.from_cuts([10], ["walk", "run"], frames=20, fps=10.0)
     found = Labelling.from_cuts([8, 10], ["a", "b", "c"], frames=20, fps=10.0)
@@ -225,7 +234,7 @@ def test_a_cluster_has_the_colour_of_the_class_it_is_assigned_to():
 
 def test_a_preset_segmentation_scores_the_same_read_back_from_its_table(trial, tmp_path):
     from kineme.evaluation.inputs import comparison, read_result, score
-    from kineme.reproduction.annotations import read_trial
+    from kineme.reproduction.trials import read_trial
 
     found = kineme.segment(trial.motion, preset="voegele2014")
     kineme.write_segments(found, tmp_path / "found.csv")

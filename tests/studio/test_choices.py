@@ -58,7 +58,7 @@ def toy_preset() -> Iterator[Preset]:
     toy = ToyPreset(name="toy", help="Cuts a recording once.", unit="any", where=0.5)
     register(toy)
     yield toy
-    del presets._known["toy"]
+    presets.PRESETS.remove("toy")
 
 
 def test_a_preset_of_another_package_is_offered_with_its_help_and_sliders(
@@ -94,7 +94,7 @@ def toy_format() -> Iterator[LabelFormat]:
     toy = LabelFormat("toy", "First frames, one a line", (".toy",), "level", read_toy, write_toy)
     register_labels(toy)
     yield toy
-    del labels._known()["toy"]
+    labels.FORMATS.remove("toy")
 
 
 def test_a_label_format_of_another_package_is_offered_and_written(

@@ -1,28 +1,37 @@
 """Scores of any result against any truth.
 
-Three ways, by what the truth says:
-
-- labels per frame, where unlabelled frames count in nothing (`Comparison`): the registered scores
-  of action segmentation, for folders of recordings (`kineme.evaluation.folder`);
-- annotations whose borders are uncertain (`Annotation`): the published protocols of CMU subject 86
-  and fair ones, all in `evaluate`;
-- how similar the segments of a cluster are: `kineme.evaluation.variance`.
+A `Comparison` puts a truth and a result beside each other, frame by frame and span by span; a
+`Score` is a function of it. Which scores there are, `scores` tells; `register` adds more. Truths
+are the labels of people (`compare`), or have several annotators and uncertain borders (`Truth`,
+`evaluate`). Folders of recordings: `kineme.evaluation.folder`.
 """
 
-from kineme.evaluation.annotated_scores import evaluate, evaluate_segmentation, labelling_of
-from kineme.evaluation.annotation import Annotation
-from kineme.evaluation.borders import border_ratio, border_score, covering, cut_ratio
-from kineme.evaluation.comparison import Comparison, compare
-from kineme.evaluation.counts import count_errors
-from kineme.evaluation.frames import (
+from kineme.evaluation.borders import (
+    BorderScore,
+    border_ratio,
+    border_score,
     cluster_ratio,
+    covering,
+    cut_ratio,
+)
+from kineme.evaluation.comparison import Comparison, Spans, compare, labelling_of
+from kineme.evaluation.frames import (
+    frames_right,
     mutual_information,
     one_to_one_accuracy,
     rand_index,
 )
-from kineme.evaluation.labelling import TRANSITION, Labelling
-from kineme.evaluation.paper import majority_accuracy, strict_and_tolerant
-from kineme.evaluation.score import Ratio, Score, register, scores
+from kineme.evaluation.published import majority_accuracy, strict_and_tolerant
+from kineme.evaluation.score import (
+    Ratio,
+    Score,
+    evaluate,
+    evaluate_segmentation,
+    register,
+    scores,
+)
+from kineme.evaluation.segments import count_errors, edit_score, overlap_f1
+from kineme.evaluation.truth import TRANSITION, Labelling, Truth
 from kineme.evaluation.variance import (
     ClusterVariance,
     feature_variance,
@@ -32,12 +41,14 @@ from kineme.evaluation.variance import (
 
 __all__ = [
     "TRANSITION",
-    "Annotation",
+    "BorderScore",
     "ClusterVariance",
     "Comparison",
     "Labelling",
     "Ratio",
     "Score",
+    "Spans",
+    "Truth",
     "border_ratio",
     "border_score",
     "cluster_ratio",
@@ -45,14 +56,17 @@ __all__ = [
     "count_errors",
     "covering",
     "cut_ratio",
+    "edit_score",
     "evaluate",
     "evaluate_segmentation",
     "feature_variance",
+    "frames_right",
     "labelling_of",
     "majority_accuracy",
     "mutual_information",
     "one_to_one_accuracy",
     "overall",
+    "overlap_f1",
     "point_cloud_variance",
     "rand_index",
     "register",

@@ -1,9 +1,9 @@
-"""Fair scores of borders: is each where the annotators put one, and none elsewhere?
+"""Is each border where people put one, and none elsewhere, and are there as many?
 
-A found border is right within the annotators' span ± 0.25 s, and each border
-of the truth can be met once. Neighbours with equal labels have no border
-between them. A found transition of less than 1 s is one border, at its
-middle; a longer one is a segment of its own, with a border at either side.
+A found border is right within the span in which people put one, and the tolerance of the truth
+beyond it; each border of the truth can be met once. Neighbours with equal labels have no border
+between them. A found transition of less than 1 s is one border, at its middle; a longer one is
+a segment of its own, with a border at either side.
 """
 
 from __future__ import annotations
@@ -12,13 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import maximum_bipartite_matching
 
-from kineme.evaluation.annotation import Annotation
-from kineme.evaluation.labelling import TRANSITION, Labelling
+from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.score import Ratio, Score, one_of
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 
-TOLERANCE_S = 0.25
 SHORT_TRANSITION_S = 1.0
 
 
@@ -30,37 +28,39 @@ class BorderScore(NamedTuple):
     f1: float
 
 
-def border_score(
-    truth: Annotation, found: Labelling, *, tolerance_s: float = TOLERANCE_S
-) -> BorderScore:
+def border_score(compared: Comparison) -> BorderScore:
     """Precision, recall and F1 of the found borders.
 
-    Matched by a maximum one-to-one matching, so that no order of matching can
-    lose a pair. With nothing to find and nothing found all three are 1.
+    As many pairs are made as can be: in time order each true border takes the first found one
+    that is right. With nothing to find and nothing found all three are 1.
 
     Parameters
     ----------
-    truth : Annotation
-    found : Labelling
-        Of one recording at one frame rate.
-    tolerance_s : float
-        Seconds added to both sides of the annotators' span.
+    compared : Comparison
 
     Returns
     -------
     BorderScore
+
+    Examples
+    --------
+    >>> border_score(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10)).f1
+    1.0
     """
-    borders = border_frames(found)[:, None]
-    slack = tolerance_s * truth.fps
-    near = (truth.earliest - slack <= borders) & (borders <= truth.latest + slack)
-    hits = int((maximum_bipartite_matching(csr_array(near)) >= 0).sum()) if near.size else 0
-    n_found, n_true = near.shape
-    if n_found + n_true == 0:
+    truth, found = compared.spans.actions, border_frames(compared.spans.activities)
+    if not truth.mean.size + found.size:
         return BorderScore(1.0, 1.0, 1.0)
+    slack = truth.tolerance_s * truth.fps
+    hits = following = 0
+    for first, last in zip(truth.earliest - slack, truth.latest + slack, strict=True):
+        following = max(following, int(np.searchsorted(found, first)))
+        if following < found.size and found[following] <= last:
+            hits += 1
+            following += 1
     return BorderScore(
-        hits / n_found if n_found else 0.0,
-        hits / n_true if n_true else 0.0,
-        2 * hits / (n_found + n_true),
+        hits / found.size if found.size else 0.0,
+        hits / truth.mean.size if truth.mean.size else 0.0,
+        2 * hits / (found.size + truth.mean.size),
     )
 
 
@@ -84,30 +84,92 @@ def border_frames(found: Labelling) -> NDArray[np.float64]:
     return np.array(borders)
 
 
-def border_ratio(truth: Annotation, found: Labelling) -> float:
-    """Found borders over true ones; nan where there is none to find."""
-    return _ratio(border_frames(found).size, truth.mean.size)
-
-
-def cut_ratio(truth: Annotation, found: Labelling) -> float:
-    """Found cuts over true borders, where both sides of any transition are cuts."""
-    return _ratio(found.merged().borders.size - 2, truth.mean.size)
-
-
-def covering(truth: Annotation, found: Labelling) -> float:
+def covering(compared: Comparison) -> float:
     """How well each action is met by one found interval, weighted by length: 0 to 1.
 
     For each action of the truth, cut at the mean marks, the best
     intersection over union with any found interval. Source: Arbeláez et al.
     2011, equation 4; used for change points by van den Burg and Williams 2020.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> covering(Comparison([0, 0, 1, 1], [5, 5, 5, 5], fps=10))
+    0.5
     """
-    wanted, runs = truth.at_means(), found.merged()
-    start, stop = wanted.starts[:, None], wanted.stops[:, None]
-    inner = np.minimum(stop, runs.stops) - np.maximum(start, runs.starts)
-    union = np.maximum(stop, runs.stops) - np.minimum(start, runs.starts)
-    best = (np.maximum(inner, 0) / union).max(axis=1)
+    wanted, found = compared.spans.actions.at_means(), compared.spans.activities.merged()
+    best = []
+    for start, stop in zip(wanted.starts, wanted.stops, strict=True):
+        inner = np.minimum(stop, found.stops) - np.maximum(start, found.starts)
+        union = np.maximum(stop, found.stops) - np.minimum(start, found.starts)
+        best.append((np.maximum(inner, 0) / union).max())
     return float(np.average(best, weights=np.diff(wanted.borders)))
 
 
-def _ratio(found: int, true: int) -> float:
-    return found / true if true else float("nan")
+def border_ratio(compared: Comparison) -> Ratio:
+    """Borders found over true borders: 1 is as many, above is too many."""
+    found = border_frames(compared.spans.activities)
+    return Ratio(found.size, compared.spans.actions.mean.size)
+
+
+def cut_ratio(compared: Comparison) -> Ratio:
+    """The same where both sides of any found transition are cuts.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    Ratio
+
+    Examples
+    --------
+    >>> cut_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
+    Ratio(part=3, whole=1)
+    """
+    cuts = compared.spans.activities.merged().borders.size - 2
+    return Ratio(cuts, compared.spans.actions.mean.size)
+
+
+def cluster_ratio(compared: Comparison) -> Ratio:
+    """Clusters found over classes: 1 is as many, above is too many; transitions are no classes.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    Ratio
+
+    Examples
+    --------
+    >>> cluster_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
+    Ratio(part=2, whole=2)
+    """
+    neither = {UNLABELLED} if compared.transitions else set()
+    sides = ({*np.unique(side).tolist()} - neither for side in (compared.found, compared.truth))
+    return Ratio(*map(len, sides))
+
+
+SCORES = (
+    Score("border_precision", "border precision", "share of found borders that are right",
+          "borders", one_of(border_score, 0)),
+    Score("border_recall", "border recall", "share of true borders that are found",
+          "borders", one_of(border_score, 1)),
+    Score("border_f1", "border F1", "F1 of borders", "borders", one_of(border_score, 2)),
+    Score("covering", "covering", "overlap of true segments with found ones", "borders", covering),
+    Score("border_ratio", "borders, found / true", "how many, short transitions being one",
+          "borders", border_ratio),
+    Score("cut_ratio", "cuts, found / true", "how many, both sides of transitions being cuts",
+          "borders", cut_ratio),
+    Score("cluster_ratio", "clusters, found / true", "how many", "borders", cluster_ratio),
+)  # fmt: skip

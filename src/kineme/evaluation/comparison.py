@@ -1,31 +1,42 @@
-"""Truth and result of a recording, frame by frame, and the classes that clusters stand for.
+"""Truth and result of a recording beside each other: what every score is a function of.
 
-Frames without a label count in nothing: they are cut out of both sides before anything is
-compared, as is usual in action segmentation. A method names clusters, people name classes; a
+Frame by frame, classes and clusters are numbers. People name classes, a method clusters; a
 one-to-one assignment that gets the most frames right (Kuhn's Hungarian method) says which
-cluster stands for which class. A cluster that none is left for is wrong everywhere.
+cluster stands for which class. A cluster that none is left for is wrong everywhere. Scores that
+count more than frames read the spans of both sides (`Spans`).
+
+There are two ways to put the two sides together, by what the truth is:
+
+- labels (`compare`): frames without a label count in nothing and are cut out of both sides, as
+  is usual in action segmentation; transitions of the result are one more cluster. Borders are
+  right within 0.5 s.
+- a `Truth` with uncertain borders (`Comparison.of`): every frame counts, and where people
+  disagree is a class of its own. A result that names transitions means them; one that does not
+  may use up a cluster for them. Borders are right within the truth's own tolerance.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import linear_sum_assignment
 
 from kineme.errors import ParameterError
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Labelling, Truth
 from kineme.labels.spans import text_of
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import SegmentTable
 
-Ints = NDArray[np.int64]
+LABELS_TOLERANCE_S = 0.5
+"""Seconds within which a border is right where the truth is labels."""
 
-UNLABELLED = -1
-"""The class of frames of which people say nothing; the cluster of a result's transitions."""
+R = TypeVar("R")
 
 
 class Run(NamedTuple):
@@ -37,19 +48,47 @@ class Run(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
+class Spans:
+    """Both sides of a comparison in intervals, all of the same frames.
+
+    Attributes
+    ----------
+    actions : Truth
+        What people say.
+    activities, primitives : Labelling
+        What was found: spans of one activity, single repetitions.
+    positions : array_like, (frames, joints, 3), optional
+        Of the recording: metres, y up.
+    features : array_like, (frames, dims), optional
+        Of the recording, stacked.
+    """
+
+    actions: Truth
+    activities: Labelling
+    primitives: Labelling
+    positions: ArrayLike | None = None
+    features: ArrayLike | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class Comparison:
     """What people say about the frames of a recording, and what a method found there.
 
     Parameters
     ----------
     truth : array_like of int, (frames,)
-        The class of each frame that has one.
+        The class of each frame that counts.
     found : array_like of int, (frames,)
         The cluster of each of these frames.
     fps : float
         Frames per second.
     mapping : mapping of int to int, optional
         The class of each cluster; by default the best for this recording alone.
+    transitions : bool
+        Whether -1 on either side is a transition: then a found one is right in those of the
+        truth and nowhere else. By default -1 is a cluster as any other.
+    intervals : Spans, optional
+        Both sides in intervals; by default the runs of these numbers.
 
     Raises
     ------
@@ -69,6 +108,11 @@ class Comparison:
     found: Ints
     fps: float
     mapping: Mapping[int, int] | None = None
+    transitions: bool = False
+    intervals: Spans | None = None
+    _results: dict[Callable[[Comparison], Any], Any] = field(
+        default_factory=dict, init=False, repr=False
+    )
 
     def __post_init__(self) -> None:
         for name in ("truth", "found"):
@@ -79,6 +123,55 @@ class Comparison:
                 f"{self.truth.shape} and {self.found.shape}"
             )
 
+    @classmethod
+    def of(
+        cls,
+        truth: Truth,
+        clusters: Labelling,
+        *,
+        activities: Labelling | None = None,
+        primitives: Labelling | None = None,
+        positions: ArrayLike | None = None,
+        features: ArrayLike | None = None,
+    ) -> Comparison:
+        """A result beside a truth whose borders are uncertain, at the truth's frame rate.
+
+        Parameters
+        ----------
+        truth : Truth
+            What people say.
+        clusters : Labelling
+            Which frames are the same thing.
+        activities : Labelling, optional
+            Which spans are one activity; by default ``clusters``.
+        primitives : Labelling, optional
+            Single repetitions; by default ``clusters``.
+        positions : array_like, (frames, joints, 3), optional
+            Metres, y up, at the truth's frame rate.
+        features : array_like, (frames, dims), optional
+            Stacked, at the truth's frame rate.
+
+        Returns
+        -------
+        Comparison
+
+        Raises
+        ------
+        ParameterError
+            Labels of another length than the truth.
+        """
+        groups, spans, units = (
+            (level or clusters).at(frames=truth.frames, fps=truth.fps)
+            for level in (clusters, activities, primitives)
+        )
+        return cls(
+            truth.labelling().numbers(),
+            groups.numbers(),
+            truth.fps,
+            transitions=True,
+            intervals=Spans(truth, spans, units, positions, features),
+        )
+
     @cached_property
     def mapped(self) -> Ints:
         """The class that each frame's cluster stands for; below 0 where it stands for none."""
@@ -86,6 +179,30 @@ class Comparison:
         clusters, where = np.unique(self.found, return_inverse=True)
         classes = [mapping.get(int(c), -2 - i) for i, c in enumerate(clusters)]
         return np.asarray(classes, np.int64)[where]
+
+    @cached_property
+    def agreed(self) -> Comparison:
+        """The same of the frames on which people agree, with a mapping of their own."""
+        certain = self.truth != UNLABELLED
+        if certain.all() or not certain.any():
+            return self
+        return Comparison(
+            self.truth[certain],
+            self.found[certain],
+            self.fps,
+            self.mapping,
+            transitions=self.transitions,
+        )
+
+    @cached_property
+    def spans(self) -> Spans:
+        """Both sides in intervals."""
+        if self.intervals is not None:
+            return self.intervals
+        found = _labelling(self.found_runs, self.fps)
+        truth = _labelling(self.true_runs, self.fps)
+        actions = Truth.from_labelling(truth, tolerance_s=LABELS_TOLERANCE_S)
+        return Spans(actions, found, found)
 
     @cached_property
     def true_runs(self) -> list[Run]:
@@ -101,6 +218,13 @@ class Comparison:
     def found_runs(self) -> list[Run]:
         """The runs of one cluster."""
         return runs(self.found)
+
+    def once(self, measure: Callable[[Comparison], R]) -> R:
+        """What a function gives of this comparison, computed once for all scores that ask."""
+        if measure not in self._results:
+            self._results[measure] = measure(self)
+        result: R = self._results[measure]
+        return result
 
 
 def compare(
@@ -142,20 +266,24 @@ def compare(
             f"the labels are of {truth.n_frames} frames, the result of {found.n_frames}"
         )
     numbers = {} if classes is None else classes
-    wanted = [
+    classes_of_rows = [
         UNLABELLED if row.kind == "transition" else numbers.setdefault(text_of(row), len(numbers))
         for row in truth.activities
     ]
     lonely = 1 + max(found.activities.cluster.tolist(), default=0)
-    given = [
+    groups = [
         UNLABELLED if row.kind == "transition" else row.cluster if row.cluster >= 0 else lonely + i
         for i, row in enumerate(found.activities)
     ]
-    labels, clusters = _spread(truth, wanted), _spread(found, given)
+    labels, clusters = _spread(truth, classes_of_rows), _spread(found, groups)
     counted = labels != UNLABELLED
     if not counted.any():
         raise ParameterError("the labels say nothing of this recording: every frame is unlabelled")
-    return Comparison(labels[counted], clusters[counted], found.fps)
+    compared = Comparison(labels[counted], clusters[counted], found.fps)
+    if not len(found.primitives):
+        return compared
+    primitives = labelling_of(found.primitives, fps=found.fps).within(counted)
+    return replace(compared, intervals=replace(compared.spans, primitives=primitives))
 
 
 def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
@@ -178,12 +306,26 @@ def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
     >>> best_mapping([Comparison([0, 0, 1], [4, 4, 4], fps=1), Comparison([1], [9], fps=1)])
     {4: 0, 9: 1}
     """
-    classes, wanted = np.unique(np.concatenate([c.truth for c in comparisons]), return_inverse=True)
-    clusters, given = np.unique(np.concatenate([c.found for c in comparisons]), return_inverse=True)
+    truth, found = (
+        np.concatenate([getattr(c, side) for c in comparisons]) for side in ("truth", "found")
+    )
+    mapping = {}
+    if any(c.transitions for c in comparisons) and (found == UNLABELLED).any():
+        mapping = {UNLABELLED: UNLABELLED}
+        free = (found != UNLABELLED) & (truth != UNLABELLED)
+        truth, found = truth[free], found[free]
+    clusters, classes, frames = contingency(found, truth)
+    pairs = zip(*linear_sum_assignment(frames, maximize=True), strict=True)
+    return mapping | {int(clusters[row]): int(classes[column]) for row, column in pairs}
+
+
+def contingency(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
+    """Clusters, classes, and how many frames are of each cluster (row) and class (column)."""
+    clusters, given = np.unique(found, return_inverse=True)
+    classes, wanted = np.unique(truth, return_inverse=True)
     frames = np.zeros((len(clusters), len(classes)), np.int64)
     np.add.at(frames, (given, wanted), 1)
-    pairs = zip(*linear_sum_assignment(frames, maximize=True), strict=True)
-    return {int(clusters[row]): int(classes[column]) for row, column in pairs}
+    return clusters, classes, frames
 
 
 def runs(labels: ArrayLike) -> list[Run]:
@@ -205,6 +347,40 @@ def runs(labels: ArrayLike) -> list[Run]:
     per_frame = np.asarray(labels, np.int64)
     borders = [0, *(np.flatnonzero(np.diff(per_frame)) + 1).tolist(), len(per_frame)]
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
+
+
+def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
+    """The clusters of one level of a segmentation, as labels.
+
+    Transitions are `TRANSITION`; what is in no cluster goes by its label, and without one
+    gets a name of its own.
+
+    Parameters
+    ----------
+    rows : SegmentTable
+        Of one level.
+    fps : float
+        Frames per second.
+
+    Returns
+    -------
+    Labelling
+    """
+    labels = [
+        TRANSITION
+        if row.kind == "transition"
+        else f"{row.cluster}"
+        if row.cluster >= 0
+        else row.label or f"~{i}"
+        for i, row in enumerate(rows)
+    ]
+    return Labelling(np.append(rows.start_frame, rows.stop_frame[-1]), tuple(labels), fps)
+
+
+def _labelling(found: Sequence[Run], fps: float) -> Labelling:
+    """Runs as intervals; the number of a label is its name, that of transitions, too."""
+    borders = [*(run.start for run in found), found[-1].stop]
+    return Labelling(np.array(borders), tuple(f"{run.label}" for run in found), fps)
 
 
 def _spread(segmentation: Segmentation, values: Sequence[int]) -> Ints:

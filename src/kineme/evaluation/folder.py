@@ -1,8 +1,9 @@
 """Methods on a folder of recordings with labels: every score of each, and over all of them.
 
 Clusters stand for classes by one mapping a recording, or by one for the whole folder; for the
-latter the clusters of all recordings are joined first (`kineme.evaluation.joining`). A recording
-that cannot be read, segmented or compared costs itself only, and says why.
+latter the clusters of all recordings are joined first: bodies, and signals of the same channels,
+have a vocabulary each, and nothing is one cluster across these. What one method finds is joined
+by itself. A recording that cannot be read, segmented or compared costs itself only, and says why.
 """
 
 from __future__ import annotations
@@ -10,18 +11,22 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
+
 from kineme._version import __version__
-from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.jobs import Answer, Job, answers_to
-from kineme.evaluation.joining import joined_comparisons
-from kineme.evaluation.methods import check_method
-from kineme.evaluation.recordings import Reading
-from kineme.evaluation.score import Ratio, over_all, scores, value_of
+from kineme.errors import EndEffectorError
+from kineme.evaluation.comparison import Comparison, best_mapping, compare
+from kineme.evaluation.recordings import Answer, Job, Reading, Sides, answers_to, check_method
+from kineme.evaluation.score import Ratio, over_all, results_of, scores, value_of
 from kineme.labels.collections import LabelSource
+from kineme.recordings.motion import Motion
+from kineme.segments.segmentation import Segmentation
+from kineme.transfer.sharing import share_clusters
+from kineme.transfer.vocabulary import share_by_moments
 
 Mapped = Literal["recording", "folder"]
 Progress = Callable[[str], None]
@@ -85,10 +90,11 @@ class FolderScores:
         Returns
         -------
         dict of str to float
-            By the names of the scores, and ``seconds_per_hour`` of recording.
+            By the names of the scores, nan where none can be had; and ``seconds_per_hour`` of
+            recording.
         """
         good = [one for one in self.methods[method] if not one.error]
-        found = {name: over_all([one.results[name] for one in good]) for name in scores() if good}
+        found = {n: over_all(one.results.get(n) for one in good) for n in scores() if good}
         length = sum(one.length_s for one in good)
         if length:
             found["seconds_per_hour"] = 3600 * sum(one.seconds for one in good) / length
@@ -185,12 +191,41 @@ def evaluate_folder(
             progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
     results: dict[str, list[Evaluated]] = {}
     for name in methods:
-        own = [(job, answers[job]) for job in jobs if job.method == name]
+        of_method = [(job, answers[job]) for job in jobs if job.method == name]
         if progress is not None and mapping == "folder":
             progress(f"joining the clusters of all recordings, {name}")
-        compared = joined_comparisons(own, n_clusters) if mapping == "folder" else None
-        results[name] = _scored(own, compared or [answer.compared for _, answer in own])
+        compared = joined_comparisons(of_method, n_clusters) if mapping == "folder" else None
+        results[name] = _scored(of_method, compared or [answer.compared for _, answer in of_method])
     return FolderScores(results, mapping)
+
+
+def joined_comparisons(
+    answers: Sequence[tuple[Job, Answer]], n_clusters: int | None = None
+) -> list[Comparison | None]:
+    """The comparisons of what one method found, by one mapping of joined clusters.
+
+    Parameters
+    ----------
+    answers : sequence of Job and Answer
+        Of jobs that join.
+    n_clusters : int, optional
+        Of signals, how many there are of each kind; found out by default.
+
+    Returns
+    -------
+    list of Comparison or None
+        None where a job failed.
+    """
+    classes: dict[str, int] = {}
+    compared = {
+        i: compare(sides.truth, found, classes=classes)
+        for i, (sides, found) in _joined(answers, n_clusters).items()
+    }
+    if not compared:
+        return [None] * len(answers)
+    mapping = best_mapping(list(compared.values()))
+    mapped = {i: replace(one, mapping=mapping) for i, one in compared.items()}
+    return [mapped.get(i) for i in range(len(answers))]
 
 
 def _scored(
@@ -202,12 +237,63 @@ def _scored(
         if one is None:
             found.append(Evaluated(job.path.name, error=answer.error))
             continue
-        results = {name: score.function(one) for name, score in scores().items()}
         found.append(
-            Evaluated(job.path.name, answer.seconds, answer.length_s, results, answer.notes)
+            Evaluated(job.path.name, answer.seconds, answer.length_s, results_of(one), answer.notes)
         )
     return found
 
 
 def _plain(values: Mapping[str, float]) -> dict[str, float | None]:
     return {name: value if math.isfinite(value) else None for name, value in values.items()}
+
+
+def _joined(
+    answers: Sequence[tuple[Job, Answer]], n_clusters: int | None
+) -> dict[int, tuple[Sides, Segmentation]]:
+    """By the place of an answer: what was found there, with the joined clusters."""
+    kinds: dict[tuple[str, ...], list[int]] = {}
+    for i, (_, answer) in enumerate(answers):
+        if answer.sides is not None:
+            moments = answer.sides.moments
+            kinds.setdefault(moments.names if moments else (), []).append(i)
+    found: dict[int, tuple[Sides, Segmentation]] = {}
+    following = 0
+    for rows in kinds.values():
+        jobs = [answers[i][0] for i in rows]
+        sides = [s for i in rows if (s := answers[i][1].sides) is not None]
+        shared = _of_one_kind(jobs, sides, n_clusters)
+        for i, side, one in zip(rows, sides, shared, strict=True):
+            found[i] = side, _from(one, following)
+        following += 1 + max(int(one.table.cluster.max()) for one in shared)
+    return dict(sorted(found.items()))
+
+
+def _of_one_kind(
+    jobs: Sequence[Job], sides: Sequence[Sides], n_clusters: int | None
+) -> list[Segmentation]:
+    segmentations = [one.found for one in sides]
+    moments = [one.moments for one in sides if one.moments is not None]
+    if moments:
+        return share_by_moments(moments, segmentations, n_clusters=n_clusters)
+    motions = [motion for job in jobs if isinstance(motion := job.reading.read(job.path), Motion)]
+    try:
+        return share_clusters(motions, segmentations)
+    except EndEffectorError:  # no body whose movements could be compared
+        return _all_apart(segmentations)
+
+
+def _all_apart(segmentations: Sequence[Segmentation]) -> list[Segmentation]:
+    """Clusters of different recordings by different numbers."""
+    apart, following = [], 0
+    for found in segmentations:
+        apart.append(_from(found, following))
+        following += 1 + int(found.table.cluster.max())
+    return apart
+
+
+def _from(found: Segmentation, first: int) -> Segmentation:
+    """The same with clusters numbered from a number on."""
+    table = found.table
+    cluster, action = (np.where(c >= 0, c + first, c) for c in (table.cluster, table.action))
+    changed = replace(table, cluster=cluster, action=action)
+    return replace(found, table=changed, hierarchy=None)

@@ -1,66 +1,102 @@
-"""Fair scores of labels: is each frame in the right group, and in one group only?
-
-Truth and result are compared frame by frame. The spans in which the
-annotators disagree are a class of their own, `TRANSITION`.
-"""
+"""Is each frame in the right class, and in one class only? Scores that count frames."""
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 from sklearn.metrics import adjusted_rand_score, normalized_mutual_info_score
-from sklearn.metrics.cluster import contingency_matrix
 
-from kineme.evaluation.annotation import Annotation
-from kineme.evaluation.labelling import TRANSITION, Labelling, Texts
+from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.score import Ratio, Score
 
 
-def one_to_one_accuracy(truth: Annotation, found: Labelling) -> tuple[float, float]:
-    """Shares of frames right under the best one-to-one assignment of clusters to classes.
-
-    The first is of all frames, the second of the frames on which the
-    annotators agree; each has its own best assignment. A cluster counts for
-    one class at most, so that an action split into many clusters loses.
-
-    A result that names transitions means them: its ``transition`` is right on
-    the truth's transitions and nowhere else. A result that does not may use
-    up a cluster for them. Source of the assignment: Hungarian method, scipy.
+def frames_right(compared: Comparison) -> Ratio:
+    """Frames whose cluster stands for their class, of all that count (MoF).
 
     Parameters
     ----------
-    truth : Annotation
-        Of one recording at one frame rate.
-    found : Labelling
-        See `truth`.
+    compared : Comparison
+
+    Returns
+    -------
+    Ratio
+        Over a folder every frame weighs the same.
+
+    Examples
+    --------
+    >>> frames_right(Comparison([0, 0, 1], [4, 4, 4], fps=1))
+    Ratio(part=2, whole=3)
     """
-    wanted = truth.labelling().per_frame()
-    given = found.per_frame()
-    agreed = wanted != TRANSITION
-    return _assigned(wanted, given), _assigned(wanted[agreed], given[agreed])
+    return Ratio(int(np.sum(compared.mapped == compared.truth)), compared.truth.size)
 
 
-def rand_index(truth: Annotation, found: Labelling) -> float:
-    """Adjusted Rand index over all frames: 1 is equal, 0 is chance, below is worse."""
-    wanted, given = truth.labelling().per_frame(), found.per_frame()
-    return float(adjusted_rand_score(wanted.astype(str), given.astype(str)))
+def one_to_one_accuracy(compared: Comparison) -> float:
+    """The share of a recording's frames that are right: over a folder recordings weigh the same.
+
+    A cluster stands for one class at most, so that an action split into many clusters loses.
+
+    Parameters
+    ----------
+    compared : Comparison
+        Of all frames; its `Comparison.agreed` has those on which people agree.
+
+    Returns
+    -------
+    float
+        From 0 to 1.
+
+    Examples
+    --------
+    >>> one_to_one_accuracy(Comparison([0, 0, 1, 1], [4, 4, 4, 4], fps=1))
+    0.5
+    """
+    return frames_right(compared).value
 
 
-def mutual_information(truth: Annotation, found: Labelling) -> float:
-    """Mutual information over all frames, normalised by the mean of both entropies: 0 to 1."""
-    wanted, given = truth.labelling().per_frame(), found.per_frame()
-    return float(normalized_mutual_info_score(wanted.astype(str), given.astype(str)))
+def rand_index(compared: Comparison) -> float:
+    """Adjusted Rand index of classes and clusters: 1 is equal, 0 is chance, below is worse.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> rand_index(Comparison([0, 0, 1, 1], [7, 7, 2, 2], fps=1))
+    1.0
+    """
+    return float(adjusted_rand_score(compared.truth, compared.found))
 
 
-def cluster_ratio(truth: Annotation, found: Labelling) -> float:
-    """The number of clusters over the number of classes; transitions are neither."""
-    return len({*found.labels} - {TRANSITION}) / len({*truth.labels} - {TRANSITION})
+def mutual_information(compared: Comparison) -> float:
+    """Mutual information of classes and clusters over the mean of both entropies: 0 to 1.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> mutual_information(Comparison([0, 0, 1, 1], [7, 7, 7, 7], fps=1))
+    0.0
+    """
+    return float(normalized_mutual_info_score(compared.truth, compared.found))
 
 
-def _assigned(wanted: Texts, given: Texts) -> float:
-    named = given == TRANSITION
-    right = int(np.sum(named & (wanted == TRANSITION)))
-    free = ~named & (wanted != TRANSITION) if named.any() else ~named
-    if free.any():
-        table = contingency_matrix(wanted[free].astype(str), given[free].astype(str))
-        right += int(table[linear_sum_assignment(table, maximize=True)].sum())
-    return right / wanted.size
+SCORES = (
+    Score("mof", "MoF", "share of all frames that are right", "frames", frames_right),
+    Score("one_to_one", "one to one", "share of frames that are right, the mean over recordings",
+          "frames", one_to_one_accuracy),
+    Score("one_to_one_agreed", "one to one, agreed", "the same of frames on which people agree",
+          "frames", lambda compared: one_to_one_accuracy(compared.agreed)),
+    Score("rand_index", "ARI", "adjusted Rand index of frames", "frames", rand_index),
+    Score("mutual_information", "NMI", "normalised mutual information of frames", "frames",
+          mutual_information),
+)  # fmt: skip

@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.evaluation.annotated_scores import evaluate_segmentation, labelling_of
-from kineme.evaluation.annotation import Annotation
-from kineme.evaluation.labelling import TRANSITION
+from kineme.evaluation.comparison import labelling_of
+from kineme.evaluation.score import evaluate_segmentation
+from kineme.evaluation.truth import TRANSITION, Truth
 from kineme.labels.clock_times import by_clock
 from kineme.labels.files import read_content
 from kineme.labels.spans import Labels, as_segmentation
@@ -44,14 +44,14 @@ def read_result(path: Path, *, fps: float | None = None) -> Segmentation:
     ReadError
         It cannot be read or understood, or counts frames without a frame rate.
     """
-    known, content = read_content(path)
+    label_format, content = read_content(path)
     if isinstance(content, Segmentation):
         return content
     rate = content.fps or fps or (FPS if content.unit == "seconds" else None)
-    return as_segmentation(content, path, known.name, fps=rate)[0]
+    return as_segmentation(content, path, label_format.name, fps=rate)[0]
 
 
-def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> Annotation:
+def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> Truth:
     """What people say about the recording of a result, at the rate of comparison.
 
     Parameters
@@ -65,7 +65,7 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
 
     Returns
     -------
-    Annotation
+    Truth
         Transitions are the spans in which a border may lie.
 
     Raises
@@ -79,20 +79,20 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
         Labels were joined or left out, such as those that meet no frame.
     """
     n_frames, rate = comparison(found)
-    known, content = read_content(path)
+    label_format, content = read_content(path)
     try:
         if isinstance(content, Labels):
-            told = content.fps or (rate if content.unit == "seconds" else fps or found.fps)
+            counted = content.fps or (rate if content.unit == "seconds" else fps or found.fps)
             content = by_clock(content, found.clock, length_s=found.n_frames / found.fps)
-            content, unusual = as_segmentation(content, path, known.name, fps=told)
+            content, unusual = as_segmentation(content, path, label_format.name, fps=counted)
             if unusual:
                 warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
-        return annotation_of(content, n_frames=n_frames, fps=rate)
+        return truth_of(content, n_frames=n_frames, fps=rate)
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
 
 
-def annotation_of(truth: Segmentation, *, n_frames: int, fps: float) -> Annotation:
+def truth_of(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
     """The activities of a segmentation as a truth; its transitions are uncertain borders.
 
     Parameters
@@ -104,7 +104,7 @@ def annotation_of(truth: Segmentation, *, n_frames: int, fps: float) -> Annotati
 
     Returns
     -------
-    Annotation
+    Truth
 
     Raises
     ------
@@ -118,13 +118,13 @@ def annotation_of(truth: Segmentation, *, n_frames: int, fps: float) -> Annotati
         for row, name in zip(rows, clusters.labels, strict=True)
     ]
     labels = replace(clusters, labels=tuple(names)).at(frames=n_frames, fps=fps)
-    annotation = Annotation.from_labelling(labels)
+    actions = Truth.from_labelling(labels)
     counts = truth.provenance.get("labels", {}).get("counts", ())
     if len(counts) != len(labels.labels):  # none, or a segment vanished at this rate
-        return annotation
+        return actions
     last = len(counts) - 1
     kept = [c for i, c in enumerate(counts) if names[i] != TRANSITION or i in (0, last)]
-    return replace(annotation, counts=tuple(kept))
+    return replace(actions, counts=tuple(kept))
 
 
 def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
@@ -157,8 +157,8 @@ def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
     if not (truth.activities.kind == "activity").any():
         return {}
     n_frames, fps = comparison(found)
-    annotation = annotation_of(truth, n_frames=n_frames, fps=fps)
-    scores = evaluate_segmentation(annotation, found)
+    actions = truth_of(truth, n_frames=n_frames, fps=fps)
+    scores = evaluate_segmentation(actions, found)
     return {name: value for name, value in scores.items() if isfinite(value)}
 
 
@@ -178,12 +178,12 @@ def comparison(found: Segmentation) -> tuple[int, float]:
     return floor((found.n_frames - 1) * rate / found.fps + 1e-9) + 1, rate
 
 
-def score(truth: Annotation, found: Segmentation, motion: Motion | None = None) -> dict[str, float]:
+def score(truth: Truth, found: Segmentation, motion: Motion | None = None) -> dict[str, float]:
     """Every score; with the recording also the variances within clusters.
 
     Parameters
     ----------
-    truth : Annotation
+    truth : Truth
         At the rate of comparison.
     found : Segmentation
     motion : Motion, optional

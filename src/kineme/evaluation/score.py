@@ -1,8 +1,8 @@
-"""What a score is, and which there are: one object each, registered under its name.
+"""What a score is, which there are, and all of them of one result.
 
-A score compares the labels of a recording frame by frame (a `Comparison`): what people say,
-and what a method found. Its function gives a number for one recording. Over a folder, numbers
-are averaged; a function that gives a `Ratio` has its parts and wholes summed over the
+A score is a function of a `Comparison`: what people say of a recording, and what a method found
+there. It gives a number for one recording, or None where the two do not tell. Over a folder,
+numbers are averaged; a function that gives a `Ratio` has its parts and wholes summed over the
 recordings first, so that long recordings weigh more.
 
 Other packages add scores by `register`, or by naming them in the entry point group
@@ -12,22 +12,22 @@ Other packages add scores by `register`, or by naming them in the entry point gr
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
-from importlib import import_module
-from types import MappingProxyType
 from typing import Literal, NamedTuple, get_args
 
-from kineme._checks import check_one_of, check_type
-from kineme._plugins import plugins
-from kineme.errors import ParameterError
-from kineme.evaluation.comparison import Comparison
+import numpy as np
+from numpy.typing import ArrayLike
 
-MODULES = ("label_scores", "segmental_scores", "cut_scores")
-"""Modules of this package that end in a tuple ``SCORES``, in the order shown."""
-GROUP = "kineme.scores"
-Counted = Literal["frames", "segments", "borders", "clusters"]
+from kineme._checks import check_one_of
+from kineme._registry import Registry
+from kineme.errors import KinemeError, KinemeWarning
+from kineme.evaluation.comparison import Comparison, labelling_of
+from kineme.evaluation.truth import Labelling, Truth
+from kineme.segments.segmentation import Segmentation
+
+Counted = Literal["frames", "segments", "borders", "repetitions", "clusters", "published protocols"]
 
 
 class Ratio(NamedTuple):
@@ -42,9 +42,12 @@ class Ratio(NamedTuple):
         return self.part / self.whole if self.whole else math.nan
 
 
+Value = float | Ratio | None
+
+
 @dataclass(frozen=True)
 class Score:
-    """One way of judging a result.
+    """One measure of a result beside a truth.
 
     Parameters
     ----------
@@ -54,10 +57,11 @@ class Score:
         In tables, such as ``F1@50``.
     help : str
         What it measures, in a sentence.
-    level : {"frames", "segments", "borders", "clusters"}
-        What is counted; tables are grouped by it.
+    level : str
+        What is counted: "frames", "segments", "borders", "repetitions" or "clusters"; or
+        "published protocols". Tables are grouped by it.
     function : callable
-        From a `Comparison` to a number or a `Ratio`.
+        From a `Comparison` to a number or a `Ratio`; None where it cannot be had.
 
     Examples
     --------
@@ -75,14 +79,30 @@ class Score:
     title: str
     help: str
     level: Counted
-    function: Callable[[Comparison], float | Ratio]
+    function: Callable[[Comparison], Value]
 
     def __post_init__(self) -> None:
         check_one_of(self.level, get_args(Counted), f"level of {self.name!r:.60}")
 
 
+SCORES: Registry[Score] = Registry(
+    Score,
+    "score",
+    "kineme.scores",
+    home="kineme.evaluation",
+    builtins=(
+        "frames:SCORES",
+        "segments:SCORES",
+        "borders:SCORES",
+        "variance:SCORES",
+        "published:SCORES",
+    ),
+)
+"""In the order in which they are shown."""
+
+
 def scores() -> Mapping[str, Score]:
-    """The known scores by name, the package's own first.
+    """The scores by name, the package's own first.
 
     Returns
     -------
@@ -92,42 +112,142 @@ def scores() -> Mapping[str, Score]:
     Examples
     --------
     >>> list(scores())[:3]
-    ['mof', 'one_to_one', 'ari']
+    ['mof', 'one_to_one', 'one_to_one_agreed']
     """
-    return MappingProxyType(_known())
+    return SCORES
 
 
-def register(new: Score) -> None:
-    """Make a score known to `kineme evaluate FOLDER`.
+def register(new: Score, *, replace: bool = False) -> None:
+    """Make a score known to `kineme evaluate`.
 
     Parameters
     ----------
     new : Score
-        With a name that no other score has.
+        What is added.
+    replace : bool
+        Whether it takes the place of a score of the same name.
 
     Raises
     ------
     ParameterError
         There is a score of this name, or it is none.
     """
-    check_type(new, Score, "register", "see kineme.evaluation.Score")
-    if new.name in _known():
-        raise ParameterError(f"there is a score {new.name!r} already: choose another name")
-    _known()[new.name] = new
+    SCORES.register(new, replace=replace)
 
 
-def value_of(result: float | Ratio) -> float:
-    """The number that a score's function gave, be it one or a ratio."""
+def results_of(compared: Comparison) -> dict[str, float | Ratio]:
+    """All scores of a comparison by name, those left out that cannot be had.
+
+    A score that fails costs itself only: a `KinemeWarning` names it.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    dict of str to float or Ratio
+        In the order in which they are shown.
+    """
+    found = {name: _result(score, compared) for name, score in scores().items()}
+    return {name: result for name, result in found.items() if result is not None}
+
+
+def evaluate(
+    truth: Truth,
+    clusters: Labelling,
+    *,
+    activities: Labelling | None = None,
+    primitives: Labelling | None = None,
+    positions: ArrayLike | None = None,
+    features: ArrayLike | None = None,
+) -> dict[str, float]:
+    """All scores by name, in reading order; best is 1 unless the name says otherwise.
+
+    Scores of frames and clusters read ``clusters``; those of borders, and ``strict`` and
+    ``tolerant``, read ``activities``; repetitions and variances read ``primitives``. Names that
+    end in ``ratio`` are found over true. ``count_error``, ``count_exact`` appear where the truth
+    knows counts, ``cloud_distance``, ``cloud_variance`` (metres) with positions,
+    ``feature_distance``, ``feature_variance`` with features: smaller is
+    better, 0 is best, ``count_exact`` apart. ``length_mean`` and
+    ``length_variance`` (seconds) describe the clusters and tell nothing of quality.
+
+    Parameters
+    ----------
+    truth : Truth
+        What people say; its frame rate is the one of the comparison.
+    clusters : Labelling
+        Which frames are the same thing.
+    activities : Labelling, optional
+        Which spans are one activity; by default ``clusters``.
+    primitives : Labelling, optional
+        Single repetitions; by default ``clusters``.
+    positions : array_like, (frames, joints, 3), optional
+        Metres, y up, at the truth's frame rate.
+    features : array_like, (frames, dims), optional
+        Stacked, at the truth's frame rate.
+
+    Returns
+    -------
+    dict of str to float
+
+    Raises
+    ------
+    ParameterError
+        Labels or data of another length than the truth.
+    """
+    compared = Comparison.of(
+        truth,
+        clusters,
+        activities=activities,
+        primitives=primitives,
+        positions=positions,
+        features=features,
+    )
+    return {name: value_of(result) for name, result in results_of(compared).items()}
+
+
+def evaluate_segmentation(
+    truth: Truth,
+    found: Segmentation,
+    *,
+    positions: ArrayLike | None = None,
+    features: ArrayLike | None = None,
+) -> dict[str, float]:
+    """All scores of a segmentation; see `evaluate`.
+
+    Its clusters are those of its activities where they have any (or labels), else those
+    of its primitives. A segment in no cluster goes by its label, and without one is a cluster
+    of its own.
+    """
+    rows = found.activities
+    activities = labelling_of(rows, fps=found.fps)
+    primitives = labelling_of(found.primitives, fps=found.fps) if len(found.primitives) else None
+    grouped = bool(np.any((rows.cluster >= 0) | (rows.label != "")))
+    return evaluate(
+        truth,
+        activities if grouped or primitives is None else primitives,
+        activities=activities,
+        primitives=primitives,
+        positions=positions,
+        features=features,
+    )
+
+
+def value_of(result: Value) -> float:
+    """The number that a score's function gave, be it one or a ratio; nan for None."""
+    if result is None:
+        return math.nan
     return result.value if isinstance(result, Ratio) else float(result)
 
 
-def over_all(results: Iterable[float | Ratio]) -> float:
+def over_all(results: Iterable[Value]) -> float:
     """One number for many recordings: of ratios the sums' ratio, of numbers the mean.
 
     Parameters
     ----------
     results : iterable
-        What a score's function gave for each recording; nan is left out.
+        What a score's function gave for each recording; nan and None are left out.
 
     Returns
     -------
@@ -147,7 +267,25 @@ def over_all(results: Iterable[float | Ratio]) -> float:
     return sum(numbers) / len(numbers) if numbers else math.nan
 
 
-@cache
-def _known() -> dict[str, Score]:
-    own = [s for module in MODULES for s in import_module(f"kineme.evaluation.{module}").SCORES]
-    return {known.name: known for known in (*own, *plugins(GROUP))}
+def _result(score: Score, compared: Comparison) -> Value:
+    try:
+        return score.function(compared)
+    except KinemeError:
+        raise
+    except Exception as error:  # noqa: BLE001 (whatever a stranger's score raises)
+        reason = f"{type(error).__name__}: {error}"
+        text = f"the score {score.name!r:.60} is left out, it fails: {reason:.200}"
+        warnings.warn(text, KinemeWarning, stacklevel=2)
+        return None
+
+
+def one_of(
+    measure: Callable[[Comparison], Sequence[float] | None], which: int
+) -> Callable[[Comparison], float | None]:
+    """The function of a score that is one of several numbers which are computed together."""
+
+    def function(compared: Comparison) -> float | None:
+        numbers = compared.once(measure)
+        return None if numbers is None else numbers[which]
+
+    return function

@@ -16,10 +16,12 @@ from typing import Any
 from kineme._files import atomic_write
 from kineme._version import __version__
 from kineme.errors import WriteError
-from kineme.evaluation.annotated_scores import SCORES
+from kineme.evaluation.score import scores
 from kineme.formats.delimited import as_text
 
 OUTPUTS = (".json", ".csv")
+COST = {"seconds": "seconds", "seconds_per_hour": "seconds per hour"}
+"""What a result cost: no score, but shown below them."""
 
 
 def score_rows(
@@ -30,17 +32,17 @@ def score_rows(
     Parameters
     ----------
     columns : mapping of str to mapping of str to float
-        Scores by column title; scores that no column has are left out.
+        Scores by column title; those that are a number in none are left out.
     """
     titles: dict[str, dict[str, str]] = {}
-    for score in SCORES:
-        titles.setdefault(score.group, {})[score.name] = score.title
+    for name, score in scores().items():
+        titles.setdefault(score.level, {})[name] = score.title
     groups = []
-    for group, names in {**titles, "cost": {"seconds": "seconds"}}.items():
+    for group, names in {**titles, "cost": COST}.items():
         rows = [
-            (title, [shown(scores.get(name, math.nan)) for scores in columns.values()])
+            (title, [shown(values.get(name, math.nan)) for values in columns.values()])
             for name, title in names.items()
-            if any(name in scores for scores in columns.values())
+            if any(math.isfinite(values.get(name, math.nan)) for values in columns.values())
         ]
         if rows:
             groups.append((group, rows))

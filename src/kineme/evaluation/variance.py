@@ -24,7 +24,9 @@ from scipy.spatial.distance import cdist
 
 from kineme.errors import ParameterError
 from kineme.evaluation._kernels import warped_cost
-from kineme.evaluation.labelling import TRANSITION, Ints, Labelling
+from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.score import Score, one_of
+from kineme.evaluation.truth import TRANSITION, Ints, Labelling
 from kineme.features.point_clouds import cloud_distances
 
 Floats = NDArray[np.float64]
@@ -128,7 +130,7 @@ def _variances(distances: Distances, frames: int, found: Labelling) -> list[Clus
     for label, start, stop in zip(found.labels, found.starts, found.stops, strict=True):
         if label != TRANSITION:
             spans.setdefault(label, []).append(slice(int(start), int(stop)))
-    return [_variance(label, own, distances, found.fps) for label, own in spans.items()]
+    return [_variance(label, rows, distances, found.fps) for label, rows in spans.items()]
 
 
 def _variance(label: str, spans: list[slice], distances: Distances, fps: float) -> ClusterVariance:
@@ -146,3 +148,37 @@ def _variance(label: str, spans: list[slice], distances: Distances, fps: float) 
         float(seconds.mean()),
         float(seconds.var(ddof=1)) if len(spans) > 1 else float("nan"),
     )
+
+
+def _clouds(compared: Comparison) -> tuple[float, float] | None:
+    spans = compared.spans
+    if spans.positions is None:
+        return None
+    return overall(point_cloud_variance(spans.positions, spans.primitives))
+
+
+def _vectors(compared: Comparison) -> tuple[float, float] | None:
+    spans = compared.spans
+    if spans.features is None:
+        return None
+    return overall(feature_variance(spans.features, spans.primitives))
+
+
+def _lengths(compared: Comparison) -> tuple[float, float]:
+    return length_variance(compared.spans.primitives)
+
+
+SCORES = (
+    Score("cloud_distance", "cloud distance, m", "between segments of a cluster, as point clouds",
+          "clusters", one_of(_clouds, 0)),
+    Score("cloud_variance", "cloud variance, m²", "of these distances", "clusters",
+          one_of(_clouds, 1)),
+    Score("feature_distance", "feature distance, m", "the same by their features", "clusters",
+          one_of(_vectors, 0)),
+    Score("feature_variance", "feature variance, m²", "of these distances", "clusters",
+          one_of(_vectors, 1)),
+    Score("length_mean", "length, s", "of the segments of a cluster", "clusters",
+          one_of(_lengths, 0)),
+    Score("length_variance", "length variance, s²", "of these lengths", "clusters",
+          one_of(_lengths, 1)),
+)  # fmt: skip

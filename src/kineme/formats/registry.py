@@ -13,12 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
-from kineme._checks import check_suffixes, check_type
+from kineme._checks import check_suffixes
 from kineme._files import HEAD
-from kineme._plugins import plugins
+from kineme._registry import Registry
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent, warn
 from kineme.formats.options import ReadOptions
@@ -99,23 +98,54 @@ INSTEAD = {
 }
 """What to do with files that people try, by suffix."""
 
-_formats: list[Format] = []
+FORMATS: Registry[Format] = Registry(
+    Format,
+    "format",
+    "kineme.formats",
+    home="kineme.formats",
+    builtins=(
+        "keypoints.pose_json:OPENPOSE",
+        "keypoints.pose_json:COCO",
+        "keypoints.pose_json:MEDIAPIPE",
+        "keypoints.sleap:FORMAT",
+        "arrays.mat:FORMAT",
+        "arrays.numpy_files:NPY",
+        "arrays.numpy_files:NPZ",
+        "tables.parquet:FORMAT",
+        "tables.text:FORMAT",
+        "tables.text:TEXT",
+        "channels.opensim:FORMAT",
+        "markers.trc:FORMAT",
+        "markers.c3d:FORMAT",
+        "skeletons.bvh:FORMAT",
+        "skeletons.amc:FORMAT",
+        "skeletons.amc:SKELETON",
+    ),
+    newest_first=True,
+)
+"""In the order in which they are tried: those of others ahead of the package's own."""
 
 
-def register(new: Format) -> None:
-    """Make a format known to `read` and `write`, ahead of those known before.
+def register(new: Format, *, replace: bool = False) -> None:
+    """Make a format known to `read` and `write`, ahead of those there are.
 
     Parameters
     ----------
     new : Format
-        Takes the place of a known one of the same name.
+        What is added.
+    replace : bool
+        Whether it takes the place of a format of the same name.
+
+    Raises
+    ------
+    ParameterError
+        There is a format of this name, or it is none.
     """
-    check_type(new, Format, "register", "see kineme.formats.Format")
-    _formats[:] = [new, *(known for known in _formats if known.name != new.name)]
+    FORMATS.register(new, replace=replace)
 
 
 def supported_formats() -> tuple[Format, ...]:
-    """The known formats, in the order in which they are tried.
+    """The formats, in the order in which they are tried.
 
     Returns
     -------
@@ -123,11 +153,10 @@ def supported_formats() -> tuple[Format, ...]:
 
     Examples
     --------
-    >>> {"AMC", "BVH", "C3D"} <= {known.name for known in supported_formats()}
+    >>> {"AMC", "BVH", "C3D"} <= {candidate.name for candidate in supported_formats()}
     True
     """
-    _add_plugins()
-    return tuple(_formats)
+    return tuple(FORMATS.values())
 
 
 def recognise(content: FileContent) -> Format:
@@ -135,13 +164,13 @@ def recognise(content: FileContent) -> Format:
     head = content.data[:HEAD]
     suffix = content.path.suffix.lower()
     formats = supported_formats()
-    by_content = [known for known in formats if speaks(known, head)]
-    by_suffix = [known for known in formats if suffix in known.suffixes]
+    by_content = [candidate for candidate in formats if speaks(candidate, head)]
+    by_suffix = [candidate for candidate in formats if suffix in candidate.suffixes]
     if suffix in INSTEAD and not by_suffix:
         raise ReadError(content.path, f"{suffix} is not read: {INSTEAD[suffix]}")
-    for known in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
-        return known
-    suffixes = sorted({s for known in formats for s in known.suffixes})
+    for candidate in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
+        return candidate
+    suffixes = sorted({s for candidate in formats for s in candidate.suffixes})
     raise ReadError(
         content.path,
         f"neither its content nor its suffix {suffix!r} is known: kineme reads "
@@ -149,18 +178,11 @@ def recognise(content: FileContent) -> Format:
     )
 
 
-def speaks(known: Format, head: bytes) -> bool:
+def speaks(candidate: Format, head: bytes) -> bool:
     """Whether a file's first bytes look like a format; one that cannot tell costs itself only."""
     try:
-        return known.recognises(head)
+        return candidate.recognises(head)
     except Exception as error:  # noqa: BLE001 (whatever a stranger's format raises)
         reason = f"{type(error).__name__}: {error}"
-        warn(f"the format {known.name} is passed over, it cannot tell its files: {reason:.200}")
+        warn(f"the format {candidate.name} is passed over, it cannot tell its files: {reason:.200}")
         return False
-
-
-@cache
-def _add_plugins() -> None:
-    """Register what other packages name as entry points, once."""
-    for found in plugins("kineme.formats"):
-        register(found)

@@ -7,37 +7,39 @@ by `register`, or by naming the object in the entry point group ``kineme.label_f
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
-from importlib import import_module
 from os import PathLike
 from pathlib import Path
-from types import MappingProxyType
 
-from kineme._checks import check_type, is_one_of
-from kineme._plugins import plugins
+from kineme._checks import is_one_of
+from kineme._registry import Registry
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.labels.label_format import LabelFormat
 
-MODULES = (
-    "csv_table",
-    "json_table",
-    "parquet_table",
-    "audacity",
-    "elan",
-    "textgrid",
-    "bids",
-    "boris",
-    "babel",
-    "ms_tcn",
-    "clip_list",
-    "c3d_events",
+FORMATS: Registry[LabelFormat] = Registry(
+    LabelFormat,
+    "label format",
+    "kineme.label_formats",
+    home="kineme.labels",
+    builtins=(
+        "csv_table:FORMAT",
+        "json_table:FORMAT",
+        "parquet_table:FORMAT",
+        "audacity:FORMAT",
+        "elan:FORMAT",
+        "textgrid:FORMAT",
+        "bids:FORMAT",
+        "boris:FORMAT",
+        "babel:FORMAT",
+        "ms_tcn:FORMAT",
+        "clip_list:FORMAT",
+        "c3d_events:FORMAT",
+    ),
 )
-"""Modules of this package that end in a `LabelFormat` called ``FORMAT``, in the order shown."""
-GROUP = "kineme.label_formats"
+"""In the order in which they are shown, and tried."""
 
 
 def label_formats() -> Mapping[str, LabelFormat]:
-    """The known label formats by name, the package's own first.
+    """The label formats by name, the package's own first.
 
     Returns
     -------
@@ -49,26 +51,25 @@ def label_formats() -> Mapping[str, LabelFormat]:
     >>> list(label_formats())[:3]
     ['csv', 'json', 'parquet']
     """
-    return MappingProxyType(_known())
+    return FORMATS
 
 
-def register(new: LabelFormat) -> None:
+def register(new: LabelFormat, *, replace: bool = False) -> None:
     """Make a format known to `read_segments`, `write_segments`, command line and studio.
 
     Parameters
     ----------
     new : LabelFormat
-        With a name that no other format has.
+        What is added.
+    replace : bool
+        Whether it takes the place of a format of the same name.
 
     Raises
     ------
     ParameterError
         There is a format of this name, or it is none.
     """
-    check_type(new, LabelFormat, "register", "see kineme.labels.LabelFormat")
-    if new.name in _known():
-        raise ParameterError(f"there is a label format {new.name!r} already: choose another name")
-    _known()[new.name] = new
+    FORMATS.register(new, replace=replace)
 
 
 def written_suffixes() -> tuple[str, ...]:
@@ -79,8 +80,8 @@ def written_suffixes() -> tuple[str, ...]:
     tuple of str
         Lower case, with the dot, each once.
     """
-    writers = [known for known in label_formats().values() if known.write]
-    return tuple(dict.fromkeys(known.written_suffix.lower() for known in writers))
+    writers = [candidate for candidate in label_formats().values() if candidate.write]
+    return tuple(dict.fromkeys(candidate.written_suffix.lower() for candidate in writers))
 
 
 def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
@@ -96,12 +97,12 @@ def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelF
     if name is not None:
         return _named(name)
     suffix = Path(path).suffix.lower()
-    fitting = [known for known in label_formats().values() if suffix in known.suffixes]
+    fitting = [candidate for candidate in label_formats().values() if suffix in candidate.suffixes]
     if not fitting:
         reason = f"segments are stored as {_suffixes_read()}, not {suffix or 'that'!r}"
         raise ReadError(path, reason)
-    fitting.sort(key=lambda known: known.written_suffix.lower() != suffix)
-    return next((known for known in fitting if _speaks(known, Path(path))), fitting[0])
+    fitting.sort(key=lambda candidate: candidate.written_suffix.lower() != suffix)
+    return next((candidate for candidate in fitting if _speaks(candidate, Path(path))), fitting[0])
 
 
 def format_to_write(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
@@ -121,11 +122,11 @@ def format_to_write(path: str | PathLike[str], name: str | None = None) -> Label
             raise WriteError(path, f"{name} is only read: segments go into {stored}")
         return chosen
     suffix = Path(path).suffix.lower()
-    fitting = [known for known in label_formats().values() if suffix in known.suffixes]
-    writers = [known for known in fitting if known.write]
-    for known in writers:
-        if suffix == known.written_suffix.lower():
-            return known
+    fitting = [candidate for candidate in label_formats().values() if suffix in candidate.suffixes]
+    writers = [candidate for candidate in fitting if candidate.write]
+    for candidate in writers:
+        if suffix == candidate.written_suffix.lower():
+            return candidate
     if writers:
         return writers[0]
     stored = ", ".join(written_suffixes())
@@ -158,27 +159,21 @@ def holds_labels(path: str | PathLike[str]) -> bool:
     if target.name.endswith(".provenance.json"):  # of the table beside it
         return False
     suffix = target.suffix.lower()
-    fitting = [known for known in label_formats().values() if suffix in known.suffixes]
-    return any(_speaks(known, target) for known in fitting)
+    fitting = [candidate for candidate in label_formats().values() if suffix in candidate.suffixes]
+    return any(_speaks(candidate, target) for candidate in fitting)
 
 
-@cache
-def _known() -> dict[str, LabelFormat]:
-    own = [import_module(f"kineme.labels.{module}").FORMAT for module in MODULES]
-    return {known.name: known for known in (*own, *plugins(GROUP))}
-
-
-def _speaks(known: LabelFormat, path: Path) -> bool:
-    return known.recognises is None or known.recognises(path)
+def _speaks(candidate: LabelFormat, path: Path) -> bool:
+    return candidate.recognises is None or candidate.recognises(path)
 
 
 def _named(name: str) -> LabelFormat:
-    known = label_formats()
-    if not is_one_of(name, known):
-        raise ParameterError(f"format must be one of {', '.join(known)}, not {name!r}")
-    return known[name]
+    formats = label_formats()
+    if not is_one_of(name, formats):
+        raise ParameterError(f"format must be one of {', '.join(formats)}, not {name!r}")
+    return formats[name]
 
 
 def _suffixes_read() -> str:
-    every = (suffix for known in label_formats().values() for suffix in known.suffixes)
+    every = (suffix for candidate in label_formats().values() for suffix in candidate.suffixes)
     return ", ".join(dict.fromkeys(every))

@@ -7,19 +7,16 @@ published methods; the others are what results are compared with.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-from kineme._plugins import plugins
+from kineme._registry import Registry
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
-from kineme.methods.baselines.presets import BASELINES
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 
-GROUP = "kineme.presets"
-"""The entry points by which other packages name theirs."""
 DEFAULT = KINEME.name
 FOR_SIGNALS = {KINEME.name: SENSORS.name}
 """What a name stands for where it is given with signals."""
@@ -27,50 +24,38 @@ FOR_SIGNALS = {KINEME.name: SENSORS.name}
 PUBLISHED: Mapping[str, RegionGrowingPreset] = MappingProxyType(
     {preset.name: preset for preset in (VOEGELE2014, KRUEGER2017)}
 )
-_known: dict[str, Preset] = {
-    preset.name: preset for preset in (KINEME, SENSORS, *PUBLISHED.values(), *BASELINES)
-}
-_looked_up: list[bool] = []
+PRESETS: Registry[Preset] = Registry(
+    Preset,
+    "preset",
+    "kineme.presets",
+    home="kineme.methods",
+    builtins=(
+        "kineme.preset:KINEME",
+        "kineme.preset:SENSORS",
+        "region_growing.preset:VOEGELE2014",
+        "region_growing.preset:KRUEGER2017",
+        "baselines.presets:BASELINES",
+    ),
+)
+"""The default first."""
 
 
-def register(preset: Preset) -> None:
+def register(preset: Preset, *, replace: bool = False) -> None:
     """Make a preset known by its name: to `kineme.segment`, the command line and the studio.
 
     Parameters
     ----------
     preset : Preset
-        In place of one of that name that was known before.
+        What is added.
+    replace : bool
+        Whether it takes the place of a preset of the same name.
 
     Raises
     ------
     ParameterError
-        Something else than a preset.
+        There is a preset of this name, or it is none.
     """
-    if not isinstance(preset, Preset):
-        raise ParameterError(f"register takes a preset, not {type(preset).__name__}")
-    _known[preset.name] = preset
-
-
-class _Presets(Mapping[str, Preset]):
-    """The presets by name, the default first; those of other packages are looked up when used."""
-
-    def __getitem__(self, name: str) -> Preset:
-        _look_up()
-        return _known[name]
-
-    def __iter__(self) -> Iterator[str]:
-        _look_up()
-        return iter(_known)
-
-    def __len__(self) -> int:
-        _look_up()
-        return len(_known)
-
-    def __repr__(self) -> str:
-        return f"<presets {', '.join(self)}>"
-
-
-PRESETS: Mapping[str, Preset] = _Presets()
+    PRESETS.register(preset, replace=replace)
 
 
 def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: Any) -> Preset:
@@ -115,19 +100,10 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
             f"there are {', '.join(PRESETS)}"
         )
     for name in overrides:
-        others = [other for other, known in PRESETS.items() if hasattr(known, name)]
+        others = [other for other, candidate in PRESETS.items() if hasattr(candidate, name)]
         if others and not hasattr(chosen, name):
             raise ParameterError(
                 f"{chosen.name} has no parameter {name!r}: it is one of {' and '.join(others)}, "
                 f"so choose another preset or leave it out"
             )
     return (chosen.for_signals() if signals else chosen).replace(**overrides)
-
-
-def _look_up() -> None:
-    """Register what installed packages name as theirs, once, even where they look in turn."""
-    if _looked_up:
-        return
-    _looked_up.append(True)
-    for preset in plugins(GROUP):
-        register(preset)

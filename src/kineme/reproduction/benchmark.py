@@ -1,33 +1,108 @@
 """Methods × trials: every score of every method on every recording, and the means.
 
-ACA's and HACA's published cuts, which exist for all fourteen trials, need no
-recording: `score_published_cuts` measures them with the same functions and
+Methods are presets under one form: a trial in, a segmentation out. Most see the motion alone.
+ACA, HACA and GMM are told the true number of classes, as in all published comparisons, and ACA and
+HACA the lengths of segments that their authors chose per trial (Zhou et al., their program).
+
+Published accuracies ship as ``published.json``, trial by trial, each with its source: facts to
+compare with. How they were computed is told in `kineme.evaluation.published`, as far as it is
+known: ACA's and HACA's do not follow from their published cuts. These exist for all fourteen
+trials and need no recording: `score_published_cuts` measures them with the same functions and
 puts the published accuracies beside.
 """
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache, partial
+from importlib.resources import files
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal, TypedDict
 
 import numpy as np
 
 from kineme._json import loaded
 from kineme.errors import ReadError
-from kineme.evaluation.annotated_scores import evaluate_segmentation
-from kineme.evaluation.annotation import Annotation
+from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.frames import one_to_one_accuracy
-from kineme.evaluation.labelling import Labelling
-from kineme.evaluation.paper import strict_and_tolerant
-from kineme.reproduction.methods import Method
-from kineme.reproduction.published import published
+from kineme.evaluation.published import strict_and_tolerant
+from kineme.evaluation.recordings import check_method, segment_by
+from kineme.evaluation.score import evaluate_segmentation
+from kineme.evaluation.truth import TRANSITION, Ints, Labelling, Truth
+from kineme.methods.base import Preset
+from kineme.methods.presets import PRESETS
 from kineme.reproduction.trials import Trial, read_truths
 from kineme.segments.segmentation import Segmentation
 
 Scores = dict[str, float]
+Method = Callable[[Trial], Segmentation]
+
+OF_TRIALS: Mapping[tuple[str, str], Mapping[str, Any]] = {
+    ("aca", "86_11"): {"shortest": 21, "longest": 36, "centres": 15},
+    ("haca", "86_11"): {"fine_lengths": (7, 9), "coarse_lengths": (3, 4), "centres": 15},
+}
+"""Constants by method and trial: trial 11 is fast, so its segments are shorter."""
+
+
+def method(name: str) -> Method:
+    """The method of this name.
+
+    Parameters
+    ----------
+    name : str
+        Of a preset.
+
+    Returns
+    -------
+    callable
+        From a `Trial` to a `Segmentation`.
+
+    Raises
+    ------
+    ParameterError
+        There is none; the message lists those there are.
+
+    Examples
+    --------
+    >>> callable(method("haca"))
+    True
+    """
+    check_method(name)
+    return partial(_by_name, name)
+
+
+def preset_method(preset: Preset) -> Method:
+    """Segmentation by a preset, be it a published or a changed one.
+
+    Parameters
+    ----------
+    preset : Preset
+
+    Returns
+    -------
+    callable
+        From a `Trial` to a `Segmentation`.
+    """
+    return partial(_by_preset, preset)
+
+
+def _by_name(name: str, trial: Trial) -> Segmentation:
+    n_classes = len(set(trial.truth.labels) - {TRANSITION})
+    constants = OF_TRIALS.get((name, trial.name), {})
+    return segment_by(name, trial.motion, n_classes=n_classes, **constants)
+
+
+def _by_preset(preset: Preset, trial: Trial) -> Segmentation:
+    from kineme.segmentation.segmenter import segment
+
+    return segment(trial.motion, preset=preset)
+
+
+METHODS: Mapping[str, Method] = MappingProxyType({name: method(name) for name in PRESETS})
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,8 +226,44 @@ def score_published_cuts(folder: Path) -> list[PublishedCuts]:
         raise ReadError(path, f"no published cuts here: {error}") from error
 
 
+@cache
+def published() -> dict[str, Any]:
+    """Tables by name, each ``{method: {trial: value}}``; ``sources`` says where each is from.
+
+    ``accuracy_strict``, ``accuracy_tolerant``, ``rerun_accuracy`` and
+    ``rerun_accuracy_certain`` are per trial; ``means`` and
+    ``cluster_variance_means`` are as printed.
+    """
+    text = files(__package__).joinpath("published.json").read_text(encoding="utf-8")
+    tables: dict[str, Any] = json.loads(text)
+    return tables
+
+
+def aca_accuracy(truth: Truth, found: Labelling, *, blocks: Ints | None = None) -> float:
+    """The accuracy by which ACA and HACA were measured: frames right, one to one.
+
+    Truth is cut at the mean of the annotators' marks, with no class for
+    transitions. Source: Zhou, De la Torre and Hodgins, TPAMI 35(3), 2013, as in
+    their program (``genConMatrix``, ``matchSeg``).
+
+    Parameters
+    ----------
+    truth : Truth
+        Of one recording at one frame rate.
+    found : Labelling
+        See `truth`.
+    blocks : ndarray, optional
+        First frames of the blocks to which the recording was reduced. The authors count blocks, a
+        border of the truth being that of the block it lies in: a block has the labels of its last
+        frame. None counts frames.
+    """
+    counted = np.arange(found.frames) if blocks is None else np.append(blocks[1:], found.frames) - 1
+    wanted, given = truth.at_means().numbers(), found.numbers()
+    return one_to_one_accuracy(Comparison(wanted[counted], given[counted], truth.fps))
+
+
 def _published_cuts(
-    method: Literal["aca", "haca"], trial: str, truth: Annotation, stored: _Stored
+    method: Literal["aca", "haca"], trial: str, truth: Truth, stored: _Stored
 ) -> PublishedCuts:
     aca = method == "aca"
     marks = stored["aca_cuts_30hz" if aca else "haca_cuts_30hz"][trial]
@@ -162,10 +273,12 @@ def _published_cuts(
     found = Labelling.from_cuts(
         cuts, clusters if fits else None, frames=truth.frames, fps=truth.fps
     )
-    strict, tolerant = strict_and_tolerant(truth, found)
+    compared = Comparison.of(truth, found)
+    strict, tolerant = strict_and_tolerant(compared)
     scores = {"strict": strict, "tolerant": tolerant}
     if fits:
-        scores["one_to_one"], scores["one_to_one_agreed"] = one_to_one_accuracy(truth, found)
+        scores["one_to_one"] = one_to_one_accuracy(compared)
+        scores["one_to_one_agreed"] = one_to_one_accuracy(compared.agreed)
     tables = published()
     printed = {kind: tables[f"accuracy_{kind}"][method][trial] for kind in ("strict", "tolerant")}
     return PublishedCuts(method, trial, scores, printed)

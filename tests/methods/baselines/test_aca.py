@@ -26,8 +26,7 @@ from kineme.methods.baselines.haca import haca, haca_levels
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
 from kineme.methods.baselines.segments import Segments
 from kineme.reproduction import read_trials
-from kineme.reproduction.aca_protocol import aca_accuracy
-from kineme.reproduction.methods import OF_TRIALS
+from kineme.reproduction.benchmark import OF_TRIALS, aca_accuracy
 
 SEEDS = st.integers(0, 2**32 - 1)
 ACA, HACA = PRESETS["aca"], PRESETS["haca"]

@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 import kineme
 import naive
 from kineme.errors import ParameterError
-from kineme.evaluation import Labelling, border_score
+from kineme.evaluation import Comparison, Labelling, border_score
 from kineme.features.rotations import joint_quaternions
 from kineme.methods import PRESETS
 from kineme.methods.baselines.gmm import gmm
@@ -131,4 +131,4 @@ def test_pca_methods_find_the_borders_of_a_real_recording(data_dir):
         segments = cut(method, quaternions.reshape(len(quaternions), -1), 120.0)
         labels = segments.clusters.tolist()
         found = Labelling.from_cuts(segments.cuts, labels, frames=segments.n_frames, fps=120.0)
-        assert border_score(truth, found).recall == 1
+        assert border_score(Comparison.of(truth, found)).recall == 1

@@ -12,8 +12,7 @@ from kineme._files import atomic_write
 from kineme.cli.evaluate.tables import show_results
 from kineme.cli.messages import progress
 from kineme.errors import ParameterError, WriteError
-from kineme.reproduction.benchmark import Result, as_records, run
-from kineme.reproduction.methods import METHODS, Method, method
+from kineme.reproduction.benchmark import METHODS, Method, Result, as_records, method, run
 from kineme.reproduction.trials import find_folder, load_trials
 
 
@@ -52,7 +51,7 @@ def _draw(
     results: list[Result], data: Path, plot: Path | None, figures: Path | None, stage: Any
 ) -> None:
     if plot is not None:
-        from kineme.reproduction.figures.bars import plot_trials
+        from kineme.reproduction.figures.segments import plot_trials
 
         plot_trials(results, plot)
     if figures is not None:

@@ -13,10 +13,9 @@ from kineme.cli.harmless import harmless
 from kineme.cli.messages import progress
 from kineme.errors import ParameterError
 from kineme.evaluation.folder import FolderScores, Mapped, evaluate_folder
-from kineme.evaluation.methods import check_method
-from kineme.evaluation.recordings import Reading, recordings_below
+from kineme.evaluation.recordings import Reading, check_method, recordings_below
 from kineme.evaluation.score import scores
-from kineme.evaluation.tables import write_records, write_text
+from kineme.evaluation.tables import score_rows, shown, write_records, write_text
 from kineme.labels.collections import labels_of, strays_of
 
 NAMED = 5
@@ -105,20 +104,12 @@ def _show(result: FolderScores) -> None:
         for i, one in enumerate(first)
     ]
     show_table("by recording", header, [("", rows)])
-    groups: dict[str, list[tuple[str, list[str]]]] = {}
-    for name, score in scores().items():
-        cells = [_shown(overall.get(name)) for overall in columns.values()]
-        groups.setdefault(score.level, []).append((score.title, cells))
     counted = [
         f"{sum(not one.error for one in ones)} of {len(ones)}" for ones in result.methods.values()
     ]
-    seconds = [_shown(overall.get("seconds_per_hour")) for overall in columns.values()]
-    groups["cost"] = [("recordings scored", counted), ("seconds per hour", seconds)]
-    title = f"over all recordings, one mapping for each {result.mapping}"
-    show_table(title, list(columns), list(groups.items()))
+    groups = [*score_rows(columns), ("recordings", [("recordings scored", counted)])]
+    show_table(f"over all recordings, one mapping for each {result.mapping}", list(columns), groups)
 
 
 def _shown(value: float | None) -> str:
-    from kineme.evaluation.tables import shown
-
     return "" if value is None else shown(value)

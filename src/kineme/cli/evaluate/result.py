@@ -12,7 +12,7 @@ from kineme.errors import KinemeError, ReadError
 from kineme.evaluation.inputs import comparison, read_result, read_truth, recording_of, score
 from kineme.formats import read, read_motion
 from kineme.recordings import Motion
-from kineme.reproduction.annotations import is_annotations, read_trial
+from kineme.reproduction.trials import is_annotations, read_trial
 from kineme.segments.segmentation import Segmentation
 
 

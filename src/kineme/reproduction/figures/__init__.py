@@ -7,9 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme.evaluation.labelling import Labelling
-from kineme.evaluation.paper import strict_and_tolerant
+from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.published import strict_and_tolerant
 from kineme.evaluation.tables import markdown, markdown_scores, shown
+from kineme.evaluation.truth import Labelling
 from kineme.reproduction.benchmark import (
     PublishedCuts,
     Result,
@@ -17,7 +18,7 @@ from kineme.reproduction.benchmark import (
     mean_scores,
     score_published_cuts,
 )
-from kineme.reproduction.reoccurrence import Recording, share_of_poses, survey
+from kineme.reproduction.figures.reoccurrence import Recording, share_of_poses
 from kineme.reproduction.trials import FPS, Trial
 
 UNIFORM_FRAMES = (36, 15, 5)
@@ -48,40 +49,32 @@ def make_figures(
     WriteError
         The folder cannot be written to.
     """
-    from kineme.reproduction.figures import (
-        accuracy,
-        bars,
-        matrix,
-        reoccurrence,
-        sensitivity,
-        timing,
-        variance,
-    )
+    from kineme.reproduction.figures import costs, matrix, reoccurrence, scores, segments
 
     say = progress or (lambda _: None)
     trials = list(dict.fromkeys(r.trial for r in results))
     say("segments")
-    bars.plot_bars(results, folder / "segments.png")
+    segments.plot_bars(results, folder / "segments.png")
     say("accuracies")
-    accuracy.plot_accuracies(results, folder / "accuracies.png")
+    scores.plot_accuracies(results, folder / "accuracies.png")
     published = _published(data)
     if published:
-        accuracy.plot_published_cuts(published, folder / "published_cuts.png")
+        scores.plot_published_cuts(published, folder / "published_cuts.png")
     say("variances")
-    clusters = variance.measure([r for r in results if r.method in variance.METHODS])
+    clusters = scores.measure([r for r in results if r.method in scores.METHODS])
     if clusters:
-        variance.plot_by_class(clusters, folder / "variances.png")
-        variance.plot_spread(clusters, folder / "distances.png")
+        scores.plot_by_class(clusters, folder / "variances.png")
+        scores.plot_spread(clusters, folder / "distances.png")
     say("timings")
-    timing.plot_timings(trials, folder / "timings.png")
-    timing.plot_growth(trials, folder / "growth.png")
+    costs.plot_timings(trials, folder / "timings.png")
+    costs.plot_growth(trials, folder / "growth.png")
     say("sensitivity")
-    sensitivity.plot_sensitivity(trials, folder / "sensitivity.png")
+    costs.plot_sensitivity(trials, folder / "sensitivity.png")
     say("self-similarity")
     matrix.plot_regions(trials[0], folder / "regions.png")
     matrix.plot_paths(trials[0], folder / "paths.png")
     say("recordings whose poses reoccur")
-    recordings = survey(_recordings(data))
+    recordings = reoccurrence.survey(_recordings(data))
     reoccurrence.plot_reoccurrence(recordings, folder / "reoccurrence.png")
     return make_tables(results, published, recordings)
 
@@ -95,8 +88,8 @@ def make_tables(
     trials = list(dict.fromkeys(r.trial for r in results))
     tables = {"means": markdown_scores(mean_scores(results))}
     for trial in trials:
-        own = {r.method: r.scores for r in results if r.trial is trial}
-        tables[trial.name] = markdown_scores(own)
+        columns = {r.method: r.scores for r in results if r.trial is trial}
+        tables[trial.name] = markdown_scores(columns)
     tables["uniform cuts"] = _uniform_table(trials)
     if published:
         tables["published cuts"] = _published_table(published)
@@ -111,7 +104,7 @@ def _uniform_table(trials: Sequence[Trial]) -> str:
         for trial in trials:
             cuts = np.arange(step, trial.truth.frames, step)
             found = Labelling.from_cuts(cuts, frames=trial.truth.frames, fps=trial.truth.fps)
-            scores.append(strict_and_tolerant(trial.truth, found))
+            scores.append(strict_and_tolerant(Comparison.of(trial.truth, found)))
         strict, tolerant = np.mean(scores, axis=0)
         rows.append([f"{step / FPS:.2f} s", shown(strict), shown(tolerant)])
     return markdown(["a cut every", "strict", "tolerant"], rows)
@@ -121,9 +114,15 @@ def _published_table(found: Sequence[PublishedCuts]) -> str:
     names = ("strict", "tolerant")
     rows = []
     for method in ("aca", "haca"):
-        own = [p for p in found if p.method == method]
-        lines = [(p.trial, p.scores, p.printed) for p in own]
-        lines.append(("**mean**", mean([p.scores for p in own]), mean([p.printed for p in own])))
+        cuts_of_method = [p for p in found if p.method == method]
+        lines = [(p.trial, p.scores, p.printed) for p in cuts_of_method]
+        lines.append(
+            (
+                "**mean**",
+                mean([p.scores for p in cuts_of_method]),
+                mean([p.printed for p in cuts_of_method]),
+            )
+        )
         for trial, scores, printed in lines:
             cells = [shown(scores[n]) for n in names] + [shown(printed[n]) for n in names]
             cells += [f"{printed[n] - scores[n]:+.3f}" for n in names]

@@ -20,8 +20,7 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from kineme._colors import PALETTE
-from kineme.evaluation.annotation import Annotation
-from kineme.evaluation.labelling import TRANSITION
+from kineme.evaluation.truth import TRANSITION, Truth
 from kineme.graph import NeighborGraph, component_labels
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions
@@ -143,7 +142,7 @@ def _draw_squares(axes: Axes, borders: NDArray[np.float64], color: str) -> None:
     axes.add_collection(PatchCollection(boxes, facecolor="none", edgecolor=color, linewidth=1.5))
 
 
-def _draw_truth(axes: Axes, truth: Annotation) -> None:
+def _draw_truth(axes: Axes, truth: Truth) -> None:
     whole = truth.labelling()
     for label, start, stop in zip(whole.labels, whole.starts, whole.stops, strict=True):
         first, last = start / whole.fps, stop / whole.fps

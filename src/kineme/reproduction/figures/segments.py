@@ -16,12 +16,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Rectangle
-from scipy.optimize import linear_sum_assignment
-from sklearn.metrics.cluster import contingency_matrix
 
 from kineme._colors import PALETTE
-from kineme.evaluation.annotated_scores import labelling_of
-from kineme.evaluation.labelling import TRANSITION, Labelling
+from kineme.evaluation.comparison import Comparison, labelling_of
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 from kineme.reproduction.benchmark import Result
 from kineme.reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
 from kineme.reproduction.trials import Trial
@@ -55,12 +53,12 @@ def draw_bars(axes: Axes, trial: Trial, results: Sequence[Result]) -> None:
     """The rows of one trial."""
     truth = trial.truth.labelling()
     classes = list(dict.fromkeys(label for label in truth.labels if label != TRANSITION))
-    own = {label: (PALETTE[i % len(PALETTE)], 0.0) for i, label in enumerate(classes)}
-    _draw_row(axes, 0, truth, own)
-    _name_classes(axes, truth, own)
+    colors = {label: (PALETTE[i % len(PALETTE)], 0.0) for i, label in enumerate(classes)}
+    _draw_row(axes, 0, truth, colors)
+    _name_classes(axes, truth, colors)
     for row, result in enumerate(results, 1):
         found = units(result)
-        _draw_row(axes, row, found, _colors(truth, found, own))
+        _draw_row(axes, row, found, _colors(truth, found, colors))
     axes.set_yticks(range(len(results) + 1), ["truth", *(r.method for r in results)])
     axes.set_ylim(len(results) + 0.6, -0.6)
     axes.set_xlim(0, truth.frames / truth.fps)
@@ -89,27 +87,27 @@ def classes_of(truth: Labelling, found: Labelling) -> dict[str, str]:
 
 
 def _colors(
-    truth: Labelling, found: Labelling, own: Mapping[str, tuple[str, float]]
+    truth: Labelling, found: Labelling, colors: Mapping[str, tuple[str, float]]
 ) -> dict[str, tuple[str, float]]:
     """Colour and lightness per cluster."""
     best = _assignment(truth, found)
     return {
-        label: own[best[label]] if label in best else (own[name][0], LIGHTER)
+        label: colors[best[label]] if label in best else (colors[name][0], LIGHTER)
         for label, name in classes_of(truth, found).items()
     }
 
 
 def _assignment(truth: Labelling, found: Labelling) -> dict[str, str]:
     """The best one-to-one assignment of clusters to classes, over the certain frames."""
-    wanted, given = truth.per_frame(), found.per_frame()
-    certain = (wanted != TRANSITION) & (given != TRANSITION)
+    wanted, given = truth.numbers(), found.numbers()
+    certain = (wanted != UNLABELLED) & (given != UNLABELLED)
     if not certain.any():
         return {}
-    wanted, given = wanted[certain].astype(str), given[certain].astype(str)
-    table = contingency_matrix(wanted, given)
-    classes, clusters = np.unique(wanted), np.unique(given)
-    pairs = zip(*linear_sum_assignment(table, maximize=True), strict=True)
-    return {str(clusters[j]): str(classes[i]) for i, j in pairs if table[i, j]}
+    compared = Comparison(wanted[certain], given[certain], truth.fps)
+    right = compared.mapped == compared.truth
+    clusters, classes = found.names(), truth.names()
+    pairs = set(zip(compared.found[right].tolist(), compared.truth[right].tolist(), strict=True))
+    return {clusters[cluster]: classes[kind] for cluster, kind in pairs}
 
 
 def _draw_row(

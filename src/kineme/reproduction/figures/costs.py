@@ -1,12 +1,16 @@
-"""What each step costs, per trial, and how it grows with the recording.
+"""What each step costs, and how much the result depends on the constants.
 
-Sources: Vögele, Krüger, Klein 2014, figure 7, and figure 4 of its supplement.
-Every time is the least of three runs, on the machine that draws the figure.
+Seconds per step: per trial, and as the recording grows. Sources: Vögele, Krüger, Klein 2014,
+figure 7, and figure 4 of its supplement. Every time is the least of three runs, on the machine
+that draws the figure.
+
+Scores by the radius r and the number of neighbours k: figure 3 of the supplement. One constant is
+changed at a time; the dashed line is the preset's own value. Means over the trials.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +18,12 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from kineme._colors import PALETTE
+from kineme.evaluation.score import evaluate_segmentation
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.preset import RegionGrowingPreset
-from kineme.reproduction.figures.style import INK, heading, new_figure, save, tidy
+from kineme.reproduction.benchmark import Scores, mean
+from kineme.reproduction.figures.style import FAINT, INK, heading, new_figure, save, tidy
 from kineme.reproduction.trials import Trial
 from kineme.segmentation.bodies import motion_features
 from kineme.segmentation.segmenter import segment
@@ -26,6 +32,15 @@ STEPS = ("features", "bundling", "neighbors", "activities", "primitives", "clust
 STEP_COLORS = dict(zip(STEPS, (PALETTE[i] for i in (1, 5, 2, 4, 3, 0)), strict=True))
 RUNS = 3
 POINTS = 7
+SHARES = (0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4)
+NEIGHBORS = (16, 32, 64, 96, 128, 192, 256, 400, 600)
+CURVES: Mapping[str, tuple[str, str]] = {
+    "strict": ("strict", PALETTE[4]),
+    "tolerant": ("tolerant", PALETTE[0]),
+    "one_to_one": ("one to one", PALETTE[2]),
+    "border_f1": ("border F1", PALETTE[3]),
+    "covering": ("covering", PALETTE[6]),
+}
 
 Timings = dict[str, float]
 
@@ -99,3 +114,66 @@ def _quadratic(axes: Axes, frames: NDArray[np.int64], total: NDArray[np.float64]
 
 def _least(runs: Sequence[Timings]) -> Timings:
     return {step: min(run[step] for run in runs) for step in runs[0]}
+
+
+def scores_by_radius(
+    trials: Sequence[Trial], preset: RegionGrowingPreset
+) -> list[tuple[float, Scores]]:
+    """Radius in metres and mean scores; the smaller radius for activities changes with it."""
+    return [(share * preset.radius, _mean(trials, _wider(preset, share))) for share in SHARES]
+
+
+def scores_by_neighbors(
+    trials: Sequence[Trial], preset: RegionGrowingPreset
+) -> list[tuple[float, Scores]]:
+    """Number of neighbours and mean scores; what is derived from it changes with it."""
+    return [(float(k), _mean(trials, _with_neighbors(preset, k))) for k in NEIGHBORS]
+
+
+def plot_sensitivity(trials: Sequence[Trial], path: Path) -> Path:
+    """Scores against r (left) and k (right), a row per preset."""
+    figure = new_figure(9.2, 2.6 * len(PUBLISHED) + 0.3)
+    panels = figure.subplots(len(PUBLISHED), 2, sharey=True, squeeze=False)
+    for row, preset in zip(panels, PUBLISHED.values(), strict=True):
+        _draw(row[0], scores_by_radius(trials, preset), preset.radius)
+        _draw(row[1], scores_by_neighbors(trials, preset), preset.max_neighbors)
+        row[1].set_xscale("log", base=2)
+        row[1].set_xticks([16, 64, 256, 1024], ["16", "64", "256", "1024"])
+        heading(row[0], f"{preset.name}: radius r, m")
+        heading(row[1], f"{preset.name}: neighbours k")
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    figure.legend(
+        handles, labels, loc="outside lower center", ncols=len(CURVES), frameon=False, fontsize=8
+    )
+    return save(figure, path)
+
+
+def _draw(axes: Axes, scores: Sequence[tuple[float, Scores]], preset_value: float) -> None:
+    for name, (label, color) in CURVES.items():
+        axes.plot(
+            [value for value, _ in scores], [row[name] for _, row in scores],
+            "o-", ms=3, lw=1.2, color=color, label=label,
+        )  # fmt: skip
+    axes.axvline(preset_value, color=FAINT, linestyle="--", linewidth=1)
+    axes.set_ylim(0, 1.02)
+    tidy(axes)
+
+
+def _mean(trials: Sequence[Trial], preset: RegionGrowingPreset) -> Scores:
+    return mean([evaluate_segmentation(t.truth, segment(t.motion, preset=preset)) for t in trials])
+
+
+def _wider(preset: RegionGrowingPreset, share: float) -> RegionGrowingPreset:
+    inner = preset.growth_radius
+    return preset.replace(
+        radius=share * preset.radius, growth_radius=None if inner is None else share * inner
+    )
+
+
+def _with_neighbors(preset: RegionGrowingPreset, k: int) -> RegionGrowingPreset:
+    changed = {
+        name: max(1, round(value * k / preset.max_neighbors))
+        for name in ("growth_neighbors", "cluster_neighbors")
+        if (value := getattr(preset, name)) is not None
+    }
+    return preset.replace(max_neighbors=k, **changed)

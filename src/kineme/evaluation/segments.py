@@ -1,8 +1,8 @@
-"""Are the segments right, in kind and order? Scores that count segments, not frames.
+"""Are the segments right, in kind and order, and are repetitions counted right?
 
-Both are those of action segmentation: a segment is a run of frames of one class, once clusters
-have been given the classes that they stand for. A border that is a little off costs nothing, a
-segment too many does.
+Scores of segments are those of action segmentation: a segment is a run of frames of one class,
+once clusters have been given the classes that they stand for. A border that is a little off costs
+nothing, a segment too many does. Repetitions are counted where the truth knows their number.
 
 Source: Lea, Flynn, Vidal, Reiter and Hager, "Temporal Convolutional Networks for Action
 Segmentation and Detection", CVPR 2017, section 4.
@@ -16,7 +16,8 @@ from functools import partial
 import numpy as np
 
 from kineme.evaluation.comparison import Comparison, Run
-from kineme.evaluation.score import Ratio, Score
+from kineme.evaluation.score import Ratio, Score, one_of
+from kineme.evaluation.truth import TRANSITION, Labelling, Truth
 
 OVERLAPS = (10, 25, 50)
 """Intersection over union, in percent, from which a segment counts as found."""
@@ -102,6 +103,51 @@ def overlap_f1(compared: Comparison, *, percent: float) -> Ratio:
     return Ratio(2 * hits, len(compared.true_runs) + len(compared.mapped_runs))
 
 
+def found_counts(truth: Truth, primitives: Labelling) -> list[int]:
+    """How many primitives have their middle in each action of the truth.
+
+    Actions are cut at the mean marks; transitions are no primitives.
+
+    Parameters
+    ----------
+    truth : Truth
+        Of one recording at one frame rate.
+    primitives : Labelling
+        See `truth`.
+
+    Returns
+    -------
+    list of int
+        One per action.
+    """
+    kept = np.array([label != TRANSITION for label in primitives.labels])
+    middles = (primitives.starts + primitives.stops)[kept] / 2
+    counts: list[int] = np.histogram(middles, bins=truth.at_means().borders)[0].tolist()
+    return counts
+
+
+def count_errors(compared: Comparison) -> tuple[float, float] | None:
+    """Mean difference from the true number of repetitions, and the share counted exactly.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    error, exact : float
+        None where the truth knows no count.
+    """
+    truth = compared.spans.actions
+    found = found_counts(truth, compared.spans.primitives)
+    errors = [
+        abs(count - true)
+        for count, true in zip(found, truth.counts, strict=False)
+        if true is not None
+    ]
+    return (float(np.mean(errors)), float(np.mean(np.array(errors) == 0))) if errors else None
+
+
 def _hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
     """How many true segments are found."""
     labels, starts, stops = np.array(true).T
@@ -119,13 +165,13 @@ def _hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
 SCORES = (
     Score("edit", "Edit", "order of segments: 1 - edit distance", "segments", edit_score),
     *(
-        Score(
-            f"f1@{percent}",
-            f"F1@{percent}",
-            f"F1 of segments that overlap by at least {percent} %",
-            "segments",
-            partial(overlap_f1, percent=percent),
-        )
+        Score(f"f1@{percent}", f"F1@{percent}",
+              f"F1 of segments that overlap by at least {percent} %", "segments",
+              partial(overlap_f1, percent=percent))
         for percent in OVERLAPS
     ),
-)
+    Score("count_error", "count error", "repetitions too many or too few", "repetitions",
+          one_of(count_errors, 0)),
+    Score("count_exact", "counted exactly", "share of actions counted right", "repetitions",
+          one_of(count_errors, 1)),
+)  # fmt: skip

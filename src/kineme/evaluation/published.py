@@ -1,0 +1,102 @@
+"""The accuracies of the published protocols, as their authors coded them.
+
+They are here to be comparable, not to be trusted: `strict_and_tolerant`
+never looks at clusters and rises with every cut. Uniform cuts twice a second
+pass every published method.
+
+Sources: Vögele, Krüger, Klein 2014, section 5.1, and the authors' program of
+2017; for `majority_accuracy` arXiv 2308.14865. The program's spans are
+closed and share their border frames: ``[start, stop)`` of this package is
+``start .. min(stop, frames - 1)`` there.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.evaluation.comparison import Comparison, contingency
+from kineme.evaluation.score import Score, one_of
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Ints, Truth
+
+
+def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:
+    """Shares of the truth covered, with and without the uncertain spans.
+
+    Every found activity goes to the interval of the truth that it overlaps
+    most (the first of equals; uncertain spans are intervals too). For each
+    interval the hull of its activities is intersected with it. Strict: the
+    sum of these intersections over the sum of all lengths. Tolerant: the same
+    over the actions alone. Labels play no part.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    strict, tolerant : float
+    """
+    start, stop, certain = _closed_spans(compared.spans.actions)
+    found = compared.spans.activities
+    first = found.starts
+    last = np.minimum(found.stops, found.frames - 1)
+    owner = np.array(
+        [
+            np.argmax(np.maximum(np.minimum(b, stop) - np.maximum(a, start) + 1, 0))
+            for a, b in zip(first, last, strict=True)
+        ]
+    )
+    covered = np.zeros(start.size)
+    for i in np.unique(owner):
+        rows = owner == i
+        hull = min(stop[i], last[rows].max()) - max(start[i], first[rows].min()) + 1
+        covered[i] = max(0, hull)
+    length = stop - start + 1
+    return (
+        float(covered.sum() / length.sum()),
+        float(covered[certain].sum() / length[certain].sum()),
+    )
+
+
+def majority_accuracy(compared: Comparison) -> tuple[float, float]:
+    """Shares of frames labelled right, of all frames and outside the uncertain spans.
+
+    A cluster takes the class that more than half of its frames have, else
+    none. Cutting into many clusters is not punished.
+
+    Parameters
+    ----------
+    compared : Comparison
+
+    Returns
+    -------
+    everywhere, agreed : float
+    """
+    clusters, classes, frames = contingency(compared.found, compared.truth)
+    most = frames.max(axis=1)
+    given = np.where(2 * most > frames.sum(axis=1), classes[frames.argmax(axis=1)], UNLABELLED)
+    right = given[np.searchsorted(clusters, compared.found)] == compared.truth
+    return float(right.mean()), float(right[compared.truth != UNLABELLED].mean())
+
+
+def _closed_spans(truth: Truth) -> tuple[Ints, Ints, NDArray[np.bool_]]:
+    """First and last frames of actions and uncertain spans in turn, and which are actions."""
+    marks = np.stack([truth.earliest, truth.latest], axis=1).ravel()
+    start = np.concatenate([[0], marks])
+    stop = np.concatenate([marks, [truth.frames - 1]])
+    certain = np.zeros(start.size, np.bool_)
+    certain[::2] = [label != TRANSITION for label in truth.labels]
+    return start, stop, certain
+
+
+SCORES = (
+    Score("strict", "strict", "share of the truth that is covered", "published protocols",
+          one_of(strict_and_tolerant, 0)),
+    Score("tolerant", "tolerant", "the same without the uncertain spans", "published protocols",
+          one_of(strict_and_tolerant, 1)),
+    Score("majority", "majority", "share of frames right, clusters going by their majority",
+          "published protocols", one_of(majority_accuracy, 0)),
+    Score("majority_agreed", "majority, agreed", "the same of frames on which people agree",
+          "published protocols", one_of(majority_accuracy, 1)),
+)  # fmt: skip
