@@ -1,7 +1,12 @@
-"""What goes to standard error: errors, warnings, progress."""
+"""What goes to standard error: errors, warnings, progress.
+
+Names of files, joints and labels may hold codes that would steer a terminal: `harmless` spells
+them out.
+"""
 
 from __future__ import annotations
 
+import re
 import threading
 import warnings
 from collections.abc import Callable, Iterator
@@ -9,10 +14,11 @@ from contextlib import contextmanager
 
 import typer
 
-from kineme.cli.harmless import harmless
 from kineme.errors import KinemeError, KinemeWarning
 
 PATIENCE = 1.0  # seconds before progress is shown
+_STEERS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+"""Controls but tab and line feed, and what turns the direction of text."""
 
 
 class Failures:
@@ -45,7 +51,7 @@ def short_warnings() -> None:
 @contextmanager
 def progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     """A function to name the stage at work; shown on a terminal once a second has passed."""
-    from kineme.cli.console import Console
+    from kineme.cli.tables import Console
 
     status = Console(stderr=True).status(str(what))
     if quiet or not status.console.is_terminal:
@@ -64,6 +70,17 @@ def progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
 
 def _no_progress(_: str) -> None:
     """Says nothing."""
+
+
+def harmless(text: str) -> str:
+    """A text whose control characters, which could steer a terminal, are spelled out.
+
+    Examples
+    --------
+    >>> harmless("a" + chr(7) + "b") == "a" + chr(92) + "x07b"
+    True
+    """
+    return _STEERS.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
 
 
 def say_error(text: str) -> None:

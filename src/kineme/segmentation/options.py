@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from typing import Any
-
-from numpy.typing import ArrayLike
+from typing import TYPE_CHECKING, Any
 
 from kineme._checks import is_number
 from kineme.errors import ParameterError
-from kineme.features.effectors import Names
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from kineme.features.effectors import Names
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
