@@ -8,8 +8,9 @@ from pathlib import Path
 from rich.table import Table
 from rich.text import Text
 
-from kineme.cli.messages import harmless, say_error
-from kineme.cli.tables import Console, new_table
+from kineme.cli.messages import say_error
+from kineme.cli.tables import new_table
+from kineme.cli.terminal import Console, harmless
 
 STEERS = "\x1b[2J\x1b]0;owned\x07\x9b1A\u202e"
 

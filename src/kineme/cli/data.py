@@ -123,7 +123,7 @@ def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], Non
         Progress as Bars,
     )
 
-    from kineme.cli.tables import Console
+    from kineme.cli.terminal import Console
 
     console = Console(stderr=True, highlight=False)
     if quiet:

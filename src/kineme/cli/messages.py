@@ -1,12 +1,7 @@
-"""What goes to standard error: errors, warnings, progress.
-
-Names of files, joints and labels may hold codes that would steer a terminal: `harmless` spells
-them out.
-"""
+"""What goes to standard error: errors, warnings, progress."""
 
 from __future__ import annotations
 
-import re
 import threading
 import warnings
 from collections.abc import Callable, Iterator
@@ -17,8 +12,6 @@ import typer
 from kineme.errors import KinemeError, KinemeWarning
 
 PATIENCE = 1.0  # seconds before progress is shown
-_STEERS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
-"""Controls but tab and line feed, and what turns the direction of text."""
 
 
 class Failures:
@@ -51,7 +44,7 @@ def short_warnings() -> None:
 @contextmanager
 def progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     """A function to name the stage at work; shown on a terminal once a second has passed."""
-    from kineme.cli.tables import Console
+    from kineme.cli.terminal import Console
 
     status = Console(stderr=True).status(str(what))
     if quiet or not status.console.is_terminal:
@@ -70,17 +63,6 @@ def progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
 
 def _no_progress(_: str) -> None:
     """Says nothing."""
-
-
-def harmless(text: str) -> str:
-    """A text whose control characters, which could steer a terminal, are spelled out.
-
-    Examples
-    --------
-    >>> harmless("a" + chr(7) + "b") == "a" + chr(92) + "x07b"
-    True
-    """
-    return _STEERS.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
 
 
 def say_error(text: str) -> None:
@@ -104,5 +86,7 @@ def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
 
 
 def _say(what: str, text: str, color: str) -> None:
+    from kineme.cli.terminal import harmless
+
     typer.secho(f"{what}: ", fg=color, bold=True, err=True, nl=False)
     typer.echo(harmless(text), err=True)

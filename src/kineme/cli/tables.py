@@ -6,16 +6,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import rich.console
 from rich import box
 from rich.columns import Columns
-from rich.console import ConsoleOptions, Group, RenderableType
-from rich.segment import Segment as Rendered
+from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from kineme._colors import cluster_color
-from kineme.cli.messages import harmless
+from kineme.cli.terminal import Console
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -25,29 +23,6 @@ _NOTHING_FOUND = (
     "no activity found: nothing stays similar or repeats for long enough; of a recording of a few "
     "seconds --set min_action=0.5 or --preset krueger2017 may tell more"
 )
-
-EDGELESS = 10_000
-"""Columns of a file or a pipe, which has no edge at which lines would have to be broken."""
-
-
-class Console(rich.console.Console):
-    """A console of rich that spells out the control characters of texts.
-
-    What is no terminal gets every row of a table on a line of its own, however long.
-    """
-
-    def __init__(self, *, width: int | None = None, **options: Any) -> None:
-        super().__init__(width=width, **options)
-        if width is None and not self.is_terminal:
-            self.width = EDGELESS
-
-    def render(
-        self, renderable: RenderableType, options: ConsoleOptions | None = None
-    ) -> Iterable[Rendered]:
-        """The segments of a renderable; rich's own control codes are segments of their own."""
-        for segment in super().render(renderable, options):
-            told = segment.text if segment.control else harmless(segment.text)
-            yield segment if told == segment.text else segment._replace(text=told)
 
 
 def show_facts(

@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from kineme._counts import counted
-from kineme.cli.tables import Console
+from kineme.cli.terminal import Console
 from kineme.evaluation.tables import score_rows
 from kineme.reproduction.benchmark import Result, mean_scores
 

@@ -180,7 +180,8 @@ def _facts(library: Library) -> dict[str, Any]:
 def _show_library(library: Library) -> None:
     from rich.text import Text
 
-    from kineme.cli.tables import Console, cluster_cell, new_table
+    from kineme.cli.tables import cluster_cell, new_table
+    from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
     console.print(Text(str(library.folder), style="bold"))
@@ -218,7 +219,8 @@ def _show_library(library: Library) -> None:
 def _show_answer(answer: Any) -> None:
     from rich.text import Text
 
-    from kineme.cli.tables import Console, new_table
+    from kineme.cli.tables import new_table
+    from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
     table = new_table(*answer.column_names)

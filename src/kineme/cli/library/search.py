@@ -162,7 +162,8 @@ def _example_of(name: str, start: float, stop: float | None) -> Example:
 def _show(hits: list[Hit]) -> None:
     from rich.text import Text
 
-    from kineme.cli.tables import Console, cluster_cell, new_table
+    from kineme.cli.tables import cluster_cell, new_table
+    from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
     table = new_table("#", "recording", "start s", "stop s", "distance", "cluster", "label")
