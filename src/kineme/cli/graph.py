@@ -73,7 +73,8 @@ def graph(
 ) -> None:
     """Find which primitives of recordings can be played one after the other.
 
-    `kineme synthesize` makes new motion from what is written, a motion graph.
+    Primitives are single movements, such as a step or a jump. What is written is a motion graph,
+    of which `kineme synthesize` makes new motion.
     """
     request = Request.of(reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)

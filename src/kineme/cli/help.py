@@ -93,7 +93,8 @@ def _write_groups(parameters: Sequence[Parameter], ctx: Context, formatter: Help
         name, text = record
         group = getattr(each, "rich_help_panel", None) or _OTHER
         if _is_argument(each):
-            group, name, text = _ARGUMENTS, _name(each), text.removesuffix("  [required]")
+            group, name = _ARGUMENTS, _name(each)
+            text = text.removesuffix("  [required]").replace("; required]", "]")
         groups.setdefault(group, []).append((_typed(name), _filled(text)))
     order = [*_FIRST, *(name for name in groups if name not in _FIRST + _LAST), *_LAST]
     for group in filter(groups.get, order):

@@ -45,9 +45,10 @@ def label(
 ) -> None:
     """Add the labelled primitives of recordings to a knowledge base.
 
-    A knowledge base is a file of movements with names, by which `kineme transfer` names those of
-    other recordings. Where the labels name whole activities only, the recording is cut into
-    primitives first. What it held of a recording is replaced.
+    Primitives are single movements, such as a step or a jump. A knowledge base is a file of them
+    with their names, by which `kineme transfer` labels other recordings. Where the labels name
+    whole activities only, the recording is cut into primitives first. What the knowledge base
+    held of a recording is replaced.
     """
     request = Request.of(reading=reading, effectors=effectors)
     batch = Batch(files, recursive=recursive, quiet=quiet)

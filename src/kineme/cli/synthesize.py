@@ -60,7 +60,7 @@ def synthesize(
     ] = 0,
     quiet: Quiet = False,
 ) -> None:
-    """Play primitives one after the other: given actions, along a line, or drawn by chance."""
+    """Make a new motion of recorded ones: given actions, along a line, or drawn by chance."""
     if (actions is None and path is None) == (duration is None):
         raise typer.BadParameter("give --actions, --path or both, or --duration")
     failures = Failures()

@@ -72,7 +72,10 @@ def transfer(
     effectors: Effectors = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
-    """Cut recordings, and label what is like the primitives of a knowledge base."""
+    """Cut recordings, and label the movements in them that a knowledge base knows.
+
+    A knowledge base is a file of movements with names, which `kineme label` makes.
+    """
     if threshold is not None and not 0 < threshold < float("inf"):
         raise typer.BadParameter(f"must be a number above 0, not {threshold}")
     request = Request.of(reading=reading, effectors=effectors)
