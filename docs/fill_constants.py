@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any, Literal, get_args, get_origin
+from typing import Any
 
 import kineme
-from kineme.methods import Constant, Preset
+from kineme.methods import Preset
 
 PAGE = Path(__file__).resolve().parent / "parameters.md"
 MARK = re.compile(r"(<!-- constants: (\w+) -->\n).*?(<!-- /constants -->)", re.DOTALL)
@@ -37,7 +37,7 @@ def table(presets: list[Preset]) -> str:
     for name in dict.fromkeys(name for known in of_each for name in known):
         cells = [shown(known[name].value) if name in known else "" for known in of_each]
         told = next(known[name] for known in of_each if name in known)
-        rows.append([f"`{name}`", *cells, told.unit, allowed(told), told.help])
+        rows.append([f"`{name}`", *cells, told.unit, told.allowed, told.help])
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
@@ -53,18 +53,6 @@ def shown(value: Any) -> str:
         case tuple():
             return ", ".join(map(shown, value))
     return str(value)
-
-
-def allowed(told: Constant) -> str:
-    """The values that a constant may take."""
-    if get_origin(told.hint) is Literal:
-        return ", ".join(get_args(told.hint))
-    if told.hint is bool:
-        return "yes, no"
-    if told.limits is None:
-        return ""
-    above = "above " if told.limits.above else ""
-    return f"{above}{told.limits.minimum:.9g} to {told.limits.maximum:.9g}"
 
 
 def main() -> None:

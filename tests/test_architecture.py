@@ -104,7 +104,7 @@ ROOMS = {
         "clips datasets evaluation features formats labels library methods recordings report "
         "segmentation segments transfer web",
     ),
-    "cli": Room("commands, one small file each", "*"),
+    "cli": Room("commands, each imported when it is asked for", "*"),
 }
 # Helpers beside the rooms: what each may import; any room may import them.
 HELPERS = {

@@ -242,11 +242,13 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_its_method_preset_and_constants_stand_in_the_help(kineme_all) -> None:
-    text, conversion = kineme_all(["segment", "--help"], ["convert", "--help"])
-    assert "halves: Cuts a recording once." in text
-    assert "slowly: For slow exercises." in text
-    assert "--cut-share" in text
-    assert "where the one cut is, 0.1 to 0.9" in text
+    text, presets, constants, conversion = kineme_all(
+        ["segment", "--help"], ["presets"], ["presets", "halves"], ["convert", "--help"]
+    )
+    assert "halves, slowly" in " ".join(text.split())
+    assert "halves       Cuts a recording once." in presets
+    assert "slowly       For slow exercises." in presets
+    assert "cut_share\t0.5\t\t0.1 to 0.9\t0.5\t\twhere the one cut is" in constants
     assert "PLAIN" in text
     assert ".words" in text
     assert "words" in conversion
@@ -254,7 +256,7 @@ def test_its_method_preset_and_constants_stand_in_the_help(kineme_all) -> None:
 
 def test_its_files_are_read_segmented_and_converted(python: Run, kineme_all, folder: Path) -> None:
     recording, place = folder / "a.plain", folder.parent
-    given = ["--preset", "halves", "--cut-share", "0.25", "-o", "a.words"]
+    given = ["--preset", "halves", "--set", "cut_share=0.25", "-o", "a.words"]
     kineme_all(
         ["segment", recording, *given],
         ["convert", "a.words", "b.csv", "--fps", "30"],

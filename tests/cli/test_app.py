@@ -1,19 +1,23 @@
-"""The application itself: information, help, start-up, options made from presets."""
+"""The application itself: information, help, start-up, presets and their constants."""
 
 from __future__ import annotations
 
 import json
+import os
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from typer.main import get_command
 from typer.testing import CliRunner
 
 import kineme as package
 from kineme.cli.app import app
-from kineme.cli.options.constant_texts import shown
+from kineme.cli.options.method import constants_of, shown
 from kineme.datasets import bundled_recording
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
@@ -65,68 +69,144 @@ def test_help_is_light() -> None:
     assert done.stdout.strip() == "set()"
 
 
-def help_of(command: str) -> str:
-    done = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "400", "NO_COLOR": "1"})
-    return done.stdout
+def commands(group=None, words: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """Every command and subcommand, as the words that name it."""
+    yield words
+    group = group or get_command(app)
+    for name in getattr(group, "commands", ()):
+        yield from commands(group.commands[name], (*words, name))
 
 
-def line_of(option: str, text: str) -> str:
-    (line,) = (line for line in text.splitlines() if f"--{option.replace('_', '-')} " in line)
-    return line
+def test_all_commands_are_walked_over() -> None:
+    named = set(commands())
+    assert {("segment",), ("presets",), ("library",), ("library", "build")} < named
+    assert len(named) > 20
 
 
-@pytest.mark.parametrize("command", ["segment", "split", "report"])
-def test_every_constant_of_a_preset_has_an_option_with_help(command: str) -> None:
-    text = help_of(command)
-    for preset in PRESETS.values():
-        assert f"{preset.name}: {preset.help}" in text
-        for known in preset.constants():
-            line = line_of(known.name, text)
-            assert known.help in line
-            (values,) = re.findall(r"\[([^]]*)\]", line)
-            assert shown(known.value) in values
-            assert preset.name in values or ";" not in values
+@pytest.mark.parametrize("words", [*commands()], ids=" ".join)
+def test_help_fits_on_a_page(words: tuple[str, ...]) -> None:
+    done = CliRunner().invoke(app, [*words, "--help"], env={"COLUMNS": "80"})
+    assert done.exit_code == 0
+    lines = done.stdout.splitlines()
+    assert len(lines) <= (80 if words == ("segment",) else 60)
+    assert max(map(len, lines)) <= 80
+    assert "@" not in done.stdout.replace("@START", "").replace("bvh@", "")
 
 
-def test_finer_constants_come_last() -> None:
-    text = help_of("segment")
-    fine = [known for preset in PRESETS.values() for known in preset.constants() if known.fine]
-    rest = [known for preset in PRESETS.values() for known in preset.constants() if not known.fine]
-    assert fine
-    start = text.index("Finer constants")
-    assert all(text.index(line_of(known.name, text)) > start for known in fine)
-    assert all(text.index(line_of(known.name, text)) < start for known in rest)
+def test_options_stand_in_named_groups(kineme) -> None:
+    text = kineme("segment", "--help").stdout
+    heads = [line for line in text.splitlines() if line.endswith(":") and line[0] != " "]
+    assert heads == [
+        "Arguments:", "Input:", "Method:", "Output:", "What the file does not say:", "Other:",
+    ]  # fmt: skip
+    method = text[text.index("Method:") : text.index("Output:")]
+    for name in ("--preset", "--detail", "--set NAME=VALUE", *PRESETS):
+        assert name in method
+
+
+def test_presets_are_listed_with_a_line_each(kineme) -> None:
+    lines = kineme("presets").stdout.splitlines()
+    assert [line.split()[0] for line in lines] == [*PRESETS]
+    assert all(preset.help in line for preset, line in zip(PRESETS.values(), lines, strict=True))
+    assert [line for line in lines if "(default)" in line] == lines[:1]
 
 
 @pytest.mark.parametrize("preset", PRESETS.values(), ids=lambda preset: preset.name)
-def test_constants_given_one_by_one_make_the_preset(
-    preset: Preset, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    asked: dict[str, object] = {}
-
-    def remember(name: str, **constants: object) -> Preset:
-        asked.update(constants)
-        raise package.ParameterError("enough")
-
-    monkeypatch.setattr("kineme.cli.options.request.resolve_preset", remember)
-    options = []
-    for known in preset.constants():
-        options += [f"--{known.name.replace('_', '-')}", typed(known.value)]
-    given = ["segment", "x.bvh", "--preset", preset.name, *options]
-    assert CliRunner().invoke(app, given).exit_code == 2
-    assert preset.replace(**asked) == preset
-    assert set(asked) == {known.name for known in preset.constants()}
+def test_the_constants_of_a_preset_are_listed(kineme, preset: Preset) -> None:
+    head, *rows = (line.split("\t") for line in kineme("presets", preset.name).stdout.splitlines())
+    assert head == ["constant", "value", "unit", "range", "default", "fine", "meaning"]
+    told = {row[0]: row[1:] for row in rows}
+    assert [*told] == [each.name for each in sorted(preset.constants(), key=lambda c: c.fine)]
+    for each in preset.constants():
+        value, unit, allowed, _, fine, meaning = told[each.name]
+        assert (value, unit, meaning) == (shown(each.value), each.unit, each.help)
+        assert (fine == "fine") == each.fine
+        if each.limits is not None:
+            assert f"{each.limits.minimum:g} to " in allowed
 
 
-def test_a_value_that_is_none_names_its_option(kineme) -> None:
-    done = kineme("segment", "x.bvh", "--preset", "krueger2017", "--interpolate", "perhaps")
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such terminals")
+def test_on_a_terminal_they_are_a_table_for_people(tmp_path: Path) -> None:
+    import pty
+
+    leader, follower = pty.openpty()
+    command = [sys.executable, "-m", "kineme", "presets", "sensors"]
+    environment = {**os.environ, "COLUMNS": "80"}
+    with subprocess.Popen(command, stdout=follower, env=environment) as process:
+        os.close(follower)
+        text = ""
+        with suppress(OSError):  # so a terminal ends
+            while part := os.read(leader, 4096):
+                text += part.decode()
+    os.close(leader)
+    assert process.returncode == 0
+    lines = re.sub(r"\x1b\[\d*m", "", text).splitlines()
+    assert lines[0] == f"sensors: {PRESETS['sensors'].help}"
+    working = next(i for i, line in enumerate(lines) if line.startswith("  working_fps"))
+    assert lines[working].split() == ["working_fps", "50", "Hz", "0.1", "to", "1000", "30"]
+    assert lines[working + 1].strip() == "samples per second at which the recording is looked at"
+    assert any(line.startswith("Finer constants") for line in lines)
+    assert max(map(len, lines)) <= 80
+
+
+def test_a_preset_that_is_none_is_answered_with_the_nearest(kineme) -> None:
+    for given in (["presets", "kineem"], ["segment", "x.bvh", "--preset", "kineem"]):
+        done = kineme(*given)
+        assert done.returncode == 2
+        assert "no preset 'kineem'; did you mean kineme?" in " ".join(done.stderr.split())
+
+
+@pytest.mark.parametrize("preset", PRESETS.values(), ids=lambda preset: preset.name)
+def test_constants_given_one_by_one_make_the_preset(preset: Preset) -> None:
+    texts = [f"{known.name}={typed(known.value)}" for known in preset.constants()]
+    values = constants_of([preset.name], texts)
+    assert preset.replace(**values) == preset
+    assert set(values) == {known.name for known in preset.constants()}
+
+
+@pytest.mark.parametrize("command", ["segment", "split", "report", "library build"])
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ("min_acton=2", "kineme has no parameter 'min_acton'; did you mean min_action?"),
+        ("radius=0.3", "kineme has no parameter 'radius': it is one of voegele2014"),
+        ("min_action=-1", "min_action must be a number from 0 to 3600 s, not -1.0"),
+        ("min_action=long", "min_action must be a number, 0 to 3600 s, not 'long'"),
+        ("max_clusters=2.5", "max_clusters must be a whole number, 1 to 1000000, not '2.5'"),
+        ("bands=low,high", "bands must be numbers with commas between them, each above 0 to 500"),
+        ("min_action", "give NAME=VALUE, such as min_action=2, not 'min_action'"),
+    ],
+)
+def test_a_constant_that_cannot_be_is_answered(kineme, command, given, told) -> None:
+    to = ["--into", "lib"] if command == "library build" else ["-o", "out"]
+    done = kineme(*command.split(), "x.bvh", *to, "--set", given)
     assert done.returncode == 2
-    told = " ".join(done.stderr.split())
-    assert "--interpolate" in told
-    assert "'perhaps' is not yes|no" in told
-    done = kineme("segment", "x.bvh", "--radius", "0.3")
+    assert told in " ".join(done.stderr.split())
+    assert "--set" in done.stderr
+
+
+def test_a_choice_that_is_none_is_told_the_others(kineme) -> None:
+    for given, told in (
+        ("interpolate=perhaps", "interpolate must be one of yes, no, not 'perhaps'"),
+        ("growth=circles", "growth must be one of squares, scan_lines, not 'circles'"),
+    ):
+        done = kineme("segment", "x.bvh", "--preset", "krueger2017", "--set", given)
+        assert done.returncode == 2
+        assert told in " ".join(done.stderr.split())
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (("--min-action", "2"), "No such option: --min-action; use --set min_action=2"),
+        (("--min-action=2",), "No such option: --min-action; use --set min_action=2"),
+        (("--radius",), "No such option: --radius; use --set radius=VALUE"),
+    ],
+)
+def test_a_constant_as_an_option_is_told_how_it_is_set(kineme, given, told) -> None:
+    done = kineme("segment", "x.bvh", *given)
     assert done.returncode == 2
-    assert "kineme has no parameter 'radius'" in " ".join(done.stderr.split())
+    assert told in done.stderr
 
 
 THIRD_PARTY = """
@@ -151,29 +231,19 @@ main()
 """
 
 
-def test_the_preset_of_another_package_is_an_option_like_any_other(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("COLUMNS", "400")
-    monkeypatch.setenv("NO_COLOR", "1")
-
+def test_the_preset_of_another_package_is_one_like_any_other(tmp_path: Path) -> None:
     def toy(*arguments: object) -> str:
         given = [sys.executable, "-c", THIRD_PARTY, *map(str, arguments)]
         done = subprocess.run(given, capture_output=True, text=True, check=True, cwd=tmp_path)
         return done.stdout
 
-    text = toy("segment", "--help")
-    assert "toy: Cuts as a toy does." in text
-    averaging = line_of("averaging", text)
-    assert "means and energies are taken over this" in averaging  # as kineme means it
-    assert re.search(r"\[.*kineme.* 1\]", averaging)
-    after = text[text.index(averaging) + len(averaging) :].splitlines()[1]
-    assert "whatever a toy averages over, samples [toy 7]" in after
-    data = json.loads(
-        toy("segment", bundled_recording(), "--preset", "toy", "--averaging", 9, "--json")
-    )
+    assert "uniform, toy." in " ".join(toy("segment", "--help").split())
+    assert "toy          Cuts as a toy does." in toy("presets")
+    assert "averaging\t7\tsamples\t\t7\t\twhatever a toy averages over" in toy("presets", "toy")
+    given = "--preset", "toy", "--set", "averaging=9", "--set", "level=3", "--json"
+    data = json.loads(toy("segment", bundled_recording(), *given))
     parameters = data["provenance"]["parameters"]
-    assert (parameters["averaging"], parameters["interval"], parameters["level"]) == (9, 2.0, 1)
+    assert (parameters["averaging"], parameters["interval"], parameters["level"]) == (9, 2.0, 3)
     assert len(data["segments"]) == 25
 
 

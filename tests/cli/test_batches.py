@@ -50,6 +50,21 @@ def test_one_name_in_two_folders_is_told_apart(kineme, tmp_path, takes) -> None:
     assert (done.returncode, len(files_under(tmp_path / "pages", "*.html"))) == (0, 3)
 
 
+def test_a_skeleton_beside_its_motion_is_no_recording_of_its_own(kineme, tmp_path) -> None:
+    package.write(cut(package.read(bundled_recording()), 0, 60), tmp_path / "walk.amc")
+    assert (tmp_path / "walk.asf").exists()
+    for given in ((tmp_path,), ("walk.asf", "walk.amc"), ("walk.amc", "walk.asf")):
+        done = kineme("info", *given, "--json")
+        assert (done.returncode, done.stderr) == (0, "")
+        (facts,) = map(json.loads, done.stdout.splitlines())
+        assert facts["format"] == "AMC"
+    (tmp_path / "walk.amc").unlink()
+    done = kineme("info", tmp_path)
+    assert done.returncode == 1
+    assert "a skeleton (.asf) needs the motion (.amc) beside it" in done.stderr
+    assert kineme("info", "walk.asf").returncode == 1
+
+
 def test_links_to_nothing_are_said_and_standard_input_is_refused(kineme, tmp_path, takes) -> None:
     (tmp_path / "linked").mkdir()
     (tmp_path / "linked" / "good.bvh").symlink_to(takes / "a" / "take.bvh")

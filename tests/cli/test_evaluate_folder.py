@@ -67,8 +67,8 @@ def test_constants_of_the_methods_can_be_set(kineme, corpus) -> None:
     assert told() == told("--set", "segment_cost=0.15")
     assert told() != told("--set", "segment_cost=5", "--set", "cluster_cost=20")
     ran = kineme("evaluate", corpus, "--labels", corpus / "labels.csv", "--set", "segment_price=5")
-    assert ran.returncode == 1
-    assert "has no parameter 'segment_price'" in ran.stderr
+    assert ran.returncode == 2
+    assert "has no parameter 'segment_price'; did you mean segment_cost?" in ran.stderr
 
 
 def test_a_pattern_that_no_column_fits_is_said(kineme, corpus) -> None:

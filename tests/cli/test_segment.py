@@ -60,7 +60,8 @@ def test_detail_gives_coarser_and_finer_segments(kineme, recording: Path, tmp_pa
 
 
 def test_json_is_pure_and_is_what_the_library_gives(kineme, recording: Path) -> None:
-    options = ("--preset", "voegele2014", "--radius", 0.5, "--growth-neighbors", "none")
+    constants = ("--set", "radius=0.5", "--set", "growth-neighbors=none")
+    options = ("--preset", "voegele2014", *constants)
     done = kineme("segment", recording, "--json", *options)
     data = json.loads(done.stdout)
     assert data["schema"] == "kineme.segments/1"

@@ -38,7 +38,7 @@ def test_sensors_are_segmented_as_they_are(kineme, tmp_path, phone) -> None:
 
 def test_columns_rate_and_constants_are_options(kineme, phone) -> None:
     options = ("--columns", "acc_y, acc_x", "--fps", "50", "--preset", "krueger2017")
-    done = kineme("segment", phone, *options, "--radius", "0.3", "--json")
+    done = kineme("segment", phone, *options, "--set", "radius=0.3", "--json")
     data = json.loads(done.stdout)
     assert data["provenance"]["parameters"]["radius"] == 0.3
     assert data["provenance"]["notes"][0].startswith("channels: acc_y, acc_x,")
@@ -63,6 +63,20 @@ def test_info_lists_the_channels(kineme, phone) -> None:
     assert "2000 frames at 100 Hz, 20.00 s" in done.stdout
     facts = json.loads(kineme("info", phone, "--columns", "biceps", "--json").stdout)
     assert facts["channels"] == ["biceps"]
+
+
+def test_many_channels_are_a_line_each_where_nothing_is_wrapped(kineme, tmp_path) -> None:
+    names = [f"sensor_{i}_acceleration" for i in range(262)]
+    values = np.random.default_rng(0).normal(size=(60, 262))
+    wide = tmp_path / "wide.csv"
+    np.savetxt(wide, values, "%.3f", ",", header=",".join(names), comments="")
+    done = kineme("info", wide, "--fps", 30)
+    lines = done.stdout.splitlines()
+    assert "channels  262, below" in lines
+    assert [line for line in lines if line.startswith("sensor_")] == names
+    assert kineme("convert", wide, "wide.tsv", "--fps", 30).returncode == 0
+    head = (tmp_path / "wide.tsv").read_text().splitlines()[0].split("\t")
+    assert head[-262:] == names
 
 
 def test_what_is_missing_is_one_sentence(kineme, tmp_path, phone) -> None:

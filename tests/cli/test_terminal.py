@@ -8,9 +8,9 @@ from pathlib import Path
 from rich.table import Table
 from rich.text import Text
 
-from kineme.cli.console import Console
-from kineme.cli.harmless import harmless
 from kineme.cli.messages import say_error
+from kineme.cli.tables import new_table
+from kineme.cli.terminal import Console, harmless
 
 STEERS = "\x1b[2J\x1b]0;owned\x07\x9b1A\u202e"
 
@@ -36,6 +36,18 @@ def test_tables_spell_it_out_and_keep_their_own_colours() -> None:
         assert not any(code in told for code in ("\x1b[2J", "\x1b]"))
         assert r"hip\x1b[2J" in told
         assert ("\x1b[1;31m" in told) == terminal
+
+
+def test_a_row_is_a_line_where_there_is_no_edge() -> None:
+    label = "warming up " * 30
+    table = new_table("#", "label")
+    table.add_row("0", label)
+    file = io.StringIO()
+    Console(file=file).print(table)
+    assert label.strip() in file.getvalue()
+    terminal = io.StringIO()
+    Console(file=terminal, force_terminal=True, width=60).print(table)
+    assert max(map(len, terminal.getvalue().splitlines())) < 100
 
 
 def test_a_text_without_them_stays() -> None:

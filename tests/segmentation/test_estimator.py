@@ -75,7 +75,7 @@ def test_what_a_preset_cannot_take_is_said_by_fit() -> None:
         Segmenter(radius=0.4).fit(two_movements())
     with pytest.raises(ParameterError, match="no left and right"):
         Segmenter("krueger2017", mirror=True).fit(two_movements())
-    with pytest.raises(ParameterError, match="smoothing must be a number from 0 to 3600, not -1"):
+    with pytest.raises(ParameterError, match="smoothing must be a number from 0 to 3600 s, not -1"):
         Segmenter(smoothing=-1).fit(two_movements())
     with pytest.raises(ParameterError, match="frame rate is -5"):
         Segmenter(fps=-5).fit(two_movements())

@@ -157,7 +157,8 @@ def test_presets_that_are_none_and_presets_for_signals_are_refused() -> None:
         segment(motion, preset=0.5)
     with pytest.raises(ParameterError, match="in standard deviations, for signals"):
         segment(motion, preset=resolve_preset("krueger2017", signals=True))
-    with pytest.raises(ParameterError, match="radius must be a number above 0 to 10000, not 'big'"):
+    told = "radius must be a number above 0 to 10000 metres, not 'big'"
+    with pytest.raises(ParameterError, match=told):
         segment(motion, preset="krueger2017", radius="big")
 
 
@@ -183,6 +184,10 @@ def test_what_is_no_motion_is_refused_with_the_way_to_one() -> None:
 
 
 def test_an_unknown_constant_is_refused() -> None:
+    with pytest.raises(
+        ParameterError, match=r"no parameter 'min_acton'; did you mean min_action\?"
+    ):
+        segment(recording(0), min_acton=2)
     with pytest.raises(ParameterError, match="no parameter 'radios'; there are"):
         segment(recording(0), radios=0.5)
 

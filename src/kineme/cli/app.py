@@ -11,8 +11,10 @@ from kineme.cli.on_demand import on_demand
 
 COMMANDS = (
     "segment",
+    "presets",
     "split",
     "report",
+    "studio",
     "convert",
     "info",
     "demo",
@@ -23,18 +25,17 @@ COMMANDS = (
     "library",
     "graph",
     "synthesize",
-    "studio",
 )
 """Each the function of its name in the module of its name, in the order of the help."""
 
-
 app = typer.Typer(
     name="kineme",
-    cls=on_demand("kineme.cli", COMMANDS),
-    help="Cut recordings of human motion into activities, transitions and repeated primitives.",
+    cls=on_demand({name: f"kineme.cli.{name}" for name in COMMANDS}),
+    help="Cut recordings of human motion into activities, transitions and repeated primitives.\n\n"
+    "Begin with `kineme demo`, then `kineme segment FILE` on your own.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
+    rich_markup_mode=None,
 )
 
 

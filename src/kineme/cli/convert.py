@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.help import LABELS
+from kineme.cli.help import INPUT, LABELS, OUTPUT
 from kineme.cli.options.inputs import Batch, Recursive
 from kineme.cli.options.reading import Quiet, with_reading_options
 from kineme.cli.options.request import Request
@@ -57,23 +57,43 @@ def convert(
         list[Path],
         typer.Argument(
             metavar="FROM… TO",
-            help="Segments or recordings, or folders of recordings; last the file to write, "
-            "which must be new, for several with {name} in it.",
+            help="Segment tables, label files or recordings, or folders of recordings; last the "
+            "new file to write, for several with {name} in it.",
         ),
     ],
     from_format: Annotated[
         str | None,
-        typer.Option("--from", callback=_known, help=f"Format read: {LABELS}."),
+        typer.Option(
+            "--from",
+            metavar="FORMAT",
+            callback=_known,
+            help=f"Format of labels to read, by default by the suffix: {LABELS}.",
+            rich_help_panel=INPUT,
+        ),
     ] = None,
     to_format: Annotated[
         str | None,
-        typer.Option("--to", callback=_known, help="Format written; both follow from suffixes."),
+        typer.Option(
+            "--to",
+            metavar="FORMAT",
+            callback=_known,
+            help="Format of labels to write, one of the same.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     level: Annotated[
-        Level | None, typer.Option(help="Segments to write; by default all the format holds.")
+        Level | None,
+        typer.Option(
+            help="Segments to write; by default all that the format can hold.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     frames: Annotated[
-        int | None, typer.Option(help="Length of the recording, where labels end before it.")
+        int | None,
+        typer.Option(
+            help="Length of the recording in frames, where labels end before it.",
+            rich_help_panel=INPUT,
+        ),
     ] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
@@ -81,9 +101,9 @@ def convert(
 ) -> None:
     """Turn segments into labels of another program and back, or a recording into another format.
 
-    The suffixes say what is read and written: BVH, AMC, TRC, CSV and npz hold recordings.
-    Signals keep the columns of their file, or those that --columns names.
-    --fps is the recording's frame rate, too, for labels that hold seconds only.
+    The suffixes say what is read and written: .bvh, .amc, .trc, .csv and .npz hold recordings.
+    Signals keep the columns of their file, or those that --columns names. For labels that hold
+    seconds only, --fps is the frame rate of their recording.
     """
     if len(files) < 2:
         raise typer.BadParameter("give what to read and the file to write", param_hint="FROM… TO")

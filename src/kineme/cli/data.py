@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._counts import counted
+from kineme.cli.help import INPUT, OUTPUT
 from kineme.cli.messages import Failures
 from kineme.cli.options.reading import Quiet
 
@@ -28,33 +29,46 @@ class Database(StrEnum):
 
 def data(
     database: Annotated[  # noqa: ARG001 (there is one so far)
-        Database, typer.Argument(help="The CMU Graphics Lab Motion Capture Database.")
+        Database, typer.Argument(help="cmu: the CMU Graphics Lab Motion Capture Database.")
     ],
     subject: Annotated[int, typer.Argument(min=1, help="Number of the subject, such as 86.")],
     trials: Annotated[
         str | None,
         typer.Option(
             metavar="NUMBER,NUMBER,…",
-            help="Trials to fetch, such as 1,2,9-11; by default from 1 up to the first that "
-            "does not exist.",
+            help="Recordings of the subject to fetch, such as 1,2,9-11; by default from 1 up to "
+            "the first that does not exist.",
+            rich_help_panel=INPUT,
         ),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Folder to keep the files in, instead of the cache."),
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FOLDER",
+            help="Where to keep the files, instead of the cache of kineme.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     site: Annotated[str | None, typer.Option(envvar="KINEME_CMU_SITE", hidden=True)] = None,
     annotations: Annotated[
         str | None, typer.Option(envvar="KINEME_CMU_ANNOTATIONS", hidden=True)
     ] = None,
     timeout: Annotated[
-        float, typer.Option(help="Seconds of silence after which a connection is tried again.")
+        float,
+        typer.Option(
+            help="Seconds of silence after which a connection is tried again.",
+            rich_help_panel=INPUT,
+        ),
     ] = 30.0,
     quiet: Quiet = False,
 ) -> None:
-    """Fetch recordings from their own site, for `kineme evaluate` and to try things on.
+    """Fetch public recordings from their own site, for `kineme evaluate` and to try things on.
 
     What broke off is continued; what is there already is checked and kept.
+
+    For example: kineme data cmu 86 --trials 1,2
     """
     numbers = _numbers(trials)
     from kineme.datasets.cmu import ANNOTATIONS, SITE, fetch_subject
@@ -109,7 +123,7 @@ def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], Non
         Progress as Bars,
     )
 
-    from kineme.cli.console import Console
+    from kineme.cli.terminal import Console
 
     console = Console(stderr=True, highlight=False)
     if quiet:

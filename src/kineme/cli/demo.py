@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from kineme.cli.help import OUTPUT
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.reading import Quiet
 from kineme.cli.options.request import Request
@@ -16,7 +17,15 @@ from kineme.cli.segment import write_results
 
 def demo(
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for the table and the picture.")
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FOLDER",
+            help="Folder for the table and the picture.",
+            show_default="the one you are in",
+            rich_help_panel=OUTPUT,
+        ),
     ] = Path(),
     quiet: Quiet = False,
 ) -> None:

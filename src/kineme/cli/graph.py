@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
+from kineme.cli.help import INPUT, METHOD, OUTPUT
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Quiet, with_body_options
@@ -24,27 +25,57 @@ if TYPE_CHECKING:
 @with_body_options
 def graph(
     files: Files,
-    output: Annotated[Path, typer.Option("--output", "-o", help="The graph: a .json file.")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output", "-o", help="The motion graph: a .json file.", rich_help_panel=OUTPUT
+        ),
+    ],
     segments: Annotated[
         Path | None,
         typer.Option(
-            help="Segment tables to take primitives and labels from, in place of segmenting: "
-            "a file, a folder, or a name with {name} in it."
+            help="Segment tables to take primitives and labels from, instead of segmenting anew; "
+            "of several recordings a folder, or a path with {name} in it.",
+            rich_help_panel=INPUT,
         ),
     ] = None,
-    plot: Annotated[Path | None, typer.Option(help="Picture: .png, .pdf or .svg.")] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(help="Draw the graph: .png, .pdf or .svg.", rich_help_panel=OUTPUT),
+    ] = None,
     threshold: Annotated[
-        float, typer.Option(help="Largest distance of a jump, metres between joints.")
+        float,
+        typer.Option(
+            help="Metres by which joints may be apart, on average, where one primitive is "
+            "followed by another.",
+            rich_help_panel=METHOD,
+        ),
     ] = 0.08,
-    window: Annotated[float, typer.Option(help="Seconds compared and blended at a jump.")] = 1 / 3,
+    window: Annotated[
+        float,
+        typer.Option(
+            help="Seconds that are compared and blended there.",
+            show_default="0.33",
+            rich_help_panel=METHOD,
+        ),
+    ] = 1 / 3,
     keep_dead_ends: Annotated[
-        bool, typer.Option(help="Keep primitives after which nothing, or not all, can follow.")
+        bool,
+        typer.Option(
+            "--keep-dead-ends",
+            help="Keep primitives after which nothing, or not all, can follow.",
+            rich_help_panel=METHOD,
+        ),
     ] = False,
     recursive: Recursive = False,
     quiet: Quiet = False,
     reading: dict[str, Any] | None = None,
 ) -> None:
-    """Find which primitives of recordings can be played one after the other."""
+    """Find which primitives of recordings can be played one after the other.
+
+    Primitives are single movements, such as a step or a jump. What is written is a motion graph,
+    of which `kineme synthesize` makes new motion.
+    """
     request = Request.of(reading=reading)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--segments", segments)

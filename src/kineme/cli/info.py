@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
+from kineme.cli.help import OUTPUT
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Effectors, Json, with_reading_options
 from kineme.cli.options.request import Request
@@ -18,12 +19,16 @@ if TYPE_CHECKING:
     from kineme.recordings import Motion, Signals
 
 Facts = dict[str, Any]
+IN_A_LINE = 12
+"""Channels that are told in a line; more get a list of their own."""
 
 
 @with_reading_options
 def info(
     files: Files,
-    joints: Annotated[bool, typer.Option("--joints", help="Show the tree of joints.")] = False,
+    joints: Annotated[
+        bool, typer.Option("--joints", help="Show the tree of joints.", rich_help_panel=OUTPUT)
+    ] = False,
     recursive: Recursive = False,
     json: Json = False,
     effectors: Effectors = None,
@@ -86,7 +91,7 @@ def _with_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
 
 def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
     """Print the facts for people."""
-    from kineme.cli.tables import show_facts
+    from kineme.cli.tables import columns_of, show_facts
     from kineme.formats.points import BODY
     from kineme.recordings import Motion
 
@@ -102,15 +107,17 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
             "joints": f"{len(facts['joints'])}, and {counted(len(facts['end_sites']), 'end site')}",
             "end effectors": effectors or "not found",
         }
-        tree = _tree(recording) if joints else None
+        below = _tree(recording) if joints else None
     else:
+        names = facts["channels"]
+        many = len(names) > IN_A_LINE
         lines = {
             "format": f"{facts['format']}, signals without a skeleton",
             "length": length,
-            "channels": f"{len(facts['channels'])}: {', '.join(facts['channels'])}",
+            "channels": f"{len(names)}, below" if many else f"{len(names)}: {', '.join(names)}",
         }
-        tree = None
-    show_facts(facts, lines | {"SHA-256": facts["sha256"]}, below=tree)
+        below = columns_of(names) if many else None
+    show_facts(facts, lines | {"SHA-256": facts["sha256"]}, below=below)
 
 
 def _tree(motion: Motion) -> Any:

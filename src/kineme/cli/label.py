@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
+from kineme.cli.help import INPUT, OUTPUT
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Effectors, Quiet, with_body_options
@@ -24,12 +25,18 @@ def label(
         Path,
         typer.Option(
             metavar="TABLE",
-            help="Their labels: a segment table, or a label file of another program; a folder "
-            "of them; or a name with {name} in it.",
+            help="Their labels: a segment table, or a label file of another program; of several "
+            "recordings a folder, or a path with {name} in it.",
+            rich_help_panel=INPUT,
         ),
     ],
     knowledge: Annotated[
-        Path, typer.Option(help="Knowledge base to add to, .npz; made if it is not there.")
+        Path,
+        typer.Option(
+            metavar="FILE",
+            help="Knowledge base to add to, .npz; made if it is not there.",
+            rich_help_panel=OUTPUT,
+        ),
     ],
     recursive: Recursive = False,
     quiet: Quiet = False,
@@ -38,8 +45,10 @@ def label(
 ) -> None:
     """Add the labelled primitives of recordings to a knowledge base.
 
-    Where the labels name whole activities only, the recording is cut into primitives first.
-    What the knowledge base held of a recording is replaced.
+    Primitives are single movements, such as a step or a jump. A knowledge base is a file of them
+    with their names, by which `kineme transfer` labels other recordings. Where the labels name
+    whole activities only, the recording is cut into primitives first. What the knowledge base
+    held of a recording is replaced.
     """
     request = Request.of(reading=reading, effectors=effectors)
     batch = Batch(files, recursive=recursive, quiet=quiet)

@@ -9,7 +9,6 @@ from contextlib import contextmanager
 
 import typer
 
-from kineme.cli.harmless import harmless
 from kineme.errors import KinemeError, KinemeWarning
 
 PATIENCE = 1.0  # seconds before progress is shown
@@ -45,7 +44,7 @@ def short_warnings() -> None:
 @contextmanager
 def progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     """A function to name the stage at work; shown on a terminal once a second has passed."""
-    from kineme.cli.console import Console
+    from kineme.cli.terminal import Console
 
     status = Console(stderr=True).status(str(what))
     if quiet or not status.console.is_terminal:
@@ -87,5 +86,7 @@ def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
 
 
 def _say(what: str, text: str, color: str) -> None:
+    from kineme.cli.terminal import harmless
+
     typer.secho(f"{what}: ", fg=color, bold=True, err=True, nl=False)
     typer.echo(harmless(text), err=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -10,56 +10,50 @@ from typing import TYPE_CHECKING, Any
 import typer
 from typer.core import TyperGroup
 
-from kineme.cli.help import Command
+from kineme.cli.help import Command, Commands
 
 if TYPE_CHECKING:
     from typer import _click
 
 
-def on_demand(package: str, names: Sequence[str]) -> type[TyperGroup]:
-    """A group of the commands in a package, each the function of its name in a module of its name.
+def on_demand(homes: Mapping[str, str]) -> type[TyperGroup]:
+    """A group of commands, each the function of its name.
 
     Parameters
     ----------
-    package : str
-    names : sequence of str
-        In the order of the help.
+    homes : Mapping of str to str
+        The module of each, in the order of the help.
     """
 
-    class Commands(TyperGroup):
+    class OnDemand(Commands):
         def __init__(self, **attributes: Any) -> None:
-            super().__init__(**{**attributes, "commands": _OnDemand(package, names)})
+            super().__init__(**{**attributes, "commands": _Homes(homes)})
 
-    return Commands
+    return OnDemand
 
 
-class _OnDemand(Mapping[str, "_click.Command"]):
+class _Homes(Mapping[str, "_click.Command"]):
     """The commands by name."""
 
-    def __init__(self, package: str, names: Sequence[str]):
-        self._package = package
-        self._names = tuple(names)
+    def __init__(self, homes: Mapping[str, str]):
+        self._homes = dict(homes)
 
     def __getitem__(self, name: str) -> _click.Command:
-        if name not in self._names:
-            raise KeyError(name)
-        return _command(self._package, name)
+        return _command(self._homes[name], name)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._names)
+        return iter(self._homes)
 
     def __len__(self) -> int:
-        return len(self._names)
+        return len(self._homes)
 
 
 @cache
-def _command(package: str, name: str) -> _click.Command:
+def _command(module: str, name: str) -> _click.Command:
     """A command, or a group of them."""
-    found = getattr(import_module(f"{package}.{name}"), name)
+    found = getattr(import_module(module), name)
     if isinstance(found, typer.Typer):
         return typer.main.get_command(found)
-    alone = typer.Typer(
-        add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich"
-    )
+    alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     alone.command(name, cls=Command)(found)
     return typer.main.get_command(alone)

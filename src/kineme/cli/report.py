@@ -7,15 +7,15 @@ from typing import Annotated, Any
 
 import typer
 
+from kineme.cli.help import INPUT, OUTPUT
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.preset_options import Detail, PresetName, with_preset_options
+from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.options.request import Request
 from kineme.cli.options.targets import check_writable
 from kineme.methods.presets import DEFAULT
 
 
-@with_preset_options
 @with_reading_options
 def report(
     files: Files,
@@ -24,14 +24,18 @@ def report(
         typer.Option(
             "--output",
             "-o",
-            help="Page to write: .html; a folder; or a name with {name} in it.",
+            help="Page to write: .html; of several recordings a folder, or a path with {name} in "
+            "it.  [default: beside you, named as the recording is]",
+            show_default=False,
+            rich_help_panel=OUTPUT,
         ),
     ] = Path(),
     segments: Annotated[
         Path | None,
         typer.Option(
-            help="Table or labels to show, instead of segmenting anew; a folder of "
-            "them; or a name with {name} in it.",
+            help="Segment table or labels to show, instead of segmenting anew; of several "
+            "recordings a folder, or a path with {name} in it.",
+            rich_help_panel=INPUT,
         ),
     ] = None,
     preset: PresetName = DEFAULT,
@@ -39,7 +43,7 @@ def report(
     recursive: Recursive = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
-    constants: dict[str, Any] | None = None,
+    constants: Constants = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Write a page on which a recording plays beside its segments, for any browser.

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.help import TABLES
+from kineme.cli.help import OUTPUT, TABLES
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.preset_options import Detail, PresetName, with_preset_options
+from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
 from kineme.cli.options.request import Request
 from kineme.cli.options.targets import check_writable
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation
 
 
-@with_preset_options
 @with_reading_options
 def segment(
     files: Files,
@@ -33,26 +32,48 @@ def segment(
         typer.Option(
             "--output",
             "-o",
-            help=f"Segment table or labels: {TABLES}; a folder; or a name with {{name}} in it.",
+            help=f"Write the segments as a table, or as labels of another program: {TABLES}. Of "
+            "several recordings: a folder, or a path with {name} in it.",
+            rich_help_panel=OUTPUT,
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(help="Picture: .png, .pdf or .svg; a folder; or a name with {name} in it."),
+        typer.Option(
+            help="Draw them: .png, .pdf, .svg; or a folder, or a path with {name} in it.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     report: Annotated[
         Path | None,
-        typer.Option(help="Page to look at: .html; a folder; or a name with {name} in it."),
+        typer.Option(
+            help="Write a page that plays the recording beside them: .html; or a folder, or a path "
+            "with {name} in it.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
-    level: Annotated[Level, typer.Option(help="Rows to print.")] = "activity",
+    level: Annotated[
+        Level,
+        typer.Option(
+            help="Print activities with what lies between them, or each primitive.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = "activity",
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
-    constants: dict[str, Any] | None = None,
+    constants: Constants = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
-    """Cut recordings into activities, transitions and repeated primitives."""
+    """Cut recordings into activities, transitions and repeated primitives.
+
+    An activity is one kind of movement for a while, such as walking; a transition leads from one
+    to the next. Primitives are the movements that an activity repeats, such as each double step.
+    What is alike has the same cluster number. Each recording is printed as a table.
+
+    For example: kineme segment walk.bvh --output walk.csv --plot walk.png
+    """
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.targets("--output", output, ".csv")

@@ -8,8 +8,9 @@ from typing import Annotated, Any
 import typer
 
 from kineme._counts import counted
+from kineme.cli.help import INPUT, OUTPUT
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.preset_options import Detail, PresetName, with_preset_options
+from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.options.request import Request
 from kineme.cli.options.targets import make_folder_of
@@ -17,7 +18,6 @@ from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 
 
-@with_preset_options
 @with_reading_options
 def split(
     files: Files,
@@ -26,22 +26,33 @@ def split(
         typer.Option(
             "--output",
             "-o",
-            help="Folder to make, new or empty; with several recordings one of its own in it "
-            "for each, or by a name with {name} in it.",
+            help="Folder to make, new or empty. Of several recordings each gets a folder in it, "
+            "or one by a path with {name} in it.",
+            rich_help_panel=OUTPUT,
         ),
     ],
-    level: Annotated[Level, typer.Option(help="Segments to take.")] = "activity",
+    level: Annotated[
+        Level,
+        typer.Option(help="Write activities, or each primitive.", rich_help_panel=OUTPUT),
+    ] = "activity",
     cluster: Annotated[
-        int | None, typer.Option(help="Take those of this cluster only.", show_default=False)
+        int | None,
+        typer.Option(help="Write those of this cluster only.", rich_help_panel=OUTPUT),
     ] = None,
     loop: Annotated[
-        bool, typer.Option("--loop", help="Blend the ends, so that each clip plays as a cycle.")
+        bool,
+        typer.Option(
+            "--loop",
+            help="Blend the ends, so that each clip plays as a cycle.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = False,
     segments: Annotated[
         Path | None,
         typer.Option(
-            help="Table or labels to cut by, instead of segmenting anew; a folder of them; "
-            "or a name with {name} in it."
+            help="Segment table or labels to cut by, instead of segmenting anew; of several "
+            "recordings a folder, or a path with {name} in it.",
+            rich_help_panel=INPUT,
         ),
     ] = None,
     detail: Detail = 1.0,
@@ -49,12 +60,13 @@ def split(
     recursive: Recursive = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
-    constants: dict[str, Any] | None = None,
+    constants: Constants = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
-    """Write each segment of a recording as a file of its own, and a manifest of them.
+    """Write each segment of a recording as a file of its own, and a list of them.
 
-    BVH, or CSV of joint positions where there are no rotations. Of signals, rows of their file.
+    Clips are BVH, or CSV of joint positions where there are no rotations; of signals, rows of
+    their file. The list is manifest.csv.
     """
     request = Request.of(preset, constants, reading, effectors, detail)
     batch = Batch(files, recursive=recursive, quiet=quiet)

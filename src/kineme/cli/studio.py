@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from kineme.cli.help import OUTPUT
 from kineme.cli.messages import Failures
 from kineme.cli.options.reading import Effectors, effector_names, with_body_options
 from kineme.errors import ParameterError
@@ -17,24 +18,36 @@ def studio(
     files: Annotated[
         list[Path] | None,
         typer.Argument(
-            metavar="[FILES|FOLDER]",
+            metavar="FILES|FOLDER",
             help="Recordings, a folder of them, or a library; by default the folder you are in.",
         ),
     ] = None,
     port: Annotated[
         int | None,
-        typer.Option(help="Port to listen on; 0 for any.", show_default="the first free from 8750"),
+        typer.Option(
+            metavar="N",
+            help="Port to listen on; 0 for any.",
+            show_default="the first free from 8750",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     browser: Annotated[
-        bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
+        bool,
+        typer.Option(
+            "--browser/--no-browser",
+            help="Whether to open the page in the browser.",
+            show_default="--browser",
+            rich_help_panel=OUTPUT,
+        ),
     ] = True,
     effectors: Effectors = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """See recordings and correct their segments, in the browser.
 
-    The page is served on this machine alone. Corrections are kept in NAME.segments.json beside
-    each recording, from one edit to the next. Ctrl+C ends it.
+    The page is served on this machine alone; presets and their constants are chosen there.
+    Corrections are kept in NAME.segments.json beside each recording, from one edit to the next.
+    Ctrl+C ends it.
     """
     failures = Failures()
     with failures.caught("studio"):

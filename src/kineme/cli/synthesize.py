@@ -7,38 +7,60 @@ from typing import Annotated
 
 import typer
 
+from kineme.cli.help import OUTPUT
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.reading import Quiet
 from kineme.errors import ParameterError
 
+WANTED = "What is to be played"
+
 
 def synthesize(
-    graph: Annotated[Path, typer.Argument(metavar="GRAPH", help="Made by kineme graph.")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="The motion: a .bvh file.")],
+    graph: Annotated[
+        Path, typer.Argument(metavar="GRAPH", help="Motion graph that `kineme graph` made.")
+    ],
+    output: Annotated[
+        Path,
+        typer.Option("--output", "-o", help="The new motion: a .bvh file.", rich_help_panel=OUTPUT),
+    ],
     actions: Annotated[
         str | None,
         typer.Option(
             metavar="NAME*COUNT,…",
             help="Labels or cluster numbers in order, as in walk,run*3,jump; "
             "with --path those that may be played, without counts.",
+            rich_help_panel=WANTED,
         ),
     ] = None,
     path: Annotated[
         str | None,
         typer.Option(
-            metavar="X,Z;X,Z;…", help="A line on the floor to follow, metres, as in 0,0;3,0;3,3."
+            metavar="X,Z;X,Z;…",
+            help="A line on the floor to follow, metres, as in 0,0;3,0;3,3.",
+            rich_help_panel=WANTED,
         ),
     ] = None,
     tolerance: Annotated[
-        float, typer.Option(help="Metres that the root may get away from that line.")
+        float,
+        typer.Option(
+            help="Metres that the figure may get away from that line.", rich_help_panel=WANTED
+        ),
     ] = 0.5,
     duration: Annotated[
-        float | None, typer.Option(help="Seconds of a random walk, in place of actions.")
+        float | None,
+        typer.Option(
+            help="Seconds of any primitives that can follow each other, drawn by chance, in place "
+            "of actions.",
+            rich_help_panel=WANTED,
+        ),
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Of the random walk.")] = 0,
+    seed: Annotated[
+        int,
+        typer.Option(min=0, help="Another number draws other primitives.", rich_help_panel=WANTED),
+    ] = 0,
     quiet: Quiet = False,
 ) -> None:
-    """Play primitives one after the other: given actions, along a line, or a random walk."""
+    """Make a new motion of recorded ones: given actions, along a line, or drawn by chance."""
     if (actions is None and path is None) == (duration is None):
         raise typer.BadParameter("give --actions, --path or both, or --duration")
     failures = Failures()

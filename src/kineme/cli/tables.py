@@ -1,18 +1,19 @@
-"""Segments and recordings as tables for people."""
+"""Segments and recordings as tables for people, on a terminal, in a file or a pipe."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from rich import box
-from rich.console import RenderableType
+from rich.columns import Columns
+from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from kineme._colors import cluster_color
-from kineme.cli.console import Console
+from kineme.cli.terminal import Console
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -20,7 +21,7 @@ WORDS = ("kind", "cluster", "label", "recording", "example")
 """Columns that hold no numbers."""
 _NOTHING_FOUND = (
     "no activity found: nothing stays similar or repeats for long enough; of a recording of a few "
-    "seconds --min-action 0.5 --min-segment 0.3 or --preset krueger2017 may tell more"
+    "seconds --set min_action=0.5 or --preset krueger2017 may tell more"
 )
 
 
@@ -30,10 +31,16 @@ def show_facts(
     """Print what is known of a recording: its name, these lines, its notes, what goes below."""
     console = Console(highlight=False)
     grid = Table.grid(padding=(0, 2))
-    for name, value in (*lines.items(), *(("note", note) for note in facts["notes"])):
+    rows = [*lines.items(), *(("note", note) for note in facts["notes"])]
+    width = max(len(name) for name, _ in rows)
+    for name, value in rows:
         grid.add_row(Text(name, style="dim"), Text(str(value)))
     console.print(Text(str(facts["path"]), style="bold"))
-    console.print(grid)
+    if console.is_terminal:
+        console.print(grid)
+    else:  # of which the grid would fill every line up to the longest
+        for name, value in rows:
+            console.print(Text(f"{name:<{width}}  {value}"), soft_wrap=True)
     if below is not None:
         console.print(below)
     console.print()
@@ -56,7 +63,7 @@ def show_segments(
     console.print(rows(segmentation))
     console.print(f"{segmentation.describe()}.")
     for note in segmentation.provenance["notes"]:
-        console.print(Text(f"note: {note}", style="dim"))
+        console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
     if "activity" not in segmentation.activities.kind:
         console.print(Text(f"note: {_NOTHING_FOUND}", style="dim"))
     for path in filter(None, written):
@@ -96,6 +103,16 @@ def _primitive_rows(segmentation: Segmentation) -> Table:
         cells = str(row.activity), cluster_cell(row.cluster), row.label
         table.add_row(*_span(number, row), *cells, style=_style(row))
     return _without_empty_labels(table, segmentation.primitives.label.tolist())
+
+
+def columns_of(names: Iterable[str]) -> RenderableType:
+    """Names side by side; in a file or a pipe each on a line of its own."""
+    texts = [Text(name) for name in names]
+    return Columns(texts, padding=(0, 2), column_first=True) if _on_terminal() else Group(*texts)
+
+
+def _on_terminal() -> bool:
+    return Console().is_terminal
 
 
 def new_table(*names: str) -> Table:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.help import TABLES
+from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Effectors, Json, Quiet, with_body_options
@@ -26,35 +26,56 @@ def transfer(
     files: Files,
     knowledge: Annotated[
         list[Path],
-        typer.Option(help="Knowledge base that `kineme label` made, .npz; may be given again."),
+        typer.Option(
+            metavar="FILE",
+            help="Knowledge base that `kineme label` made, .npz; may be given again.",
+            rich_help_panel=INPUT,
+        ),
     ],
     threshold: Annotated[
         float | None,
         typer.Option(
-            help="Largest cost of a match, from 0 to 2; lower gives fewer labels, more of them "
-            "right.",
+            help="How different a movement may be from one that is known, from 0 to 2; lower "
+            "gives fewer labels, more of them right.",
             show_default="0.85",
+            rich_help_panel=METHOD,
         ),
     ] = None,
     spread: Annotated[
-        bool, typer.Option("--spread", help="A cluster takes the label most of its members got.")
+        bool,
+        typer.Option(
+            "--spread",
+            help="Give all of a cluster the label that most of it got.",
+            rich_help_panel=METHOD,
+        ),
     ] = False,
     output: Annotated[
         Path | None,
         typer.Option(
             "--output",
             "-o",
-            help=f"Segment table or labels: {TABLES}; a folder; or a name with {{name}} in it.",
+            help=f"Segment table or labels: {TABLES}. Of several recordings: a folder, or a path "
+            "with {name} in it.",
+            rich_help_panel=OUTPUT,
         ),
     ] = None,
-    level: Annotated[Level, typer.Option(help="Rows to print.")] = "primitive",
+    level: Annotated[
+        Level,
+        typer.Option(
+            help="Print activities with what lies between them, or each primitive.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = "primitive",
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
     effectors: Effectors = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
-    """Cut recordings, and label what is like the primitives of a knowledge base."""
+    """Cut recordings, and label the movements in them that a knowledge base knows.
+
+    A knowledge base is a file of movements with names, which `kineme label` makes.
+    """
     if threshold is not None and not 0 < threshold < float("inf"):
         raise typer.BadParameter(f"must be a number above 0, not {threshold}")
     request = Request.of(reading=reading, effectors=effectors)

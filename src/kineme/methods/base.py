@@ -27,6 +27,7 @@ from kineme.methods.constants import (
     check,
     constant,
     constants_of,
+    unknown,
     values_of,
 )
 
@@ -208,6 +209,6 @@ class Preset(ABC):
         for name in overrides:
             if name not in known:
                 raise ParameterError(
-                    f"{self.name} has no parameter {name!r:.60}; there are {', '.join(known)}"
+                    f"{self.name} has no parameter {name!r:.60}; {unknown(name, known)}"
                 )
         return replace(self, **overrides) if overrides else self

@@ -2,14 +2,16 @@
 
 A field made by `constant` carries all that command line, studio and docs say of
 it, so that a constant added to a preset appears in each of them. `check`
-holds a preset against its own fields: types, limits, choices.
+holds a preset against its own fields: types, limits, choices. `unknown` tells what
+a name was meant to be.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Mapping
+from collections.abc import Collection, Hashable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
+from difflib import get_close_matches
 from functools import cache
 from types import NoneType
 from typing import Any, Literal, NamedTuple, cast, get_args, get_origin, get_type_hints
@@ -80,7 +82,7 @@ class Constant:
     Parameters
     ----------
     name : str
-        Of the field, and of the option with ``-`` for ``_``.
+        Of the field.
     help : str
         What it does, in a phrase.
     unit : str
@@ -95,6 +97,8 @@ class Constant:
         For the few that pages offer.
     fine : bool
         Whether it is one that hardly anybody needs to change.
+    default : Any
+        Of all presets of its class; ``dataclasses.MISSING`` where each says its own.
     """
 
     name: str
@@ -105,6 +109,33 @@ class Constant:
     limits: Limits | None
     slider: Slider | None
     fine: bool
+    default: Any = MISSING
+
+    @property
+    def allowed(self) -> str:
+        """The values that it may take, in words; empty for a text.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> known = {each.name: each for each in kineme.PRESETS["voegele2014"].constants()}
+        >>> known["radius"].allowed, known["growth"].allowed, known["max_lag"].allowed
+        ('above 0 to 10000', 'squares, scan_lines', 'above 0 to 3600, none')
+        """
+        members = get_args(self.hint)
+        optional = NoneType in members
+        hint = next((each for each in members if each is not NoneType), None)
+        hint = hint if optional else self.hint
+        if get_origin(hint) is Literal:
+            told = ", ".join(get_args(hint))
+        elif hint is bool:
+            told = "yes, no"
+        elif self.limits is None:
+            told = ""
+        else:
+            above = "above " if self.limits.above else ""
+            told = f"{above}{self.limits.minimum:.9g} to {self.limits.maximum:.9g}"
+        return ", ".join(filter(None, (told, "none" if optional else "")))
 
 
 def constant(
@@ -146,8 +177,11 @@ def constant(
 def constants_of(preset: Any) -> tuple[Constant, ...]:
     """The constants of a preset, in the order of its fields."""
     hints = _hints(preset.__class__)
+    defaults = {known.name: known.default for known in fields(preset)}
     return tuple(
-        Constant(name, value=getattr(preset, name), hint=hints[name], **told)
+        Constant(
+            name, value=getattr(preset, name), hint=hints[name], default=defaults[name], **told
+        )
         for name, told in _told(preset.__class__).items()
     )
 
@@ -160,12 +194,26 @@ def values_of(preset: Any) -> dict[str, Any]:
 def check(preset: Any) -> None:
     """ParameterError for the first constant whose value it cannot take; a count of 3.0 is 3."""
     for known in constants_of(preset):
-        _check(known.name, known.value, known.hint, known.limits)
+        _check(known.name, known.value, known.hint, known.limits, known.unit)
         if known.hint is int and type(known.value) is not int:
             object.__setattr__(preset, known.name, int(known.value))
 
 
-def _check(name: str, value: Any, hint: Any, limits: Limits | None) -> None:
+def unknown(name: str, known: Collection[str]) -> str:
+    """What is said of a name that is none of these: the nearest, or all there are.
+
+    Examples
+    --------
+    >>> unknown("min_acton", ["radius", "min_action"])
+    'did you mean min_action?'
+    >>> unknown("width", ["radius", "min_action"])
+    'there are radius, min_action'
+    """
+    near = get_close_matches(name, known, n=1)
+    return f"did you mean {near[0]}?" if near else f"there are {', '.join(known)}"
+
+
+def _check(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
     members = get_args(hint)
     if NoneType in members:
         if value is None:
@@ -176,7 +224,7 @@ def _check(name: str, value: Any, hint: Any, limits: Limits | None) -> None:
         if not (isinstance(value, str) and value in members):
             raise ParameterError(f"{name} must be {' or '.join(members)}, not {value!r:.60}")
     elif get_origin(hint) is tuple:
-        _check_tuple(name, value, hint, limits)
+        _check_tuple(name, value, hint, limits, unit)
     elif hint is bool:
         if not isinstance(value, bool):
             raise ParameterError(f"{name} must be true or false, not {value!r:.60}")
@@ -184,10 +232,11 @@ def _check(name: str, value: Any, hint: Any, limits: Limits | None) -> None:
         if hint is int and isinstance(value, float) and not value.is_integer():
             raise ParameterError(f"{name} must be a whole number, not {value!r:.60}")
         if not limits.allow(value):
-            raise ParameterError(f"{name} must be {limits.describe()}, not {value!r:.60}")
+            allowed = f"{limits.describe()} {unit}".rstrip()
+            raise ParameterError(f"{name} must be {allowed}, not {value!r:.60}")
 
 
-def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None) -> None:
+def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
     members = get_args(hint)
     if not isinstance(value, tuple) or not value:
         raise ParameterError(f"{name} must be a tuple of numbers, not {value!r:.60}")
@@ -195,7 +244,7 @@ def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None) -> Non
     if fixed and len(value) != len(members):
         raise ParameterError(f"{name} must be {len(members)} numbers, not {value!r:.60}")
     for each in value:
-        _check(f"each of {name}", each, members[0], limits)
+        _check(f"each of {name}", each, members[0], limits, unit)
 
 
 @cache

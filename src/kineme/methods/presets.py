@@ -14,6 +14,7 @@ from typing import Any
 from kineme._registry import Registry
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
+from kineme.methods.constants import unknown
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 
@@ -88,7 +89,7 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
     """
     if isinstance(preset, str):
         if preset not in PRESETS:
-            raise ParameterError(f"no preset {preset!r:.60}; there are {', '.join(PRESETS)}")
+            raise ParameterError(f"no preset {preset!r:.60}; {unknown(preset, PRESETS)}")
         chosen = PRESETS[preset]
         if signals and preset in FOR_SIGNALS:
             chosen = PRESETS[FOR_SIGNALS[preset]]

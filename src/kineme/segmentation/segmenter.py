@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kineme._checks import as_features, is_number
+from kineme._checks import as_features
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.features.effectors import Names
@@ -22,6 +22,7 @@ from kineme.methods.stages import Progress, stopwatch
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.bodies import view_of_motion
 from kineme.segmentation.channels import view_of_signals
+from kineme.segmentation.options import SegmentOptions
 from kineme.segmentation.outside import as_channels, on_recording
 from kineme.segmentation.spans import AT_GAP, gaps_between, in_frames
 from kineme.segmentation.views import View
@@ -96,36 +97,54 @@ def segment(
     >>> kineme.segment(motion).repetitions()
     {0: 9, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4}
     """
-    return segment_and_found(
-        recording,
+    options = SegmentOptions(
         preset=preset,
+        constants=constants,
         effectors=effectors,
         emg=emg,
         features=features,
         feature_fps=feature_fps,
         unit=unit,
         standardize=standardize,
-        progress=progress,
-        **constants,
-    )[0]
+    )
+    return segmented(recording, options, progress=progress)[0]
 
 
 def segment_and_found(
-    recording: Motion | Signals,
-    *,
-    preset: str | Preset = DEFAULT,
-    effectors: Names | None = None,
-    emg: bool = False,
-    features: ArrayLike | None = None,
-    feature_fps: float | None = None,
-    unit: float | None = None,
-    standardize: bool | None = None,
-    progress: Progress | None = None,
-    **constants: Any,
+    recording: Motion | Signals, *, progress: Progress | None = None, **options: Any
 ) -> tuple[Segmentation, Found]:
     """The segments, and what the method found on the way to them (for pictures).
 
-    Parameters are those of `segment`.
+    Parameters
+    ----------
+    recording : Motion or Signals
+        At least one frame.
+    progress : callable, optional
+        Called with the name of each stage before it runs.
+    **options
+        As `segment` takes them, constants of the preset among them.
+
+    Returns
+    -------
+    segmentation : Segmentation
+    found : Found
+    """
+    return segmented(recording, SegmentOptions.of(**options), progress=progress)
+
+
+def segmented(
+    recording: Motion | Signals, options: SegmentOptions, *, progress: Progress | None = None
+) -> tuple[Segmentation, Found]:
+    """The same for options that are together already.
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+        At least one frame.
+    options : SegmentOptions
+        How it is segmented.
+    progress : callable, optional
+        Called with the name of each stage before it runs.
 
     Returns
     -------
@@ -138,29 +157,22 @@ def segment_and_found(
             f"segment takes a Motion or Signals, not {type(recording).__name__}: "
             f"kineme.read(path) gives one; arrays go to Segmenter"
         )
-    if "detail" in constants:
-        raise ParameterError("detail is asked of what comes out: segment(...).level(0.5)")
-    for name, value in (("unit", unit), ("feature_fps", feature_fps)):
-        if value is not None and not (is_number(value) and value > 0):
-            raise ParameterError(f"{name} must be a number above 0, not {value!r:.60}")
     if progress is not None:
         progress("features")
-    seen = recording if features is None else as_channels(recording, features, feature_fps)
-    if features is not None:
-        constants = {"smoothing": 0.0, **constants}
-    chosen = resolve_preset(preset, signals=isinstance(seen, Signals), **constants)
-    chosen = chosen.at_most(seen.fps)
+    given = options.features
+    seen = recording if given is None else as_channels(recording, given, options.feature_fps)
+    chosen = options.resolved(signals=isinstance(seen, Signals)).at_most(seen.fps)
     if isinstance(seen, Signals):
-        scaled = features is None if standardize is None else standardize
-        view = view_of_signals(seen, chosen, emg=emg, standardize=scaled, unit=unit)
+        scaled = given is None if options.standardize is None else options.standardize
+        view = view_of_signals(seen, chosen, emg=options.emg, standardize=scaled, unit=options.unit)
     elif chosen.unit == "standard deviations":
         raise ParameterError(
             f"{chosen.name} is in standard deviations, for signals: a motion takes one in metres "
             f"or body sizes"
         )
     else:
-        view = view_of_motion(seen, chosen, effectors)
-    if features is not None:
+        view = view_of_motion(seen, chosen, options.effectors)
+    if given is not None:
         view = on_recording(view, recording, seen.fps)
     timings = {"features": time.perf_counter() - start}
     told: dict[str, Any] = {} if view.carried is None else {"carried": view.carried}

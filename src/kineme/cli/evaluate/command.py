@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import typer
 
+from kineme.cli.help import METHOD, OUTPUT
 from kineme.cli.messages import Failures
+from kineme.cli.options.method import SET, Constants, constants_of
 from kineme.cli.options.reading import Quiet
 from kineme.errors import WriteError
 from kineme.methods.presets import DEFAULT
@@ -24,8 +26,8 @@ def evaluate(
         str,
         typer.Argument(
             metavar="cmu86|FOLDER|SEGMENTS",
-            help="The benchmark; a folder of recordings; or a result: a segment table, a table of "
-            "intervals, or a .txt with one label per frame.",
+            help="The published benchmark; a folder of recordings; or one result: a segment table, "
+            "a table of intervals, or a .txt with one label per frame.",
         ),
     ],
     against: Annotated[
@@ -49,8 +51,8 @@ def evaluate(
     mapping: Annotated[
         Mapped,
         typer.Option(
-            help="Whether clusters stand for classes of one recording, or for the same in all, "
-            "over which they are joined before.",
+            help="Match clusters with labels in each recording by itself, or once for the whole "
+            "folder, whose clusters are joined before.",
             rich_help_panel=FOLDER,
         ),
     ] = "recording",
@@ -68,7 +70,7 @@ def evaluate(
         str | None,
         typer.Option(
             metavar="NAME,NAME,…",
-            help="Take these columns as signals, in place of joints; * and ? are wildcards.",
+            help="Segment these columns, instead of joints; * and ? are wildcards.",
             rich_help_panel=FOLDER,
         ),
     ] = None,
@@ -80,18 +82,9 @@ def evaluate(
             rich_help_panel=FOLDER,
         ),
     ] = None,
-    constants: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set",
-            metavar="NAME=VALUE",
-            help="A constant of the methods that is to be another, such as min_action=2; several "
-            "numbers with commas between them.",
-            rich_help_panel=FOLDER,
-        ),
-    ] = None,
+    constants: Constants = None,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print JSON.", rich_help_panel=FOLDER)
+        bool, typer.Option("--json", help="Print JSON, of a folder.", rich_help_panel=OUTPUT)
     ] = False,
     fps: Annotated[
         float | None,
@@ -100,61 +93,68 @@ def evaluate(
     recording: Annotated[
         Path | None,
         typer.Option(
-            help="The recording, for the variances within clusters; by default the one the "
-            "segment table names.",
+            help="The recording, to tell how alike the segments of a cluster are; by default the "
+            "one that the segment table names.",
             rich_help_panel=OWN,
         ),
-    ] = None,
-    preset: Annotated[
-        list[str] | None, typer.Option(help="A preset to run.", rich_help_panel=BENCH)
     ] = None,
     method: Annotated[
         list[str] | None,
         typer.Option(
             "--method",
             "--methods",
-            metavar="NAME,NAME,…",
-            help="Presets to run, such as kineme,haca,uniform. All by default; of a folder, the "
-            "default preset.",
+            "--preset",
+            metavar="NAME,…",
+            help="Presets to run, such as kineme,haca,uniform: by default kineme on a folder, all "
+            "on the benchmark. `kineme presets` lists them.",
+            rich_help_panel=METHOD,
         ),
     ] = None,
     trial: Annotated[
         list[str] | None,
         typer.Option(
-            help="A trial, such as 86_01; by default all at hand. With own files the trial to "
-            "take from the benchmark's annotations.",
+            metavar="NAME",
+            help="A recording of it, such as 86_01, by default all at hand; of one result, the "
+            "recording whose annotations are meant.",
+            rich_help_panel=BENCH,
         ),
     ] = None,
     data: Annotated[
         Path | None,
         typer.Option(
-            help="Folder of the recordings and annotations; by default KINEME_DATA, else what "
+            metavar="FOLDER",
+            help="Where its recordings and annotations are; by default KINEME_DATA, else what "
             "`kineme data cmu 86` fetched.",
             rich_help_panel=BENCH,
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="DIR", help="Folder for a picture per trial.", rich_help_panel=BENCH),
+        typer.Option(
+            metavar="FOLDER", help="Draw each recording into this folder.", rich_help_panel=BENCH
+        ),
     ] = None,
     figures: Annotated[
         Path | None,
         typer.Option(
-            metavar="DIR",
-            help="Folder for the figures and tables of the paper, made anew.",
+            metavar="FOLDER",
+            help="Make the figures and tables of the paper anew.",
             rich_help_panel=BENCH,
         ),
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="All scores: .json or .csv.")
+        Path | None,
+        typer.Option(
+            "--output", "-o", help="Write all scores: .json or .csv.", rich_help_panel=OUTPUT
+        ),
     ] = None,
     quiet: Quiet = False,
 ) -> None:
-    """Measure segmentations: by the published protocols, and by fair ones."""
+    """Score segments against what people say: of a benchmark, of a folder, or of one result."""
     failures = Failures()
     with failures.caught(what):
         _check_output(output)
-        names = [*(preset or ()), *_listed(*(method or ()))]
+        names = [*_listed(*(method or ()))]
         if what != BENCHMARK and Path(what).is_dir():
             if labels is None:
                 raise typer.BadParameter("--labels FILE or FOLDER is needed for a folder")
@@ -170,12 +170,14 @@ def evaluate(
                 mapping=mapping,
                 n_clusters=clusters,
                 reading=Reading(_listed(columns), _listed(without_columns)),
-                constants=dict(map(_constant, constants or ())),
+                constants=constants_of(names or [DEFAULT], constants) if constants else {},
                 output=output,
                 as_json=as_json,
                 quiet=quiet,
             )
             raise typer.Exit(0 if scored else 1)
+        if constants:
+            raise typer.BadParameter("constants are of a folder of recordings", param_hint=SET)
         if what != BENCHMARK:
             if against is None:
                 raise typer.BadParameter(f"--against LABELS is needed, or {BENCHMARK} to run it")
@@ -193,25 +195,6 @@ def evaluate(
 
             write_records(records, output)
     failures.exit()
-
-
-def _constant(text: str) -> tuple[str, Any]:
-    """A constant's name and value: a number, several, a word, or none."""
-    name, equals, value = text.partition("=")
-    if not equals:
-        raise typer.BadParameter(f"--set takes NAME=VALUE, not {text!r:.60}")
-    values = [_value(each.strip()) for each in value.split(",")]
-    return name.strip().replace("-", "_"), values[0] if len(values) == 1 else tuple(values)
-
-
-def _value(text: str) -> float | bool | str | None:
-    words = {"none": None, "true": True, "false": False}
-    if text.lower() in words:
-        return words[text.lower()]
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def _listed(*texts: str | None) -> tuple[str, ...]:

@@ -9,10 +9,10 @@ from typing import Any
 import typer
 
 from kineme.cli.evaluate.tables import show_table
-from kineme.cli.harmless import harmless
 from kineme.cli.messages import progress
+from kineme.cli.terminal import harmless
 from kineme.errors import ParameterError
-from kineme.evaluation.folder import FolderScores, Mapped, evaluate_folder
+from kineme.evaluation.folder import Evaluated, FolderScores, Mapped, evaluate_folder
 from kineme.evaluation.recordings import Reading, check_method, recordings_below
 from kineme.evaluation.score import scores
 from kineme.evaluation.tables import score_rows, shown, write_records, write_text
@@ -89,26 +89,21 @@ def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:
 def _show(result: FolderScores) -> None:
     """Print the scores of each recording by the methods, then those over all of them."""
     columns: dict[str, Any] = {method: result.over_all(method) for method in result.methods}
-    first, *_ = result.methods.values()
     short = ("mof", "edit", "f1@50", "border_f1")
-    header = [f"{method} {scores()[name].title}" for method in columns for name in short]
-    rows = [
-        (
-            one.recording,
-            [
-                _shown(ones[i].scores.get(name)) if not ones[i].error else "failed"
-                for ones in result.methods.values()
-                for name in short
-            ],
-        )
-        for i, one in enumerate(first)
+    by_method = [
+        (method if len(columns) > 1 else "", [(one.recording, _row(one, short)) for one in ones])
+        for method, ones in result.methods.items()
     ]
-    show_table("by recording", header, [("", rows)])
+    show_table("by recording", [scores()[name].title for name in short], by_method)
     counted = [
         f"{sum(not one.error for one in ones)} of {len(ones)}" for ones in result.methods.values()
     ]
     groups = [*score_rows(columns), ("recordings", [("recordings scored", counted)])]
     show_table(f"over all recordings, one mapping for each {result.mapping}", list(columns), groups)
+
+
+def _row(one: Evaluated, names: Sequence[str]) -> list[str]:
+    return ["failed" if one.error else _shown(one.scores.get(name)) for name in names]
 
 
 def _shown(value: float | None) -> str:

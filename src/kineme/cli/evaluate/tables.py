@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from kineme._counts import counted
-from kineme.cli.console import Console
+from kineme.cli.terminal import Console
 from kineme.evaluation.tables import score_rows
 from kineme.reproduction.benchmark import Result, mean_scores
 
@@ -17,8 +17,6 @@ Scores = Mapping[str, float]
 
 Group = tuple[str, Sequence[tuple[str, Sequence[str]]]]
 """A title, and rows: a name and the cells beside it."""
-NARROW = 80
-"""Columns of a terminal; a file gets at least so many."""
 
 
 def show_results(results: Sequence[Result]) -> None:
@@ -53,8 +51,6 @@ def show_table(
         for name, cells in rows:
             table.add_row(f"  {name}" if group else name, *cells)
     console = Console(highlight=False)
-    if not console.is_terminal:  # a file has no edge: keep the columns whole
-        console = Console(highlight=False, width=max(NARROW, 36 + 14 * len(header)))
     console.print(Text(title, style="bold"))
     console.print(table)
 

@@ -6,17 +6,22 @@ import typer
 
 from kineme.cli.on_demand import on_demand
 
-COMMANDS = ("build", "show", "search", "name", "merge", "split", "query", "export")
-"""Each the function of its name in the module of its name, in the order of the help."""
+HOMES = {
+    "build": "kineme.cli.library.build",
+    "show": "kineme.cli.library.commands",
+    "search": "kineme.cli.library.search",
+    **dict.fromkeys(("name", "merge", "split", "query", "export"), "kineme.cli.library.commands"),
+}
+"""The module of each command, in the order of the help."""
 
 library = typer.Typer(
     name="library",
-    cls=on_demand("kineme.cli.library", COMMANDS),
-    help="Collections of recordings: segmented once, searched by example.",
+    cls=on_demand(HOMES),
+    help="Build collections of recordings, segmented once, and search them by example.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
+    rich_markup_mode=None,
 )
 
 

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import RECORDINGS
-from kineme.cli.library.folder import Scheduler, path_or_url
+from kineme.cli.help import INPUT, OUTPUT, RECORDINGS
+from kineme.cli.library.commands import Scheduler, path_or_url
 from kineme.cli.messages import Failures, one_line, progress, say_skipped
 from kineme.cli.options.inputs import Batch
-from kineme.cli.options.preset_options import DETAIL, PRESET, with_preset_options
+from kineme.cli.options.method import DETAIL, PRESET, Constants
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.options.request import Request
 from kineme.methods.presets import DEFAULT
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from kineme.library import Built, Settings
 
 
-@with_preset_options
 @with_reading_options
 def build(
     into: Annotated[
@@ -31,8 +30,9 @@ def build(
         typer.Option(
             "--into",
             parser=path_or_url,
-            metavar="PATH",
+            metavar="LIB",
             help="Folder or URL of the library, new or to be brought up to date.",
+            rich_help_panel=OUTPUT,
         ),
     ],
     files: Annotated[
@@ -50,6 +50,7 @@ def build(
             parser=path_or_url,
             metavar="PATH",
             help="Take these files or folders out of the library; may be given again.",
+            rich_help_panel=OUTPUT,
         ),
     ] = None,
     jobs: Annotated[
@@ -62,22 +63,22 @@ def build(
         typer.Option(
             "--recursive/--flat",
             "-r",
-            help="Look into the folders of a folder, too.",
+            help="Whether to look into the folders of a folder, too.",
             show_default="as the last time",
+            rich_help_panel=INPUT,
         ),
     ] = None,
     detail: Annotated[float | None, DETAIL] = None,
     preset: Annotated[str | None, PRESET] = None,
     quiet: Quiet = False,
     effectors: Effectors = None,
-    constants: dict[str, Any] | None = None,
+    constants: Constants = None,
     reading: dict[str, Any] | None = None,
 ) -> None:
     """Segment a collection of recordings once, and keep what a search needs.
 
-    What is there already is kept: a build that was ended goes on where it was, and one with more
-    recordings does only these. Options that say how recordings are read and segmented stay as
-    they were unless one of them is given.
+    What is there already is kept, and goes on where it ended. How recordings are read and
+    segmented stays as it was; where an option says otherwise, all are segmented anew.
     """
     request = Request.of(
         preset or DEFAULT,
@@ -102,8 +103,8 @@ def build(
         settings: Settings | None = None
         if said:
             settings = Settings(
-                request.preset,
-                request.constants,
+                preset or DEFAULT,
+                request.options.constants,
                 request.reading,
                 request.effectors,
                 request.detail,

@@ -10,15 +10,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._counts import counted
-from kineme.cli.library.folder import Folder, Json, Scheduler, opened
+from kineme.cli.help import OUTPUT
+from kineme.cli.library.commands import Folder, Json, Scheduler, opened
 from kineme.cli.options.reading import Quiet
 from kineme.cli.options.targets import make_folder_of
 
 if TYPE_CHECKING:
     from kineme.library import Example, Hit
 
-_SPAN = re.compile(r"(?P<take>.+)@(?P<start>[0-9.]+)-(?P<stop>[0-9.]+)")
-SPAN = "TAKE[@START-STOP]"
+_SPAN = re.compile(r"(?P<name>.+)@(?P<start>[0-9.]+)-(?P<stop>[0-9.]+)")
+SPAN = "RECORDING[@START-STOP]"
+SOUGHT = "What is sought"
 
 
 def search(
@@ -27,40 +29,81 @@ def search(
         list[str] | None,
         typer.Option(
             metavar=SPAN,
-            help="A recording, or the name of one in the library, and the seconds that count; may "
-            "be given again: any of them will do.",
+            help="An example: a recording, or the name of one in the library, and the seconds of "
+            "it that count. May be given again: what is like any of them is found.",
+            rich_help_panel=SOUGHT,
         ),
     ] = None,
-    start: Annotated[float, typer.Option(help="Seconds at which a single --like starts.")] = 0.0,
-    stop: Annotated[float | None, typer.Option(help="And stops.", show_default="its end")] = None,
+    start: Annotated[
+        float,
+        typer.Option(
+            metavar="SECONDS", help="Where a single --like starts.", rich_help_panel=SOUGHT
+        ),
+    ] = 0.0,
+    stop: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            help="Where it stops.",
+            show_default="its end",
+            rich_help_panel=SOUGHT,
+        ),
+    ] = None,
     cluster: Annotated[
-        str | None, typer.Option(help="Search for what is typical of a cluster, number or name.")
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Search for what is typical of a cluster, by its number or name.",
+            rich_help_panel=SOUGHT,
+        ),
     ] = None,
     unlike: Annotated[
         list[str] | None,
-        typer.Option(metavar=SPAN, help="Leave out what is more like this; may be given again."),
+        typer.Option(
+            metavar=SPAN,
+            help="Leave out what is more like this; may be given again.",
+            rich_help_panel=SOUGHT,
+        ),
     ] = None,
+    mirror: Annotated[
+        bool,
+        typer.Option(
+            "--mirror",
+            help="Search for it with left and right exchanged as well.",
+            rich_help_panel=SOUGHT,
+        ),
+    ] = False,
     threshold: Annotated[
         float | None,
         typer.Option(
-            help="Largest distance; lower finds less, more of it right.", show_default="0.85"
+            help="Largest distance, from 0 to 2; lower finds less, more of it right.",
+            show_default="0.85",
+            rich_help_panel=OUTPUT,
         ),
     ] = None,
-    top: Annotated[int, typer.Option(min=1, help="Hits at most.")] = 50,
+    top: Annotated[
+        int, typer.Option(min=1, help="How many to find, at most.", rich_help_panel=OUTPUT)
+    ] = 50,
     max_per_recording: Annotated[
-        int | None, typer.Option(min=1, help="Of one recording at most.")
+        int | None,
+        typer.Option(min=1, help="How many in one recording, at most.", rich_help_panel=OUTPUT),
     ] = None,
-    mirror: Annotated[
-        bool, typer.Option("--mirror", help="Search for the mirror images as well.")
-    ] = False,
     export: Annotated[
-        Path | None, typer.Option(help="Folder to make: each hit as a clip, and a manifest.")
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="Folder to make: each as a clip, and a list of them, manifest.csv.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     scheduler: Scheduler = None,
     json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Find what is like an example in all recordings, whoever moves there."""
+    """Find what is like an example in all recordings, whoever moves there.
+
+    For example: kineme library search LIB --like walk.bvh@3.5-6
+    """
     examples = [_example(text) for text in like or ()]
     if (start or stop is not None) and len(examples) != 1:
         raise typer.BadParameter(
@@ -101,17 +144,17 @@ def _example(text: str) -> Example:
     if found is None:
         return _example_of(text, 0.0, None)
     try:
-        return _example_of(found["take"], float(found["start"]), float(found["stop"]))
+        return _example_of(found["name"], float(found["start"]), float(found["stop"]))
     except ValueError as error:
         raise typer.BadParameter(f"{text!r} is not {SPAN}") from error
 
 
-def _example_of(take: str, start: float, stop: float | None) -> Example:
+def _example_of(name: str, start: float, stop: float | None) -> Example:
     from kineme.errors import ParameterError
     from kineme.library import Example
 
     try:
-        return Example(take, start, stop)
+        return Example(name, start, stop)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
 
@@ -119,8 +162,8 @@ def _example_of(take: str, start: float, stop: float | None) -> Example:
 def _show(hits: list[Hit]) -> None:
     from rich.text import Text
 
-    from kineme.cli.console import Console
     from kineme.cli.tables import cluster_cell, new_table
+    from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
     table = new_table("#", "recording", "start s", "stop s", "distance", "cluster", "label")

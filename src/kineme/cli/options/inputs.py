@@ -14,7 +14,7 @@ from typing import Annotated
 
 import typer
 
-from kineme.cli.help import RECORDINGS
+from kineme.cli.help import INPUT, RECORDINGS
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
 from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for, targets_for
 from kineme.errors import KinemeError, ReadError, WriteError
@@ -27,8 +27,14 @@ Files = Annotated[
     ),
 ]
 Recursive = Annotated[
-    bool, typer.Option("--recursive", "-r", help="Look into the folders of a folder, too.")
+    bool,
+    typer.Option(
+        "--recursive", "-r", help="Look into the folders of a folder, too.", rich_help_panel=INPUT
+    ),
 ]
+
+SKELETON, MOTION = ".asf", ".amc"
+"""Of what lies in two files, which ``*`` gives both of."""
 
 
 class Batch:
@@ -58,7 +64,11 @@ class Batch:
                 "is: save it as one, such as take.bvh or take.csv, and name that",
                 param_hint="FILES",
             )
+        with_motions = {path.parent for path in given if path.suffix.lower() == MOTION}
         for path in given:
+            if path.suffix.lower() == SKELETON and path.parent in with_motions:
+                self._missing.discard(path)  # read with the motions beside it
+                continue
             found = self._recordings_in(path, recursive=recursive) if path.is_dir() else [path]
             for recording in found:
                 origins = self._given_as.setdefault(absolute(recording), set())
@@ -131,9 +141,11 @@ class Batch:
         more = ", …" if len(listing.folders) > 3 else ""
         deeper = f"--recursive looks into its folders ({names}{more})" if names else ""
         if not listing.recordings:
-            told = "; ".join(filter(None, ("there is no recording in this folder", deeper)))
             if folder not in (path for path, _ in listing.passed_over):
-                self._messages.append((say_error, f"{folder}: {told}"))
+                alone = any(path.suffix.lower() == SKELETON for path in folder.iterdir())
+                why = "a skeleton (.asf) needs the motion (.amc) beside it" if alone else ""
+                told = filter(None, ("there is no recording in this folder", why, deeper))
+                self._messages.append((say_error, f"{folder}: {'; '.join(told)}"))
         elif deeper:
             self._messages.append((say_skipped, f"{folder}: {deeper}"))
         return listing.recordings

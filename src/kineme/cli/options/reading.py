@@ -15,68 +15,80 @@ from typing import Annotated, Any
 
 import typer
 
+from kineme.cli.help import INPUT, OUTPUT, UNSAID
 from kineme.errors import ParameterError
-
-PANEL = "What the file does not say"
-CHANNELS = "Signals without a skeleton"
 
 Skeleton = Annotated[
     Path | None,
-    typer.Option(help="ASF skeleton of an AMC file.", rich_help_panel=PANEL),
+    typer.Option(metavar="FILE", help="ASF skeleton of an AMC file.", rich_help_panel=UNSAID),
 ]
 Fps = Annotated[
     float | None,
-    typer.Option(help="Frames per second, in place of the file's.", rich_help_panel=PANEL),
+    typer.Option(help="Frames per second, in place of the file's.", rich_help_panel=UNSAID),
 ]
 Unit = Annotated[
     str | None,
     typer.Option(
         help="Unit of lengths: m, cm, mm, inch, cmu, or the metres in one unit.",
-        rich_help_panel=PANEL,
+        rich_help_panel=UNSAID,
     ),
 ]
 Up = Annotated[
     str | None,
-    typer.Option(help="Axis that points up: x, y, z, -x, -y, -z.", rich_help_panel=PANEL),
+    typer.Option(
+        metavar="AXIS", help="Axis that points up: x, y, z, -x, -y, -z.", rich_help_panel=UNSAID
+    ),
 ]
 Person = Annotated[
     str | None,
     typer.Option(
-        help="Which of several people in the file, by name or number.", rich_help_panel=PANEL
+        metavar="NAME",
+        help="Which of several people in the file, by name or number.",
+        rich_help_panel=UNSAID,
     ),
 ]
 Confidence = Annotated[
     float | None,
-    typer.Option(help="From which a keypoint counts as seen, such as 0.5.", rich_help_panel=PANEL),
+    typer.Option(
+        help="Leave out points that a pose estimator is less sure of, such as 0.5.",
+        rich_help_panel=UNSAID,
+    ),
 ]
 Effectors = Annotated[
     str | None,
     typer.Option(
         metavar="NAME,NAME,…",
-        help="Joints of left ankle, right ankle, head, left wrist and right wrist; "
-        "or some of them as left_wrist=NAME,….",
-        rich_help_panel=PANEL,
+        help="Joints to take for left ankle, right ankle, head, left wrist and right wrist, in "
+        "this order; or some of them, as in left_wrist=NAME,head=NAME.",
+        rich_help_panel=UNSAID,
     ),
 ]
 Columns = Annotated[
     str | None,
     typer.Option(
         metavar="NAME,NAME,…",
-        help="Take these columns or analog channels as signals, in place of joints; * and ? are "
-        "wildcards.",
-        rich_help_panel=CHANNELS,
+        help="Take these columns of a table, or channels of a C3D, instead of joints; * and ? "
+        "stand for any characters, as in acc_*.",
+        rich_help_panel=INPUT,
     ),
 ]
 Emg = Annotated[
     bool,
     typer.Option(
         "--emg",
-        help="Muscle signals: take their envelopes; of a C3D, muscles only.",
-        rich_help_panel=CHANNELS,
+        help="The columns are signals of muscles: take their envelopes. Of a C3D, only its "
+        "muscles.",
+        rich_help_panel=INPUT,
     ),
 ]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print warnings and errors only.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON, one line per recording.")]
+Quiet = Annotated[
+    bool,
+    typer.Option("--quiet", "-q", help="Print warnings and errors only.", rich_help_panel=OUTPUT),
+]
+Json = Annotated[
+    bool,
+    typer.Option("--json", help="Print JSON, one line per recording.", rich_help_panel=OUTPUT),
+]
 
 BODY: dict[str, Any] = {
     "skeleton": Skeleton,

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
+from kineme.cli.options.method import constants_of
 from kineme.cli.options.reading import effector_names
 from kineme.errors import ParameterError
-from kineme.methods.presets import DEFAULT, resolve_preset
-from kineme.segments.hierarchy import check_detail
+from kineme.methods.presets import DEFAULT
+from kineme.segmentation.options import SegmentOptions
+from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
 if TYPE_CHECKING:
     from kineme.features import Names
@@ -29,46 +31,44 @@ class Request:
 
     Parameters
     ----------
-    preset : str
-        Name of the preset.
-    constants : dict of str to object
-        Those of the preset that were given.
+    options : SegmentOptions
+        How recordings are segmented.
     reading : dict of str to object
         Keywords of `kineme.read` that were given.
-    effectors : joints, optional
-        For head, hands and feet.
     detail : float
         Of the result: 1 as found, less is coarser, more is finer.
     """
 
-    preset: str
-    constants: dict[str, Any]
+    options: SegmentOptions
     reading: dict[str, Any]
-    effectors: Names | None
-    detail: float = 1.0
+    detail: float = DEFAULT_DETAIL
 
     @classmethod
     def of(
         cls,
         preset: str = DEFAULT,
-        constants: dict[str, Any] | None = None,
+        constants: Sequence[str] | None = None,
         reading: dict[str, Any] | None = None,
         effectors: str | None = None,
-        detail: float = 1.0,
+        detail: float = DEFAULT_DETAIL,
     ) -> Request:
         """The options as they were typed; typer.BadParameter where one makes no sense."""
         try:
-            resolve_preset(preset, **(constants or {}))
             check_detail(detail)
         except ParameterError as error:
-            raise typer.BadParameter(str(error)) from error
-        named = effector_names(effectors)
-        return cls(preset, constants or {}, reading or {}, named, detail)
+            raise typer.BadParameter(str(error), param_hint="--detail") from error
+        options = SegmentOptions(
+            preset=preset,
+            constants=constants_of([preset], constants or ()),
+            effectors=effector_names(effectors),
+            emg=bool((reading or {}).get("emg")),
+        )
+        return cls(options, reading or {}, detail)
 
     @property
-    def emg(self) -> bool:
-        """Whether channels are those of muscles."""
-        return bool(self.reading.get("emg"))
+    def effectors(self) -> Names | None:
+        """Joints for head, hands and feet, where they were named."""
+        return self.options.effectors
 
     def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, of the kind that it is or was said to be."""
@@ -84,16 +84,9 @@ class Request:
 
     def segment(self, recording: Motion | Signals, stage: Stage) -> tuple[Segmentation, Found]:
         """The segments at the detail asked for, and what was found on the way to them."""
-        from kineme.segmentation.segmenter import segment_and_found
+        from kineme.segmentation.segmenter import segmented
 
-        result, found = segment_and_found(
-            recording,
-            preset=self.preset,
-            effectors=self.effectors,
-            emg=self.emg,
-            progress=stage,
-            **self.constants,
-        )
+        result, found = segmented(recording, self.options, progress=stage)
         return result.level(self.detail), found
 
     def segments(
@@ -116,7 +109,7 @@ class Request:
         """The recording as a page compares its frames: muscles by their envelopes."""
         from kineme.recordings import Signals
 
-        if not (self.emg and isinstance(recording, Signals)):
+        if not (self.options.emg and isinstance(recording, Signals)):
             return recording
         from kineme.features.emg import emg_envelope
 

@@ -55,7 +55,8 @@ class ToldConstants(BaselineConstants):
         """The number of actions; ParameterError if nobody said."""
         if self.n_classes is None:
             raise ParameterError(
-                f"{self.name} has to be told the number of actions: give n_classes (--n-classes)"
+                f"{self.name} has to be told the number of actions: give n_classes "
+                "(--set n_classes=4)"
             )
         return self.n_classes
 

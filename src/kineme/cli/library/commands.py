@@ -1,0 +1,237 @@
+"""``kineme library show``, ``query``, ``export``, ``name``, ``merge``, ``split``: what is kept.
+
+Each opens the library first, the argument ``LIB``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from json import dumps
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kineme._counts import counted
+from kineme.cli.help import OUTPUT
+from kineme.cli.messages import Failures, one_line
+
+if TYPE_CHECKING:
+    from kineme.library import Library
+
+UNSURE = 8
+"""Of what is unsure, so many are shown."""
+SHOWN = 1000
+"""Rows of an answer that are printed as a table."""
+
+
+def path_or_url(text: str) -> Path:
+    """A place that was typed."""
+    from kineme.errors import KinemeError
+    from kineme.library.storage.places import place
+
+    try:
+        return place(text)
+    except KinemeError as error:
+        raise typer.BadParameter(str(error)) from error
+
+
+Folder = Annotated[
+    Path,
+    typer.Argument(
+        parser=path_or_url,
+        metavar="LIB",
+        help="Library that `kineme library build` made, a folder or a URL.",
+    ),
+]
+Json = Annotated[
+    bool, typer.Option("--json", help="Print JSON, one object a line.", rich_help_panel=OUTPUT)
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ADDRESS",
+        help="Work on the computers of this dask scheduler, such as tcp://10.0.0.1:8786.",
+    ),
+]
+Cluster = Annotated[str, typer.Argument(help="A cluster by its number or name.")]
+
+
+@contextmanager
+def opened(folder: Path) -> Iterator[Library]:
+    """The library; what goes wrong with it in the block is said, and ends the command with 1."""
+    failures = Failures()
+    with failures.caught(folder):
+        from kineme.library import Library
+
+        yield Library(folder)
+    failures.exit()
+
+
+def show(
+    folder: Folder,
+    pictures: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="Write a strip of small figures for each cluster into this folder, as PNG.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Tell the recordings, hours and clusters of a library, and which names are unsure."""
+    with opened(folder) as library:
+        if pictures is not None:
+            library.pictures(pictures)
+        if json:
+            typer.echo(dumps(_facts(library)))
+        else:
+            _show_library(library)
+
+
+def query(
+    folder: Folder,
+    sql: Annotated[
+        str,
+        typer.Argument(
+            help="Such as: select label, count(*) from segments group by label. The tables are "
+            "segments, recordings, clusters, words and embeddings."
+        ),
+    ],
+    json: Json = False,
+) -> None:
+    """Ask a library in SQL, by DuckDB."""
+    with opened(folder) as library:
+        answer = library.query(sql)
+        if json:
+            for row in answer.to_pylist():
+                typer.echo(dumps(row, default=str))
+        else:
+            _show_answer(answer)
+
+
+def export(
+    folder: Folder,
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            help="File to write: .parquet, .csv or .tsv.",
+            rich_help_panel=OUTPUT,
+        ),
+    ],
+    table: Annotated[
+        str,
+        typer.Option(metavar="NAME", help="segments, recordings, clusters, words or embeddings."),
+    ] = "segments",
+) -> None:
+    """Write one table of a library: its segments, with a column for the recording."""
+    with opened(folder) as library:
+        library.export(output, table)
+
+
+def name(
+    folder: Folder,
+    cluster: Cluster,
+    label: Annotated[str, typer.Argument(help="Its name in all recordings; '' takes it away.")],
+) -> None:
+    """Name a cluster, once for all recordings."""
+    with opened(folder) as library:
+        library.name(cluster, label)
+
+
+def merge(
+    folder: Folder,
+    cluster: Cluster,
+    others: Annotated[list[str], typer.Argument(help="Clusters that are the same.")],
+) -> None:
+    """Make other clusters part of one, which keeps its number and name."""
+    with opened(folder) as library:
+        library.merge(cluster, *others)
+
+
+def split(
+    folder: Folder,
+    cluster: Cluster,
+    recordings: Annotated[
+        list[str], typer.Argument(help="Names of recordings where it is something else.")
+    ],
+) -> None:
+    """Make what a cluster has in some recordings a cluster of its own; its number is printed."""
+    with opened(folder) as library:
+        typer.echo(library.split(cluster, recordings))
+
+
+def _facts(library: Library) -> dict[str, Any]:
+    return {
+        "recordings": len(library),
+        "hours": library.hours,
+        "clusters": [cluster._asdict() for cluster in library.clusters()],
+        "unsure": [word._asdict() for word in library.unsure()],
+        "failed": library.failed,
+        "sources": library.head["sources"],
+        "settings": library.head["settings"],
+    }
+
+
+def _show_library(library: Library) -> None:
+    from rich.text import Text
+
+    from kineme.cli.tables import cluster_cell, new_table
+    from kineme.cli.terminal import Console
+
+    console = Console(highlight=False)
+    console.print(Text(str(library.folder), style="bold"))
+    n = len(library)
+    console.print(f"{counted(n, 'recording')}, {library.hours:.2f} h")
+    table = new_table(
+        "cluster", "label", "recordings", "activities", "repetitions", "minutes", "typical s",
+        "example",
+    )  # fmt: skip
+    for each in library.clusters():
+        table.add_row(
+            cluster_cell(each.cluster),
+            Text(each.label),
+            *map(str, (each.recordings, each.activities, each.repetitions)),
+            f"{each.seconds / 60:.1f}",
+            f"{each.typical_s:.2f}",
+            Text(f"{each.example}@{each.start_s:.2f}-{each.stop_s:.2f}"),
+        )
+    console.print(table)
+    unsure = library.unsure()
+    for word in unsure[:UNSURE]:
+        console.print(
+            Text(
+                f"unsure: cluster {word.cluster} in {word.recording}, {word.start_s:.2f} to "
+                f"{word.stop_s:.2f} s, may be {word.following}",
+                style="dim",
+            )
+        )
+    if len(unsure) > UNSURE:
+        console.print(Text(f"and {len(unsure) - UNSURE} more that are unsure", style="dim"))
+    for path, reason in library.failed.items():
+        console.print(Text(f"failed: {one_line(reason, subject=path)}"), soft_wrap=True)
+
+
+def _show_answer(answer: Any) -> None:
+    from rich.text import Text
+
+    from kineme.cli.tables import new_table
+    from kineme.cli.terminal import Console
+
+    console = Console(highlight=False)
+    table = new_table(*answer.column_names)
+    for row in answer.slice(0, SHOWN).to_pylist():
+        table.add_row(*(Text(_cell(value)) for value in row.values()))
+    console.print(table)
+    if len(answer) > SHOWN:
+        console.print(f"and {counted(len(answer) - SHOWN, 'row')} more: --json prints all")
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return ""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,165 @@
+"""How a command segments: ``--preset``, ``--set NAME=VALUE``, ``--detail``.
+
+All of it comes from the registered presets and what each `Constant` says of itself. A preset
+or a constant that is added, here or by another package, can be given to every command that
+segments. Values are typed as they are shown: ``0.5``, ``none``, ``yes``, ``1,1 2,1``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import NoneType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin
+
+import typer
+
+from kineme.cli.help import METHOD, PRESETS
+from kineme.errors import ParameterError
+from kineme.methods.presets import resolve_preset
+
+if TYPE_CHECKING:
+    from kineme.methods.constants import Constant
+
+SET = "--set"
+PRESET = typer.Option(
+    "--preset",
+    metavar="NAME",
+    help=f"How to segment: {PRESETS}. `kineme presets` says what each is for.",
+    rich_help_panel=METHOD,
+)
+PresetName = Annotated[str, PRESET]
+Constants = Annotated[
+    list[str] | None,
+    typer.Option(
+        SET,
+        metavar="NAME=VALUE",
+        help="Change a constant of the preset, such as min_action=2; may be given again. "
+        "`kineme presets NAME` lists them.",
+        rich_help_panel=METHOD,
+    ),
+]
+DETAIL = typer.Option(
+    "--detail",
+    metavar="NUMBER",
+    help="Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as "
+    "0.5.",
+    rich_help_panel=METHOD,
+)
+Detail = Annotated[float, DETAIL]
+
+
+def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:
+    """The constants in texts such as ``min_action=2``, checked.
+
+    Parameters
+    ----------
+    presets : sequence of str
+        Names of those that they are for; each takes the constants that it has.
+    given : sequence of str
+
+    Raises
+    ------
+    typer.BadParameter
+        No such preset, a constant that none of them has, or a value that it cannot take.
+
+    Examples
+    --------
+    >>> constants_of(["kineme"], ["min-action=2", "bands=0.5,2"])
+    {'min_action': 2.0, 'bands': (0.5, 2.0)}
+    """
+    typed = dict(map(_divided, given))
+    try:
+        chosen = [resolve_preset(name) for name in presets]
+    except ParameterError as error:
+        raise typer.BadParameter(str(error), param_hint="--preset") from error
+    try:
+        known = {each.name: each for preset in reversed(chosen) for each in preset.constants()}
+        for name in typed.keys() - known.keys():
+            resolve_preset(presets[0], signals=False, **{name: typed[name]})  # says which
+        values = {name: parsed(known[name], text) for name, text in typed.items()}
+        for preset in chosen:
+            own = preset.parameters()
+            preset.replace(**{name: value for name, value in values.items() if name in own})
+    except ParameterError as error:
+        raise typer.BadParameter(str(error), param_hint=SET) from error
+    return values
+
+
+def _divided(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not equals:
+        told = f"give NAME=VALUE, such as min_action=2, not {text!r:.60}"
+        raise typer.BadParameter(told, param_hint=SET)
+    return name.strip().replace("-", "_"), value
+
+
+def parsed(constant: Constant, text: str) -> Any:
+    """A text as a value of the type that a constant has.
+
+    Raises
+    ------
+    ParameterError
+        It is none; the message says which would be.
+
+    Examples
+    --------
+    >>> from kineme.methods import PRESETS
+    >>> known = {each.name: each for each in PRESETS["voegele2014"].constants()}
+    >>> parsed(known["max_lag"], "none"), parsed(known["offsets"], "-0.1,0,0.1")
+    (None, (-0.1, 0.0, 0.1))
+    """
+    try:
+        return _value(constant.hint, text.strip())
+    except (ValueError, KeyError):
+        words = f"{_words(constant.hint)} {constant.allowed} {constant.unit}"
+        told = " ".join(words.split())
+        raise ParameterError(f"{constant.name} must be {told}, not {text!r:.60}") from None
+
+
+def shown(value: Any) -> str:
+    """A value as it would be typed, numbers to four digits.
+
+    Examples
+    --------
+    >>> shown(((1, 1), (2, 1))), shown(None), shown(True), shown(1 / 3), shown(1e4)
+    ('1,1 2,1', 'none', 'yes', '0.3333', '10000')
+    """
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, tuple):
+        between = " " if value and isinstance(value[0], tuple) else ","
+        return between.join(map(shown, value))
+    if isinstance(value, float):
+        text = f"{value:.4g}"
+        return f"{value:.0f}" if "e+" in text else text
+    return "none" if value is None else str(value)
+
+
+def _words(hint: Any) -> str:
+    """What values of a type are, before the values that they may take."""
+    members = get_args(hint)
+    if NoneType in members:
+        hint = _without_none(hint)
+        members = get_args(hint)
+    if get_origin(hint) is tuple:
+        pairs = get_origin(members[0]) is tuple
+        return "pairs such as 1,1 2,1, each" if pairs else "numbers with commas between them, each"
+    return {int: "a whole number,", float: "a number,"}.get(hint, "one of")
+
+
+def _value(hint: Any, text: str) -> Any:
+    members = get_args(hint)
+    if NoneType in members:
+        return None if text.lower() == "none" else _value(_without_none(hint), text)
+    if get_origin(hint) is Literal:
+        return {str(member): member for member in members}[text]
+    if get_origin(hint) is tuple:
+        parts = text.split() if get_origin(members[0]) is tuple else text.split(",")
+        return tuple(_value(members[0], part) for part in parts)
+    if hint is bool:
+        return {"true": True, "yes": True, "false": False, "no": False}[text.lower()]
+    return hint(text)
+
+
+def _without_none(hint: Any) -> Any:
+    return next(member for member in get_args(hint) if member is not NoneType)
