@@ -35,7 +35,7 @@ def conforms(kind: type, answer: dict[str, Any]) -> bool:
     """Whether an answer has exactly the fields of its message, each of its own type."""
     typed = copy.deepcopy(answer)
     for row in typed.get("segmentation", {}).get("segments", []):
-        for name in ("score", "border_confidence"):  # JSON has no nan
+        for name in ("confidence", "border_confidence"):  # JSON has no nan
             row[name] = math.nan if row[name] is None else row[name]
     return json.loads(to_json(msgspec.convert(typed, kind))) == answer
 

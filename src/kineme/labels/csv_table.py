@@ -38,9 +38,16 @@ from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span
 from kineme.segments.editing.comments import from_rows, in_rows
-from kineme.segments.row import START_TIME
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, COMMENT, DESCRIBED, Level, Segment, lacking
+from kineme.segments.table import (
+    COLUMNS,
+    COMMENT,
+    START_TIME,
+    Level,
+    Segment,
+    lacking,
+    present_names,
+)
 
 Unit = Literal["seconds", "frames"]
 SPANS: dict[Unit, tuple[str, str]] = {
@@ -169,15 +176,15 @@ def _count(row: dict[str, str], path: Path, line: int) -> int | None:
 def _columns(
     rows: csv.DictReader[str], path: Path, *, commas: bool = False
 ) -> dict[str, list[Any]]:
-    there = rows.fieldnames or ()
-    columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in there}
+    places = present_names({name: name for name in rows.fieldnames or ()})
+    columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in places}
     try:
-        missing = lacking(there)
+        missing = lacking(columns)
         if missing:
             raise ReadError(path, f"is not a segment table: it has no column {missing[0]!r}")
         for row in rows:
             for name, column in columns.items():
-                column.append(_cell(row[name], name, path, rows.line_num, commas=commas))
+                column.append(_cell(row[places[name]], name, path, rows.line_num, commas=commas))
     except csv.Error as error:
         raise ReadError(path, f"is not valid CSV: {error}", line=rows.line_num) from error
     if not columns["level"]:
@@ -188,7 +195,7 @@ def _columns(
 def _cell(text: str | None, name: str, path: Path, line: int, *, commas: bool) -> str | float:
     if text is None:
         raise ReadError(path, f"the line ends before column {name!r}", line=line)
-    kind = DESCRIBED[name].type if name in DESCRIBED else str
+    kind = COLUMNS[name].type if name in COLUMNS else str
     if kind is str:
         return from_text(text)
     if kind is float and not text.strip():

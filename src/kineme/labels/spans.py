@@ -1,9 +1,9 @@
 """Spans with a text each: what label formats hold, and the way there and back.
 
-A segment becomes one text: its label; without one ``transition``, ``cluster 3``
-or ``activity``. A text that is read is taken for what those words say, any
+A segment becomes one text: its label; without one ``transition``, ``cluster 3``,
+``activity`` or ``primitive``. A text that is read is taken for what those words say, any
 other for the label of an activity. So a labelled segment loses its cluster, a
-labelled transition its kind, and every segment its score, but where the format
+labelled transition its kind, and every segment its confidence, but where the format
 has columns for them.
 
 Reading tiles: what no span covers is a transition. Spans of one level must not
@@ -26,11 +26,11 @@ from typing import Any, Literal, NamedTuple
 from kineme._counts import counted
 from kineme.errors import ParameterError, ReadError
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Kind, Level, Segment
+from kineme.segments.table import Kind, Level, Segment, kind_of
 
 TOO_FAR = 2**53
 """Frames that a float no longer tells from their neighbours."""
-COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "score")
+COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "confidence")
 
 Row = tuple[Level, Kind, int, int, int, str, float]
 
@@ -43,7 +43,7 @@ class Span(NamedTuple):
     text: str
     level: Level = "activity"
     cluster: int = -1
-    score: float = math.nan
+    confidence: float = math.nan
     repetitions: int | None = None
 
 
@@ -77,16 +77,16 @@ class Labels:
 
 def text_of(row: Segment) -> str:
     """The text of a segment: its label, or what else tells it from others."""
-    if row.label or row.kind == "transition":
-        return row.label or "transition"
-    return f"cluster {row.cluster}" if row.cluster >= 0 else "activity"
+    if row.label or row.kind == "transition" or row.cluster < 0:
+        return row.label or row.kind
+    return f"cluster {row.cluster}"
 
 
 def meaning(text: str) -> tuple[Kind, int, str]:
-    """Kind, cluster and label of a text: the inverse of `text_of`."""
+    """Kind, cluster and label of a text on the activity level: the inverse of `text_of`."""
     if text == "transition":
         return "transition", -1, ""
-    if text in ("activity", ""):
+    if text in ("activity", "primitive", ""):
         return "activity", -1, ""
     cluster = re.fullmatch(r"cluster[ _]([0-9]{1,9})", text)
     return ("activity", int(cluster[1]), "") if cluster else ("activity", -1, text)
@@ -186,7 +186,8 @@ def _meant(span: Span, per_unit: float, path: Path) -> Row:
     if stop < start:
         raise ReadError(path, f"{span.text!r:.60} stops at {span.stop}, before {span.start}")
     kind, cluster, label = meaning(one_line(span.text))
-    return span.level, kind, start, stop, max(cluster, span.cluster), label, span.score
+    kind = kind_of(span.level, transition=kind == "transition")
+    return span.level, kind, start, stop, max(cluster, span.cluster), label, span.confidence
 
 
 def _frame(value: float, per_unit: float, path: Path) -> int:
@@ -205,7 +206,11 @@ def _as_long_as_a_frame(rows: list[Row], n_frames: int) -> list[Row]:
 def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
     """The rows of each level with the gaps between them filled, no gap across an activity's end."""
     if all(row[0] == "primitive" for row in full):
-        full = [("activity", *row[1:]) for row in full]
+        activity: Level = "activity"
+        full = [
+            (activity, kind_of(activity, transition=row[1] == "transition"), *row[2:])
+            for row in full
+        ]
     inner = [row for row in full if row[0] == "primitive"]
     tiled = list(_tiled([row for row in full if row[0] == "activity"], n_frames, [], path))
     if inner:

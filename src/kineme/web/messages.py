@@ -25,7 +25,7 @@ class CommentAt(Struct, frozen=True, kw_only=True):
 
 
 class Segments(Struct, frozen=True, kw_only=True):
-    """A segment table as its JSON file has it (``kineme.segments/1``), and what people did to it.
+    """A segment table as its JSON file has it (``kineme.segments/2``), and what people did to it.
 
     ``cluster_names`` has the names of clusters by their numbers; ``checked`` and ``by_hand``
     are numbers of rows.

@@ -12,6 +12,8 @@ two sides differ.
 
 from __future__ import annotations
 
+import json
+import math
 import re
 from pathlib import Path
 from types import ModuleType, UnionType
@@ -20,14 +22,19 @@ from typing import Any, Literal, get_origin
 from msgspec import Struct, inspect
 
 from kineme._files import atomic_write
-from kineme.segments.table import Kind, Level, Segment
+from kineme.segments.table import COLUMNS, Kind, Level, Segment
 from kineme.web import edits, folder_messages, library_messages, messages, requests
 
 TARGET = Path(__file__).parent / "src" / "messages.ts"
 HEAD = (
     "// Made from kineme/web (messages, edits, requests) by make_messages.py; change them there.\n"
 )
-NULL_FOR_NAN = {(Segment, "score"), (Segment, "border_confidence")}  # JSON has no nan
+FIRST = {str: "activity", int: 0, float: 0.0}
+"""What a column that is always needed has in a row of which nothing is known."""
+BARE = {
+    name: FIRST[column.type] if column.default is None else column.default
+    for name, column in COLUMNS.items()
+}
 PLAIN: dict[Any, str] = {
     inspect.StrType: "string",
     inspect.IntType: "number",
@@ -94,9 +101,24 @@ def _interface(kind: Any, aliases: dict[str, inspect.Type]) -> str:
         lines.append(f'  {info.tag_field}: "{info.tag}";')
     for field in info.fields:
         said = _type(field.type, aliases)
-        null = " | null" if (kind, field.name) in NULL_FOR_NAN else ""
-        lines.append(f"  {field.encode_name}{'' if field.required else '?'}: {said}{null};")
+        may_lack = _is_struct(kind) and not field.required  # rows are told whole
+        null = " | null" if kind is Segment and _is_nan(BARE[field.name]) else ""
+        lines.append(f"  {field.encode_name}{'?' if may_lack else ''}: {said}{null};")
     return "\n".join([*lines, "}\n"])
+
+
+def _is_nan(value: Any) -> bool:
+    return isinstance(value, float) and math.isnan(value)  # null in JSON
+
+
+def _bare_segment() -> str:
+    """A row of which nothing is known, for tests to fill."""
+    cells = "".join(
+        f"  {name}: {json.dumps(None if _is_nan(value) else value)},\n"
+        for name, value in BARE.items()
+    )
+    declared = "export const bareSegment: Segment"
+    return f"/** A row of which nothing is known. */\n{declared} = {{\n{cells}}};\n"
 
 
 def _type(info: Any, aliases: dict[str, inspect.Type]) -> str:
@@ -143,9 +165,8 @@ def _comment(text: str) -> str:
 def messages_typescript() -> str:
     """What ``messages.ts`` holds."""
     of_table = {"Level": Level, "Kind": Kind, "Segment": Segment}
-    return typescript(
-        of_table | types_of(messages, folder_messages, edits, requests, library_messages)
-    )
+    types = types_of(messages, folder_messages, edits, requests, library_messages)
+    return f"{typescript(of_table | types)}\n{_bare_segment()}"
 
 
 if __name__ == "__main__":

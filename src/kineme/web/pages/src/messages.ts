@@ -2,7 +2,7 @@
 
 export type Level = "activity" | "primitive";
 
-export type Kind = "activity" | "transition";
+export type Kind = "activity" | "primitive" | "transition";
 
 /** One row of the table: a span `[start_frame, stop_frame)` and what it is. */
 export interface Segment {
@@ -15,7 +15,7 @@ export interface Segment {
   cluster: number;
   activity: number;
   label: string;
-  score: number | null;
+  confidence: number | null;
   action: number;
   border_confidence: number | null;
 }
@@ -30,7 +30,7 @@ export interface CommentAt {
 }
 
 /**
- * A segment table as its JSON file has it (`kineme.segments/1`), and what people did to it.
+ * A segment table as its JSON file has it (`kineme.segments/2`), and what people did to it.
  *
  * `cluster_names` has the names of clusters by their numbers; `checked` and `by_hand`
  * are numbers of rows.
@@ -349,7 +349,11 @@ export interface SetCluster {
   cluster: number;
 }
 
-/** The segment that starts at `frame` is an activity, or a transition and in no cluster. */
+/**
+ * The segment that starts at `frame` is a transition and in no cluster, or none.
+ *
+ * `to` is `transition`, or what its level says.
+ */
 export interface SetKind {
   kind: "set_kind";
   level: Level;
@@ -620,3 +624,19 @@ export interface PartCluster {
 }
 
 export type LibraryEdit = CallCluster | JoinClusters | PartCluster;
+
+/** A row of which nothing is known. */
+export const bareSegment: Segment = {
+  level: "activity",
+  kind: "activity",
+  start_frame: 0,
+  stop_frame: 0,
+  start_s: 0.0,
+  stop_s: 0.0,
+  cluster: -1,
+  activity: 0,
+  label: "",
+  confidence: null,
+  action: -1,
+  border_confidence: null,
+};

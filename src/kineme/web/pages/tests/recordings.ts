@@ -1,21 +1,18 @@
 /** Small recordings for tests. */
-import type { MotionHead, Segment, Segments } from "../src/messages";
+import { bareSegment, type MotionHead, type Segment, type Segments } from "../src/messages";
 import type { Motion } from "../src/motion";
 
 export function segment(start: number, stop: number, more: Partial<Segment> = {}): Segment {
+  const level = more.level ?? "primitive";
   return {
-    level: "primitive",
-    kind: "activity",
+    ...bareSegment,
+    level,
+    kind: level,
     start_frame: start,
     stop_frame: stop,
     start_s: start / 10,
     stop_s: stop / 10,
     cluster: 0,
-    activity: 0,
-    label: "",
-    score: null,
-    action: -1,
-    border_confidence: null,
     ...more,
   };
 }
