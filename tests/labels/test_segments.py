@@ -326,7 +326,7 @@ def test_comments_are_a_column_that_is_read_again(tmp_path: Path, suffix: str) -
     path = tmp_path / f"take{suffix}"
     table = read_segments(bundled_truth(), fps=60)
     write_segments(table, path)
-    assert read_segments(path).provenance.get("comments") is None
+    assert read_segments(path).annotation.comments == ()
     first = table.table[0]
     said = editing.comment(table, first.level, first.start_frame, "=slips, twice\nand falls")
     write_segments(said, path)

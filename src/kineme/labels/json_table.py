@@ -8,6 +8,7 @@ One object:
       "fps": 120.0,                frames per second of the source file
       "provenance": {...},         as in Segmentation
       "timings": {"graph": 0.02},  seconds per stage
+      "annotation": {...},         what people did, where they did anything
       "hierarchy": {               where there are other details: all, ascending
         "detail": 1.0,             that of "segments"
         "levels": [                each with its table by columns; that of "segments" without
@@ -25,7 +26,8 @@ One object:
 The columns are those of `kineme.segments.table`; a number that nobody knows is
 ``null``. A reader must ignore names it does not know; a change that old
 readers would misunderstand gets the next number. In ``kineme.segments/1``, which is read as
-well, ``confidence`` is called ``score``, and a primitive is of kind ``activity``.
+well, ``confidence`` is called ``score``, a primitive is of kind ``activity``, and what is in the
+annotation stands in the provenance.
 """
 
 from __future__ import annotations
@@ -42,6 +44,7 @@ from kineme._json import decoded
 from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
+from kineme.segments.annotation import Annotation, parted
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, Column, Segment, lacking, present_names
@@ -107,6 +110,8 @@ def head_of(segmentation: Segmentation) -> dict[str, Any]:
         "provenance": segmentation.provenance,
         "timings": segmentation.timings,
     }
+    if annotation := segmentation.annotation.to_json():
+        head["annotation"] = annotation
     if segmentation.hierarchy is not None:
         head["hierarchy"] = _levels(segmentation.hierarchy)
     return head
@@ -137,7 +142,15 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     for name, value in notes.items():
         if not isinstance(value, dict):
             raise ReadError(path, f'"{name}" must be an object, not {value!r:.40}')
-    found = Segmentation.from_columns(columns, n_frames=n_frames, fps=fps, **notes)
+    provenance, older = parted(notes["provenance"])
+    found = Segmentation.from_columns(
+        columns,
+        n_frames=n_frames,
+        fps=fps,
+        provenance=provenance,
+        timings=notes["timings"],
+        annotation=Annotation.from_json(head.get("annotation", older)),
+    )
     if "hierarchy" not in head:
         return found
     try:
@@ -169,6 +182,16 @@ def json_schema() -> dict[str, Any]:
         "provenance": _object(provenance),
         "timings": {"type": "object", "additionalProperties": number},
     }
+    of, whole = {"enum": [*COLUMNS["level"].allowed]}, {"type": "integer", "minimum": 0}
+    span = {"type": "array", "prefixItems": [of, whole, whole], "minItems": 3}
+    said = {"type": "array", "prefixItems": [of, whole, text], "minItems": 3}
+    annotation = {
+        "checked": {"type": "array", "items": span},
+        "by_hand": {"type": "array", "items": span},
+        "comments": {"type": "array", "items": said},
+        "cluster_names": {"type": "object", "additionalProperties": text},
+        "corrections": whole,
+    }
     rows = {"type": "array", "minItems": 1, "items": _object(columns, required=lacking(()))}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -177,6 +200,7 @@ def json_schema() -> dict[str, Any]:
         **_object(
             {
                 **head,
+                "annotation": _object(annotation),
                 "hierarchy": _object(
                     {"detail": positive, "levels": levels}, required=["detail", "levels"]
                 ),

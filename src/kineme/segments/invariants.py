@@ -43,11 +43,6 @@ class Provenance(TypedDict, total=False):
     parameters: dict[str, Any]
     notes: list[str]
     gaps: list[tuple[int, int]]
-    by_hand: list[tuple[str, int, int]]
-    checked: list[tuple[str, int, int]]
-    comments: list[tuple[str, int, str]]
-    cluster_names: dict[str, str]
-    corrections: int
 
 
 def check_recording(n_frames: int, fps: float) -> None:

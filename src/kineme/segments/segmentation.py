@@ -17,6 +17,7 @@ from kineme._checks import check_type, is_one_of
 from kineme._clock import Clock
 from kineme._counts import counted
 from kineme.errors import ParameterError
+from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.invariants import (
     as_provenance,
@@ -62,6 +63,8 @@ class Segmentation:
     hierarchy : Hierarchy, optional
         The tables at other details, and this one among them; what `level` gives by number.
         None where there is one detail, and where the table is not one of them (any more).
+    annotation : Annotation
+        What people did to the table.
 
     Raises
     ------
@@ -86,11 +89,13 @@ class Segmentation:
     provenance: Mapping[str, Any] = field(default_factory=dict)
     timings: Mapping[str, float] = field(default_factory=dict, compare=False)
     hierarchy: Hierarchy | None = None
+    annotation: Annotation = NO_ANNOTATION
 
     def __post_init__(self) -> None:
         check_type(
             self.table, SegmentTable, "Segmentation", "Segmentation.from_columns takes columns"
         )
+        check_type(self.annotation, Annotation, "Segmentation", "Annotation() is one of nothing")
         check_recording(self.n_frames, self.fps)
         activities, primitives = self.activities, self.primitives
         check_tiles(activities, "activity", self.n_frames)
@@ -112,6 +117,7 @@ class Segmentation:
         fps: float,
         provenance: Mapping[str, Any] | None = None,
         timings: Mapping[str, float] | None = None,
+        annotation: Annotation = NO_ANNOTATION,
     ) -> Segmentation:
         """A segmentation from columns in any row order.
 
@@ -131,6 +137,8 @@ class Segmentation:
             Frames per second.
         provenance, timings : mapping, optional
             As in `Segmentation`.
+        annotation : Annotation
+            What people did to the table.
 
         Returns
         -------
@@ -146,7 +154,7 @@ class Segmentation:
         table = segment_table(columns, float(fps))
         said = {} if provenance is None else provenance
         spent = {} if timings is None else timings
-        return cls(table, int(n_frames), float(fps), said, spent)
+        return cls(table, int(n_frames), float(fps), said, spent, annotation=annotation)
 
     @property
     def activities(self) -> SegmentTable:

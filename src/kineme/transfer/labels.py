@@ -130,6 +130,7 @@ def transfer_labels(
         segmentation.fps,
         _provenance(segmentation, labels[todo], costs, threshold, spread=spread),
         segmentation.timings,
+        annotation=segmentation.annotation,
     )
 
 

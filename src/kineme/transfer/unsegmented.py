@@ -85,6 +85,7 @@ def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmen
         fps=segmentation.fps,
         provenance=segmentation.provenance,
         timings=segmentation.timings,
+        annotation=segmentation.annotation,
     )
 
 

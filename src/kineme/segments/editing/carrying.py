@@ -18,9 +18,10 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.segments.annotation import Span
 from kineme.segments.editing.comments import comments, with_comments
 from kineme.segments.editing.imposing import imposed, in_the_middle, overlap
-from kineme.segments.editing.marks import Mark, Span, marked, span_of, with_marks
+from kineme.segments.editing.marks import Mark, marked, span_of, with_marks
 from kineme.segments.editing.naming import cluster_names, name_cluster, with_cluster_names
 from kineme.segments.editing.rows import Rows, length, with_rows
 from kineme.segments.segmentation import Segmentation
@@ -73,9 +74,9 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
     for mark, spans in marks.items():
         now = with_marks(now, mark, spans)
     now = with_comments(now, comments(before))
-    if "corrections" in before.provenance and fixed:
-        corrections = {"corrections": before.provenance["corrections"]}
-        now = replace(now, provenance={**now.provenance, **corrections})
+    if fixed:
+        corrections = before.annotation.corrections
+        now = replace(now, annotation=replace(now.annotation, corrections=corrections))
     return _named(now, before, len(fixed))
 
 

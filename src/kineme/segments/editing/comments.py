@@ -1,31 +1,19 @@
-"""What people say about segments.
-
-A comment is at a frame of a level, and so of the segment that holds this frame, whatever becomes
-of its borders: no edit and no new segmentation loses one. They are in the provenance
-(``comments``), a list of ``[level, frame, text]``.
-"""
+"""What people say about segments: comments in the `kineme.segments.annotation`."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
+from kineme.segments.annotation import Comment
 from kineme.segments.editing.rows import starting
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
-Comment = tuple[Level, int, str]
-
 
 def comments(segmentation: Segmentation) -> list[Comment]:
     """Level, frame and text of each, in time order."""
-    said: Any = segmentation.provenance.get("comments")
-    found = said if isinstance(said, list) else []
-    return sorted(
-        (tuple(each) for each in found if isinstance(each, list) and len(each) == 3),
-        key=lambda each: (each[1], each[0]),
-    )
+    return sorted(segmentation.annotation.comments, key=lambda each: (each[1], each[0]))
 
 
 def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> Segmentation:
@@ -83,11 +71,8 @@ def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
 
 def with_comments(segmentation: Segmentation, said: list[Comment]) -> Segmentation:
     """The same segments with these comments and no others."""
-    kept = segmentation.provenance.items()
-    provenance = {name: what for name, what in kept if name != "comments"}
-    if said:
-        provenance["comments"] = [list(each) for each in said]
-    return replace(segmentation, provenance=provenance)
+    annotation = replace(segmentation.annotation, comments=tuple(said))
+    return replace(segmentation, annotation=annotation)
 
 
 def _of(row: Segment, text: str) -> Comment:

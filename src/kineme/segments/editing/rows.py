@@ -137,4 +137,5 @@ def with_rows(
         fps=segmentation.fps,
         provenance=segmentation.provenance,
         timings=segmentation.timings,
+        annotation=segmentation.annotation,
     )

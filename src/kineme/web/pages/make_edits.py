@@ -66,7 +66,7 @@ def _chain(chance: Chance, seed: int) -> dict[str, Any]:
             made = edited(table, edit, None, None, None).table  # type: ignore[arg-type]
             table, ids = made, ids.after(table, made, name)
             after = _told(table, ids)
-            del after["provenance"]
+            del after["annotation"]
         except ParameterError:
             pass
         steps.append({"edit": said, "name": name, "after": after})
@@ -77,7 +77,7 @@ def _told(table: Segmentation, ids: Identities) -> dict[str, Any]:
     """What a page is told of a table, as far as edits change it; rows without names of columns."""
     message = json.loads(to_json(segments_message(table)))
     rows = [[row[name] for name in TOLD] for row in message["segments"]]
-    names = ("cluster_names", "checked", "by_hand", "comments", "provenance")
+    names = ("cluster_names", "checked", "by_hand", "comments", "annotation")
     return {"rows": rows, "ids": ids.of(table), **{name: message[name] for name in names}}
 
 

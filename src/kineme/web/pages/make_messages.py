@@ -19,9 +19,10 @@ from pathlib import Path
 from types import ModuleType, UnionType
 from typing import Any, Literal, get_origin
 
-from msgspec import Struct, inspect
+from msgspec import Struct, inspect, to_builtins
 
 from kineme._files import atomic_write
+from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.table import COLUMNS, Kind, Level, Segment
 from kineme.web import edits, folder_messages, library_messages, messages, requests
 
@@ -101,7 +102,7 @@ def _interface(kind: Any, aliases: dict[str, inspect.Type]) -> str:
         lines.append(f'  {info.tag_field}: "{info.tag}";')
     for field in info.fields:
         said = _type(field.type, aliases)
-        may_lack = _is_struct(kind) and not field.required  # rows are told whole
+        may_lack = _is_struct(kind) and not field.required  # dataclasses are told whole
         null = " | null" if kind is Segment and _is_nan(BARE[field.name]) else ""
         lines.append(f"  {field.encode_name}{'?' if may_lack else ''}: {said}{null};")
     return "\n".join([*lines, "}\n"])
@@ -111,14 +112,19 @@ def _is_nan(value: Any) -> bool:
     return isinstance(value, float) and math.isnan(value)  # null in JSON
 
 
-def _bare_segment() -> str:
-    """A row of which nothing is known, for tests to fill."""
+def _bare() -> str:
+    """A row and an annotation of which nothing is known, for tests to fill."""
     cells = "".join(
         f"  {name}: {json.dumps(None if _is_nan(value) else value)},\n"
         for name, value in BARE.items()
     )
-    declared = "export const bareSegment: Segment"
-    return f"/** A row of which nothing is known. */\n{declared} = {{\n{cells}}};\n"
+    segment = f"export const bareSegment: Segment = {{\n{cells}}};\n"
+    annotation = json.dumps(to_builtins(NO_ANNOTATION, str_keys=True))
+    return (
+        f"/** A row of which nothing is known. */\n{segment}\n"
+        "/** What nobody did anything to has. */\n"
+        f"export const bareAnnotation: Annotation = {annotation};\n"
+    )
 
 
 def _type(info: Any, aliases: dict[str, inspect.Type]) -> str:
@@ -137,7 +143,7 @@ def _type(info: Any, aliases: dict[str, inspect.Type]) -> str:
 
 
 def _container(info: Any, aliases: dict[str, inspect.Type]) -> str:
-    if isinstance(info, inspect.ListType):
+    if isinstance(info, inspect.ListType | inspect.VarTupleType):
         item = _type(info.item_type, aliases)
         return f"({item})[]" if " | " in item else f"{item}[]"
     if isinstance(info, inspect.TupleType):
@@ -164,9 +170,9 @@ def _comment(text: str) -> str:
 
 def messages_typescript() -> str:
     """What ``messages.ts`` holds."""
-    of_table = {"Level": Level, "Kind": Kind, "Segment": Segment}
+    of_table = {"Level": Level, "Kind": Kind, "Segment": Segment, "Annotation": Annotation}
     types = types_of(messages, folder_messages, edits, requests, library_messages)
-    return f"{typescript(of_table | types)}\n{_bare_segment()}"
+    return f"{typescript(of_table | types)}\n{_bare()}"
 
 
 if __name__ == "__main__":

@@ -20,6 +20,31 @@ export interface Segment {
   border_confidence: number | null;
 }
 
+/**
+ * What people did to a segment table.
+ *
+ * Attributes
+ * ----------
+ * checked : tuple of (level, start_frame, stop_frame)
+ * Segments that somebody looked at and found right, which no new segmentation changes.
+ * by_hand : tuple of (level, start_frame, stop_frame)
+ * Segments that somebody made, which no new segmentation changes.
+ * comments : tuple of (level, frame, text)
+ * What people said about segments.
+ * cluster_names : dict of str
+ * By cluster; empty for one that has none, whatever its segments are called. A cluster that
+ * is not there is called what more than half of its segments are.
+ * corrections : int
+ * How often the table was corrected.
+ */
+export interface Annotation {
+  checked: [Level, number, number][];
+  by_hand: [Level, number, number][];
+  comments: [Level, number, string][];
+  cluster_names: Record<number, string>;
+  corrections: number;
+}
+
 export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
 
 /** What somebody said about the segment that holds a frame. */
@@ -32,8 +57,8 @@ export interface CommentAt {
 /**
  * A segment table as its JSON file has it (`kineme.segments/2`), and what people did to it.
  *
- * `cluster_names` has the names of clusters by their numbers; `checked` and `by_hand`
- * are numbers of rows.
+ * What follows from rows and annotation: `cluster_names` has the names of clusters by their
+ * numbers; `checked` and `by_hand` are numbers of rows.
  */
 export interface Segments {
   schema: string;
@@ -41,6 +66,7 @@ export interface Segments {
   fps: number;
   provenance: Record<string, unknown>;
   timings: Record<string, number>;
+  annotation: Annotation;
   segments: Segment[];
   cluster_names: Record<string, string>;
   checked: number[];
@@ -640,3 +666,6 @@ export const bareSegment: Segment = {
   action: -1,
   border_confidence: null,
 };
+
+/** What nobody did anything to has. */
+export const bareAnnotation: Annotation = {"checked": [], "by_hand": [], "comments": [], "cluster_names": {}, "corrections": 0};

@@ -1,5 +1,11 @@
 /** Small recordings for tests. */
-import { bareSegment, type MotionHead, type Segment, type Segments } from "../src/messages";
+import {
+  bareAnnotation,
+  bareSegment,
+  type MotionHead,
+  type Segment,
+  type Segments,
+} from "../src/messages";
 import type { Motion } from "../src/motion";
 
 export function segment(start: number, stop: number, more: Partial<Segment> = {}): Segment {
@@ -20,7 +26,7 @@ export function segment(start: number, stop: number, more: Partial<Segment> = {}
 /** A table of these segments. */
 export function tableOf(segments: Segment[], more: Partial<Segments> = {}): Segments {
   const n_frames = Math.max(...segments.map((each) => each.stop_frame), 0);
-  const bare = { schema: "", fps: 10, provenance: {}, timings: {} };
+  const bare = { schema: "", fps: 10, provenance: {}, timings: {}, annotation: bareAnnotation };
   return {
     ...bare,
     n_frames,

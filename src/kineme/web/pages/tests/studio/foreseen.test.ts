@@ -16,7 +16,7 @@ interface Edits {
   chains: Chain[];
 }
 interface Chain {
-  start: Said & Pick<Segments, "provenance">;
+  start: Said & Pick<Segments, "annotation">;
   steps: { edit: Edit; name: string; after: Said | null }[];
 }
 
@@ -37,7 +37,7 @@ function knownOf({ rows, ids, ...rest }: Chain["start"]): Known {
     action: actions[row.activity]!,
   }));
   const n_frames = segments.at(-1)!.stop_frame;
-  const table = { schema: "", n_frames, fps: FPS, timings: {}, ...rest, segments };
+  const table = { schema: "", n_frames, fps: FPS, provenance: {}, timings: {}, ...rest, segments };
   return { segmentation: table, ids };
 }
 
@@ -52,8 +52,8 @@ it.each(chains.map((chain, i) => [i, chain] as const))(
         continue;
       }
       const known = { segmentation: now, ids: idsAfter(before, now, name) };
-      const { provenance } = now;
-      expect(known, JSON.stringify(edit)).toEqual(knownOf({ ...after, provenance }));
+      const { annotation } = now;
+      expect(known, JSON.stringify(edit)).toEqual(knownOf({ ...after, annotation }));
       before = known;
     }
   },

@@ -1,5 +1,6 @@
 /** Small segment tables and recordings for the tests of the studio. */
 import {
+  bareAnnotation,
   bareSegment,
   type Level,
   type Recording,
@@ -32,6 +33,7 @@ export function table(): Segments {
     fps: FPS,
     provenance: {},
     timings: {},
+    annotation: bareAnnotation,
     cluster_names: {},
     checked: [],
     by_hand: [],

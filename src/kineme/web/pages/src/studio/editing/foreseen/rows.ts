@@ -2,25 +2,25 @@
  * Rows of one level and what an edit makes of them, as `kineme/segments/editing/rows.py` has it.
  * What the server will say counts; this is what the page shows until then.
  */
-import type { Kind, Level, Segment, Segments } from "../../../messages";
+import type { Annotation, Kind, Level, Segment, Segments } from "../../../messages";
 import { indexAt } from "../../../segments";
 
 export type Rows = readonly Segment[];
 
-/** A table while an edit is made on it; marks, names and comments are in its provenance. */
+/** A table while an edit is made on it. */
 export interface Draft {
   readonly fps: number;
   readonly activity: Rows;
   readonly primitive: Rows;
-  readonly provenance: Readonly<Record<string, unknown>>;
+  readonly annotation: Readonly<Annotation>;
 }
 
 /** The edit cannot be made; the server will say why. */
 export class Impossible extends Error {}
 
-export function draftOf({ fps, segments, provenance }: Segments): Draft {
+export function draftOf({ fps, segments, annotation }: Segments): Draft {
   const of = (level: Level): Rows => segments.filter((row) => row.level === level);
-  return { fps, activity: of("activity"), primitive: of("primitive"), provenance };
+  return { fps, activity: of("activity"), primitive: of("primitive"), annotation };
 }
 
 export function allRows({ activity, primitive }: Draft): Rows {
