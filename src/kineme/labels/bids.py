@@ -81,8 +81,10 @@ def read(path: Path) -> Labels:
     sidecar = _parsed(beside)
     facts = _facts(sidecar, beside)
     rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
-    own = max(rates, default=(0.0, None), key=itemgetter(0))[1]
-    notes = pairs.differences(path, beside, sidecar, pairs.digest(cuts), told=rate, own=own)
+    row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
+    notes = pairs.differences(
+        path, beside, sidecar, pairs.digest(cuts), head_rate=rate, row_rate=row_rate
+    )
     return Labels(spans, "seconds", rate, length, notes)
 
 
@@ -122,8 +124,8 @@ def _span(cells: dict[str, str], path: Path, line: int) -> Span:
 def _rate(cells: dict[str, str], stop_s: float) -> float | None:
     """The frame rate that a row tells by its last frame and second, if it has both."""
     text = cells.get("stop_frame", MISSING)
-    known = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
-    return int(text) / stop_s if known else None
+    valid = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
+    return int(text) / stop_s if valid else None
 
 
 def _facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:

@@ -59,7 +59,7 @@ ABOUT = (
 )
 """The head of the schema."""
 OLDER = ("kineme.segments/1",)
-HELD = tuple(name for name, known in COLUMNS.items() if not known.derived)
+HELD = tuple(name for name, column in COLUMNS.items() if not column.derived)
 """Of the tables at other details; the rest follows from these."""
 
 
@@ -71,9 +71,9 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
 
 def dumps(segmentation: Segmentation) -> str:
     """The JSON text: small parts indented, one line per segment."""
-    told = head_of(segmentation)
-    levels = told.get("hierarchy", {}).pop("levels", [])
-    head = json.dumps(told, indent=2).removesuffix("\n}")
+    content = head_of(segmentation)
+    levels = content.get("hierarchy", {}).pop("levels", [])
+    head = json.dumps(content, indent=2).removesuffix("\n}")
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
         head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
@@ -161,7 +161,7 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
 
 def json_schema() -> dict[str, Any]:
     """The JSON Schema of such a file, its columns as the table declares them."""
-    columns = {name: _schema_of(known) for name, known in COLUMNS.items()}
+    columns = {name: _schema_of(column) for name, column in COLUMNS.items()}
     text, number, names = {"type": "string"}, {"type": "number"}, {"type": ["string", "null"]}
     provenance = {
         "kineme": text,
@@ -184,11 +184,11 @@ def json_schema() -> dict[str, Any]:
     }
     of, whole = {"enum": [*COLUMNS["level"].allowed]}, {"type": "integer", "minimum": 0}
     span = {"type": "array", "prefixItems": [of, whole, whole], "minItems": 3}
-    said = {"type": "array", "prefixItems": [of, whole, text], "minItems": 3}
+    comment = {"type": "array", "prefixItems": [of, whole, text], "minItems": 3}
     annotation = {
         "checked": {"type": "array", "items": span},
         "by_hand": {"type": "array", "items": span},
-        "comments": {"type": "array", "items": said},
+        "comments": {"type": "array", "items": comment},
         "cluster_names": {"type": "object", "additionalProperties": text},
         "corrections": whole,
     }
@@ -222,11 +222,11 @@ def _schema_of(column: Column) -> dict[str, Any]:
     kind: str | list[str] = kinds[column.type]
     if column.type is float and column.default is not None:  # null where nothing is known
         kind = [kinds[float], "null"]
-    told: dict[str, Any] = {"enum": [*column.allowed]} if column.allowed else {"type": kind}
+    cell: dict[str, Any] = {"enum": [*column.allowed]} if column.allowed else {"type": kind}
     if column.least is not None:
-        told["minimum"] = column.least
+        cell["minimum"] = column.least
     unit = {"unit": column.unit} if column.unit else {}
-    return {"description": column.meaning, **told, **unit}
+    return {"description": column.meaning, **cell, **unit}
 
 
 def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
@@ -251,7 +251,7 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
             tables[level["detail"]] = found.table
             continue
         columns = {
-            name: [_known(value, name) for value in values]
+            name: [_or_nan(value, name) for value in values]
             for name, values in present_names(columns).items()
         }
         tables[level["detail"]] = Segmentation.from_columns(
@@ -262,10 +262,10 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
 
 def _value(row: dict[str, Any], name: str) -> Any:
     """A cell, or what holds where nothing is known: a number is null, an older file has none."""
-    return _known(row.get(name, COLUMNS[name].default), name)
+    return _or_nan(row.get(name, COLUMNS[name].default), name)
 
 
-def _known(value: Any, name: str) -> Any:
+def _or_nan(value: Any, name: str) -> Any:
     return math.nan if value is None and COLUMNS[name].type is float else value
 
 

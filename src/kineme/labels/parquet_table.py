@@ -38,8 +38,8 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     columns: dict[str, Any] = {**segmentation.table.columns()}
     if times := segmentation.start_times():
         columns[START_TIME] = times
-    if any(said := in_rows(segmentation)):
-        columns[COMMENT] = said
+    if any(comments := in_rows(segmentation)):
+        columns[COMMENT] = comments
     table = arrow.table(columns)
     table = table.replace_schema_metadata({KEY: json.dumps(head_of(segmentation)).encode()})
     with atomic_write(path) as draft:
@@ -62,8 +62,8 @@ def read(path: Path) -> Segmentation:
     found = with_head(columns, head, path)
     if COMMENT not in there:
         return found
-    said = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
-    return from_rows(found, [str(text or "") for text in said])
+    comments = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
+    return from_rows(found, [str(text or "") for text in comments])
 
 
 def _pyarrow() -> tuple[Any, Any]:

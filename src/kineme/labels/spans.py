@@ -125,8 +125,8 @@ def as_segmentation(
         No spans, an unknown frame rate, or spans that overlap or lie outside.
     """
     if not labels.spans:
-        said = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
-        raise ReadError(path, f"has no labels{said}")
+        which = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
+        raise ReadError(path, f"has no labels{which}")
     rate = fps or labels.fps
     if rate is None:
         raise ReadError(
@@ -135,7 +135,7 @@ def as_segmentation(
     if not 0 < rate < math.inf:
         raise ReadError(path, f"the frame rate must be a positive number, not {rate}")
     per_unit = rate if labels.unit == "seconds" else 1.0
-    rows = [_meant(span, per_unit, path) for span in labels.spans]
+    rows = [_row(span, per_unit, path) for span in labels.spans]
     last = max(row[3] for row in rows)
     notes = [*labels.remarks]
     if n_frames is None and labels.length is not None:
@@ -180,7 +180,7 @@ def one_line(text: str) -> str:
     return "".join(" " if unicodedata.category(letter) in bad else letter for letter in text)
 
 
-def _meant(span: Span, per_unit: float, path: Path) -> Row:
+def _row(span: Span, per_unit: float, path: Path) -> Row:
     """A row of the table, with frames for the unit of the file."""
     start, stop = _frame(span.start, per_unit, path), _frame(span.stop, per_unit, path)
     if stop < start:

@@ -50,7 +50,7 @@ class Annotation:
     corrections: int = 0
 
     @classmethod
-    def from_json(cls, said: object) -> Self:
+    def from_json(cls, content: object) -> Self:
         """The annotation that a file holds.
 
         Raises
@@ -59,17 +59,17 @@ class Annotation:
             It is of another shape.
         """
         try:
-            return msgspec.convert(said, cls, str_keys=True)
+            return msgspec.convert(content, cls, str_keys=True)
         except msgspec.ValidationError as error:
-            told = sentence(str(error))
-            raise ParameterError(f"the annotation is not as kineme writes it: {told}") from error
+            reason = sentence(str(error))
+            raise ParameterError(f"the annotation is not as kineme writes it: {reason}") from error
         except ValueError as error:  # half of a pair of surrogates for a name
             raise ParameterError("the annotation has a name that is no text") from error
 
     def to_json(self) -> dict[str, Any]:
         """What a file holds of it: the parts that there are, empty where there is none."""
-        told: dict[str, Any] = msgspec.to_builtins(self, str_keys=True)
-        return {name: part for name, part in told.items() if part}
+        parts: dict[str, Any] = msgspec.to_builtins(self, str_keys=True)
+        return {name: part for name, part in parts.items() if part}
 
 
 NO_ANNOTATION = Annotation()
@@ -79,5 +79,5 @@ PARTS = tuple(part.name for part in fields(Annotation))
 
 def parted(provenance: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     """A provenance of an older file without the annotation in it, and that."""
-    rest = {name: said for name, said in provenance.items() if name not in PARTS}
-    return rest, {name: said for name, said in provenance.items() if name in PARTS}
+    rest = {name: value for name, value in provenance.items() if name not in PARTS}
+    return rest, {name: value for name, value in provenance.items() if name in PARTS}

@@ -114,8 +114,8 @@ def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
     try:
         msgspec.convert(provenance, Provenance)
     except msgspec.ValidationError as error:
-        said = sentence(str(error))
-        raise ParameterError(f"the provenance is not as kineme writes it: {said}") from error
+        reason = sentence(str(error))
+        raise ParameterError(f"the provenance is not as kineme writes it: {reason}") from error
     except ValueError as error:  # half of a pair of surrogates for a name
         raise ParameterError("the provenance has a name that is no text") from error
     return provenance

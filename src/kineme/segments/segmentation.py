@@ -152,9 +152,9 @@ class Segmentation:
         check_recording(n_frames, fps)
         check_type(columns, Mapping, "from_columns", "give arrays by the names of columns")
         table = segment_table(columns, float(fps))
-        said = {} if provenance is None else provenance
-        spent = {} if timings is None else timings
-        return cls(table, int(n_frames), float(fps), said, spent, annotation=annotation)
+        provenance = {} if provenance is None else provenance
+        timings = {} if timings is None else timings
+        return cls(table, int(n_frames), float(fps), provenance, timings, annotation=annotation)
 
     @property
     def activities(self) -> SegmentTable:
@@ -207,7 +207,7 @@ class Segmentation:
         if self.hierarchy is None:
             return self
         chosen = self.hierarchy.at(level)
-        provenance = {name: said for name, said in self.provenance.items() if name != "detail"}
+        provenance = {name: value for name, value in self.provenance.items() if name != "detail"}
         if chosen.detail != DEFAULT_DETAIL:
             provenance["detail"] = chosen.detail
         return replace(self, table=chosen.table, provenance=provenance, hierarchy=chosen)
@@ -266,8 +266,8 @@ class Segmentation:
     @property
     def clock(self) -> Clock | None:
         """That of the recording, where its seconds are not those of frames counted from 0."""
-        said = self.provenance.get("clock")
-        return None if said is None else Clock.from_json(said)
+        content = self.provenance.get("clock")
+        return None if content is None else Clock.from_json(content)
 
     def start_times(self) -> list[str]:
         """What the clock shows when each segment of the table starts; empty without a clock.

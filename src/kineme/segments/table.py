@@ -158,14 +158,14 @@ COMMENT = "comment"
 
 def present_names(columns: Mapping[str, Values]) -> dict[str, Values]:
     """Columns by the names that they have today, whatever they were called in older files."""
-    older = {known.earlier: name for name, known in COLUMNS.items() if known.earlier}
+    older = {column.earlier: name for name, column in COLUMNS.items() if column.earlier}
     renamed = {name: columns[was] for was, name in older.items() if was in columns}
     return renamed | {name: column for name, column in columns.items() if name not in older}
 
 
 def lacking(names: Container[str]) -> list[str]:
     """The columns that every segment table in a file has, and these names have not."""
-    return [name for name, known in COLUMNS.items() if not known.optional and name not in names]
+    return [name for name, column in COLUMNS.items() if not column.optional and name not in names]
 
 
 def kind_of(level: Level, *, transition: bool) -> Kind:
@@ -181,7 +181,7 @@ def _of_columns(table: type[Values]) -> type[Values]:
 
 @_of_columns
 class SegmentTable:
-    """Segments as columns: one numpy array each, all of the same length.
+    """Segments as columns: one numpy array for each field of a `Segment`, all of the same length.
 
     Usually taken from a `Segmentation`. A slice, a mask or row numbers pick rows,
     as in numpy; one number gives a `Segment`.
@@ -300,8 +300,8 @@ class SegmentTable:
         if not isinstance(other, SegmentTable):
             return NotImplemented
         return all(
-            np.array_equal(mine, theirs, equal_nan=mine.dtype.kind == "f")
-            for mine, theirs in zip(self.columns().values(), other.columns().values(), strict=True)
+            np.array_equal(first, second, equal_nan=first.dtype.kind == "f")
+            for first, second in zip(self.columns().values(), other.columns().values(), strict=True)
         )
 
     __hash__ = None  # type: ignore[assignment]
@@ -338,18 +338,18 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
     ParameterError
         A column is missing, of another length, or holds what it cannot.
     """
-    given = present_names(columns)
-    needed = {name: known for name, known in COLUMNS.items() if not known.derived}
-    for name, known in needed.items():
-        if known.default is None and name not in given:
+    present = present_names(columns)
+    needed = {name: column for name, column in COLUMNS.items() if not column.derived}
+    for name, column in needed.items():
+        if column.default is None and name not in present:
             raise ParameterError(f"a segment table needs the column {name!r}")
-    n = np.size(given["level"])
+    n = np.size(present["level"])
     arrays = {
-        name: _checked(given.get(name, np.full(n, known.default)), name)
-        for name, known in needed.items()
+        name: _checked(present.get(name, np.full(n, column.default)), name)
+        for name, column in needed.items()
     }
-    if "activity" in given:
-        arrays["activity"] = _checked(given["activity"], "activity")
+    if "activity" in present:
+        arrays["activity"] = _checked(present["activity"], "activity")
     for name, array in arrays.items():
         if array.shape != (n,):
             raise ParameterError(f"column {name!r} has shape {array.shape}, 'level' has ({n},)")
@@ -391,14 +391,14 @@ def _derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArra
 
 def _checked(values: ArrayLike, name: str) -> NDArray[Any]:
     """The values of a column as an array of its type; ParameterError where it cannot hold them."""
-    known = COLUMNS[name]
+    column = COLUMNS[name]
     try:
         array = np.asarray(values)
     except ValueError as error:
         raise ParameterError(f"column {name!r} must hold one value per row") from error
-    if known.type is str:
-        return _texts(array, name, known.allowed)
-    if known.type is int:
+    if column.type is str:
+        return _texts(array, name, column.allowed)
+    if column.type is int:
         return _integers(array, name)
     if array.dtype.kind not in "iuf" or np.isinf(array).any():
         raise ParameterError(f"column {name!r} must be finite, or nan where nothing is known")
@@ -414,11 +414,11 @@ def _integers(array: NDArray[Any], name: str) -> NDArray[np.int64]:
 
 
 def _texts(array: NDArray[Any], name: str, allowed: tuple[str, ...]) -> NDArray[np.str_]:
-    held = array.ravel().tolist()
-    other = next((value for value in held if not isinstance(value, str)), "")
+    values = array.ravel().tolist()
+    other = next((value for value in values if not isinstance(value, str)), "")
     if other != "":
         raise ParameterError(f"column {name!r} must hold texts, not {other!r:.60}")
-    for text in set(held):
+    for text in set(values):
         if allowed and text not in allowed:
             raise ParameterError(f"{name} must be {' or '.join(allowed)}, not {text!r}")
         if any(unicodedata.category(letter) in ("Cc", "Cs", "Zl", "Zp") for letter in text):

@@ -108,14 +108,14 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     """
     chosen, rows = set(frames), members_of(segmentation, cluster)
     level: Level = "primitive" if any(row.level == "primitive" for row in rows) else "activity"
-    own = [row for row in rows if row.level == level]
-    gone = [row for row in own if row.start_frame in chosen]
-    if not gone or len(gone) == len(own):
+    members = [row for row in rows if row.level == level]
+    gone = [row for row in members if row.start_frame in chosen]
+    if not gone or len(gone) == len(members):
         raise ParameterError(
-            f"{len(gone)} of {len(own)} segments of cluster {cluster} are chosen: "
+            f"{len(gone)} of {len(members)} segments of cluster {cluster} are chosen: "
             "choose some of them, not all"
         )
-    staying = {row.activity for row in own if row.start_frame not in chosen}
+    staying = {row.activity for row in members if row.start_frame not in chosen}
     leaving = {row.activity for row in gone} - staying
     moved: list[tuple[Level, Segment]] = [(row.level, row) for row in gone]
     if level == "primitive":

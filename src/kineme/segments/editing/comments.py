@@ -46,8 +46,8 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
 
 def in_rows(segmentation: Segmentation) -> list[str]:
     """What is said about each row, in their order; empty where nothing is."""
-    said = comments(segmentation)
-    return ["; ".join(each[2] for each in said if _is_of(each, row)) for row in segmentation]
+    entries = comments(segmentation)
+    return ["; ".join(each[2] for each in entries if _is_of(each, row)) for row in segmentation]
 
 
 def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
@@ -65,13 +65,13 @@ def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
     """
     if list(texts) == in_rows(segmentation):
         return segmentation
-    said = [_of(row, text) for row, text in zip(segmentation, texts, strict=True) if text]
-    return with_comments(segmentation, said)
+    entries = [_of(row, text) for row, text in zip(segmentation, texts, strict=True) if text]
+    return with_comments(segmentation, entries)
 
 
-def with_comments(segmentation: Segmentation, said: list[Comment]) -> Segmentation:
+def with_comments(segmentation: Segmentation, entries: list[Comment]) -> Segmentation:
     """The same segments with these comments and no others."""
-    annotation = replace(segmentation.annotation, comments=tuple(said))
+    annotation = replace(segmentation.annotation, comments=tuple(entries))
     return replace(segmentation, annotation=annotation)
 
 
@@ -80,7 +80,7 @@ def _of(row: Segment, text: str) -> Comment:
     return row.level, (row.start_frame + row.stop_frame) // 2, text
 
 
-def _is_of(said: Comment, row: Segment) -> bool:
+def _is_of(entry: Comment, row: Segment) -> bool:
     """Whether a comment is on a segment."""
-    level, frame, _ = said
+    level, frame, _ = entry
     return level == row.level and row.start_frame <= frame < row.stop_frame

@@ -34,8 +34,8 @@ def marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
     -------
     set of (level, start_frame, stop_frame)
     """
-    wanted = {*getattr(segmentation.annotation, mark)}
-    return {span_of(row) for row in segmentation if span_of(row) in wanted} if wanted else set()
+    spans = {*getattr(segmentation.annotation, mark)}
+    return {span_of(row) for row in segmentation if span_of(row) in spans} if spans else set()
 
 
 def with_marks(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
@@ -94,6 +94,6 @@ def noted(before: Segmentation, after: Segmentation) -> Segmentation:
     -------
     Segmentation
     """
-    known = {(span_of(row), row.kind, row.cluster) for row in before}
-    made = {span_of(row) for row in after if (span_of(row), row.kind, row.cluster) not in known}
+    earlier = {(span_of(row), row.kind, row.cluster) for row in before}
+    made = {span_of(row) for row in after if (span_of(row), row.kind, row.cluster) not in earlier}
     return with_marks(after, "by_hand", made | marked(after, "by_hand"))

@@ -119,7 +119,7 @@ def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> 
 
 def known_names(segmentation: Segmentation) -> dict[int, str]:
     """The names of clusters by number; empty for those that are said to have none."""
-    known = segmentation.annotation.cluster_names
+    entries = segmentation.annotation.cluster_names
     labels: dict[int, Counter[str]] = {}
     for cluster, label in zip(
         segmentation.table.cluster.tolist(), segmentation.table.label.tolist(), strict=True
@@ -129,8 +129,8 @@ def known_names(segmentation: Segmentation) -> dict[int, str]:
     names = {}
     for cluster in sorted(labels):
         (label, count), *_ = labels[cluster].most_common(1)
-        if cluster in known:
-            names[cluster] = known[cluster]
+        if cluster in entries:
+            names[cluster] = entries[cluster]
         elif 2 * count > labels[cluster].total() and label:
             names[cluster] = label
     return names

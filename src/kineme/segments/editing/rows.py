@@ -101,8 +101,8 @@ def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, in
     for i in inside:
         primitives[i] = adopted(primitives[i], before[gave], after[took])
     if inside and after[took].kind == "transition":
-        own = inside[-1] + 1 if to < frame else inside[0] - 1
-        primitives = joined(primitives, min(own, inside[0]), max(own, inside[-1]), own)
+        host = inside[-1] + 1 if to < frame else inside[0] - 1
+        primitives = joined(primitives, min(host, inside[0]), max(host, inside[-1]), host)
     return primitives
 
 
