@@ -196,8 +196,8 @@ class Segmentation:
         --------
         >>> import kineme
         >>> found = kineme.segment(kineme.read(kineme.bundled_recording()))
-        >>> [len(found.level(detail).cuts()) for detail in (0.1, 0.5, 1)]
-        [0, 4, 12]
+        >>> {*found.level(0.5).cuts().tolist()} <= {*found.cuts().tolist()}
+        True
         >>> found.level(0.5).level(1) == found
         True
         """

@@ -92,8 +92,8 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
     --------
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
-    >>> cluster_names(kineme.read_segments(bundled_truth(), fps=60))
-    {}
+    >>> cluster_names(kineme.read_segments(bundled_truth(), fps=60))[0]
+    'walk'
     """
     return {cluster: name for cluster, name in known_names(segmentation).items() if name}
 
