@@ -126,7 +126,7 @@ def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> N
     assume(len(result.level(level)))
     assume(name != "elan" or result.fps < 1000)
     labels = result.table.label.tolist()
-    assume(not {"transition", "activity", "primitive", "n/a"} & set(labels))
+    assume(not {"transition", "activity", "n/a"} & set(labels))
     assume(name != "ms-tcn" or not any(label.startswith("\ufeff") for label in labels))
     back = there_and_back(result, place(folder, name), name, level)
     assert back.n_frames == result.n_frames
@@ -144,7 +144,7 @@ def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> N
 @given(result=segmentations())
 def test_both_levels_come_back_together(folder, name, result) -> None:
     assume(name != "elan" or result.fps < 1000)
-    assume(not {"transition", "activity", "primitive", "n/a"} & set(result.table.label.tolist()))
+    assume(not {"transition", "activity", "n/a"} & set(result.table.label.tolist()))
     back = there_and_back(result, place(folder, name), name)
     for level in ("activity", "primitive"):
         assert [row[:2] + row[4:] for row in spans(back, level)] == [

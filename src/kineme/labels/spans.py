@@ -1,7 +1,7 @@
 """Spans with a text each: what label formats hold, and the way there and back.
 
-A segment becomes one text: its label; without one ``transition``, ``cluster 3``,
-``activity`` or ``primitive``. A text that is read is taken for what those words say, any
+A segment becomes one text: its label; without one ``transition``, ``cluster 3``
+or ``activity``, on either level. A text that is read is taken for what those words say, any
 other for the label of an activity. So a labelled segment loses its cluster, a
 labelled transition its kind, and every segment its confidence, but where the format
 has columns for them.
@@ -77,16 +77,16 @@ class Labels:
 
 def text_of(row: Segment) -> str:
     """The text of a segment: its label, or what else tells it from others."""
-    if row.label or row.kind == "transition" or row.cluster < 0:
-        return row.label or row.kind
-    return f"cluster {row.cluster}"
+    if row.label or row.kind == "transition":
+        return row.label or "transition"
+    return f"cluster {row.cluster}" if row.cluster >= 0 else "activity"
 
 
 def meaning(text: str) -> tuple[Kind, int, str]:
-    """Kind, cluster and label of a text on the activity level: the inverse of `text_of`."""
+    """Kind, on the activity level, cluster and label of a text: the inverse of `text_of`."""
     if text == "transition":
         return "transition", -1, ""
-    if text in ("activity", "primitive", ""):
+    if text in ("activity", ""):
         return "activity", -1, ""
     cluster = re.fullmatch(r"cluster[ _]([0-9]{1,9})", text)
     return ("activity", int(cluster[1]), "") if cluster else ("activity", -1, text)
