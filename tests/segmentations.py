@@ -29,7 +29,7 @@ JSON = st.recursive(
 
 @st.composite
 def segmentations(draw: st.DrawFn) -> Segmentation:
-    """Random cuts of both levels, clusters, labels, scores, provenance."""
+    """Random cuts of both levels, clusters, labels, confidences, provenance."""
     n_frames = draw(st.integers(1, 60))
     cuts = st.sets(st.integers(1, max(1, n_frames - 1)), max_size=6)
     inner = sorted(cut for cut in draw(cuts) if cut < n_frames)
@@ -47,15 +47,15 @@ def segmentations(draw: st.DrawFn) -> Segmentation:
     def column(values: st.SearchStrategy[Any]) -> list[Any]:
         return draw(st.lists(values, min_size=n, max_size=n))
 
-    scores = st.floats(allow_infinity=False, allow_nan=False) | st.just(np.nan)
+    shares = st.floats(allow_infinity=False, allow_nan=False) | st.just(np.nan)
     return Segmentation.from_columns(
         {
             **columns,
             "kind": column(st.sampled_from(["activity", "transition"])),
             "cluster": column(st.integers(-1, 5)),
             "label": column(LABELS),
-            "score": column(scores),
-            "border_confidence": column(scores),
+            "confidence": column(shares),
+            "border_confidence": column(shares),
         },
         n_frames=n_frames,
         fps=draw(RATES),

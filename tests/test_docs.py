@@ -26,7 +26,6 @@ import _figures
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.labels import read_segments, write_segments
-from kineme.segments.table import DESCRIBED
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -35,6 +34,7 @@ RUN = runpy.run_path(str(ROOT / "docs" / "run_pages.py"))
 FIGURES = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))
 FILL = runpy.run_path(str(ROOT / "docs" / "fill_figures.py"))
 QUOTED = FILL["quoted"](FILL["QUOTED"].read_text(encoding="utf-8"))
+COLUMNS = runpy.run_path(str(ROOT / "docs" / "fill_columns.py"))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -72,7 +72,9 @@ def test_notebook_runs(notebook: Path, tmp_path: Path, monkeypatch: pytest.Monke
 
 
 def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
-    schema = json.loads((ROOT / "docs" / "segments.schema.json").read_text(encoding="utf-8"))
+    text = (ROOT / "docs" / "segments.schema.json").read_text(encoding="utf-8")
+    assert text == COLUMNS["schema"](), "run python docs/fill_columns.py"
+    schema = json.loads(text)
     truth = read_segments(bundled_recording().with_suffix(".json"))
     write_segments(truth, tmp_path / "truth.json")
     written = json.loads((tmp_path / "truth.json").read_text(encoding="utf-8"))
@@ -84,9 +86,8 @@ def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
 
 def test_columns_of_the_docs_are_those_of_the_table() -> None:
     text = (ROOT / "docs" / "segments.md").read_text(encoding="utf-8")
-    types = {str: "text", int: "whole number", float: "number"}
-    for name, column in DESCRIBED.items():
-        assert f"| `{name}` | {types[column.type]} | {column.meaning} |\n" in text
+    assert COLUMNS["filled"](text) == text, "run python docs/fill_columns.py"
+    assert COLUMNS["rows"]() in text
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

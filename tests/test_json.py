@@ -91,7 +91,9 @@ def test_a_provenance_of_another_shape_is_refused_where_it_comes_in(
     told["provenance"] |= provenance
     (tmp_path / "a.json").write_text(json.dumps(told))
     (name,) = provenance
-    with pytest.raises(ReadError, match=f"provenance is not as kineme writes it: {name}"):
+    with pytest.raises(
+        ReadError, match=f"(provenance|annotation) is not as kineme writes it: {name}"
+    ):
         kineme.read_segments(tmp_path / "a.json")
 
 

@@ -46,7 +46,7 @@ def named(found: kineme.Segmentation, trial: str) -> kineme.Segmentation:
     middles = (columns["start_frame"] + columns["stop_frame"]) // 2
     at = np.minimum(np.searchsorted(ends, middles), len(rows) - 1)
     labels = [
-        rows[i]["label"] if kind == "activity" else ""
+        rows[i]["label"] if kind != "transition" else ""
         for i, kind in zip(at, columns["kind"], strict=True)
     ]
     return kineme.Segmentation.from_columns(

@@ -91,7 +91,7 @@ def labelled(queries: list, knowledge: KnowledgeBase, threshold: float) -> list[
     for segmentation, features, truth in queries:
         result = transfer_labels(segmentation, features, knowledge, threshold=threshold)
         rows = zip(truth.primitives, result.primitives, strict=True)
-        pairs += [(right.label, row.label) for right, row in rows if row.kind == "activity"]
+        pairs += [(right.label, row.label) for right, row in rows if row.kind == "primitive"]
     return pairs
 
 

@@ -35,7 +35,7 @@ from kineme.web.similarity import matrix_of_motion
 
 MOST_MB = 30.0
 MINUTES = few((1, 10, 60, 180), (1,))
-COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "score")
+COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "confidence")
 
 
 def repeated(motion: Motion, segments: Segmentation, minutes: float) -> tuple[Motion, Segmentation]:

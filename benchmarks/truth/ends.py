@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 
 def spans(found: Segmentation) -> list[Floats]:
     """First and last second of the repetitions of each activity."""
-    rows = found.primitives.select(found.primitives.kind == "activity")
+    rows = found.primitives.select(found.primitives.kind == "primitive")
     return [
         np.column_stack([rows.start_s, rows.stop_s])[rows.activity == activity]
         for activity in np.unique(rows.activity)

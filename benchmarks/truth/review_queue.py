@@ -101,6 +101,7 @@ def segments_of(rows: list[dict[str, Any]], case: Case) -> Segments:
     """What a page shows, in seconds."""
     names = ("level", "kind", "start_frame", "stop_frame", "cluster")
     columns: Any = {name: np.array([row[name] for row in rows]) for name in names}
+    columns["kind"][columns["kind"] == "primitive"] = "activity"  # as methods call them
     return in_seconds(columns, case.motion.fps)
 
 

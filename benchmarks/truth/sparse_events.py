@@ -36,7 +36,7 @@ OVERLAP = 0.5
 def found_units(found: Segmentation) -> SegmentTable:
     """What the primitive level says recurs."""
     rows = found.primitives
-    return rows[(rows.kind == "activity") & (rows.cluster >= 0)]
+    return rows[(rows.kind == "primitive") & (rows.cluster >= 0)]
 
 
 def matches(case: SparseCase, rows: SegmentTable) -> tuple[int, int]:

@@ -34,7 +34,7 @@ def found_counts(found: Segmentation, truth: Segmentation) -> list[tuple[str, in
     primitives = found.primitives
     middle = (primitives.start_frame + primitives.stop_frame) // 2
     home = np.searchsorted(spans.start_frame, middle, side="right") - 1
-    counted = Counter(home[primitives.kind == "activity"].tolist())
+    counted = Counter(home[primitives.kind == "primitive"].tolist())
     true = Counter(truth.primitives.activity.tolist())
     return [
         (row.label, true[row.activity], counted[row.activity])

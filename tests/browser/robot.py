@@ -130,8 +130,8 @@ class Robot:
             keys.press("Shift+N")
             self.type_name(f"c{self.chance.randrange(10**6)}")
         elif what == "kind":
-            kind = self.chance.choice(["activity", "transition"])
-            page.locator(".segment-panel select").first.select_option(kind)
+            choice = page.locator(".segment-panel select").first
+            choice.select_option(index=self.chance.randrange(2))
         elif what == "segment":
             self.segment()
         else:

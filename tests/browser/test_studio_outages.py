@@ -22,7 +22,7 @@ def mortal(chromium, take: Path, tmp_path: Path):
 def saved_primitives(path: Path) -> list[tuple[int, str, bool]]:
     """Start, label and whether it is checked, of each primitive on the disk."""
     table = kineme.read_segments(path)
-    checked = {tuple(each) for each in table.provenance.get("checked", [])}
+    checked = {*table.annotation.checked}
     return [
         (row.start_frame, row.label, (row.level, row.start_frame, row.stop_frame) in checked)
         for row in table.primitives

@@ -64,7 +64,7 @@ def test_json_is_pure_and_is_what_the_library_gives(kineme, recording: Path) -> 
     options = ("--preset", "voegele2014", *constants)
     done = kineme("segment", recording, "--json", *options)
     data = json.loads(done.stdout)
-    assert data["schema"] == "kineme.segments/1"
+    assert data["schema"] == "kineme.segments/2"
     assert data["provenance"]["parameters"]["radius"] == 0.5
     assert data["provenance"]["parameters"]["growth_neighbors"] is None
     result = package.segment(

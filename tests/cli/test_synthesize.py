@@ -41,7 +41,7 @@ def test_from_a_recording_to_a_new_one(kineme, graph: Path, tmp_path: Path) -> N
     cuts = json.loads(kineme("segment", "new.bvh", "--json").stdout)["segments"]
     runs = [row["activity"] for row in cuts if (row["level"], row["kind"]) == ("activity",) * 2]
     rows = [
-        row["activity"] for row in cuts if (row["level"], row["kind"]) == ("primitive", "activity")
+        row["activity"] for row in cuts if (row["level"], row["kind"]) == ("primitive", "primitive")
     ]
     assert [rows.count(run) for run in runs] == [6, 4, 7]
 

@@ -43,7 +43,7 @@ def step_at_the_seam(motion: Motion, carry: Carry) -> float:
 
 def clips(motion: Motion, segmentation: kineme.Segmentation) -> list[Motion]:
     rows = segmentation.primitives
-    return [cut(motion, row.start_frame, row.stop_frame) for row in rows if row.kind == "activity"]
+    return [cut(motion, row.start_frame, row.stop_frame) for row in rows if row.kind == "primitive"]
 
 
 def test_each_clip_is_its_stretch_of_the_recording(tmp_path: Path, motion, truth) -> None:

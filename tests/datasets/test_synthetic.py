@@ -170,7 +170,7 @@ def test_repetitions_vary_but_stay_alike() -> None:
     recording = synthesize([Action("squat", 4), Action("kick", 4)], fps=30, seed=3)
     stacked = stack(pose_features(recording.motion), (-10, -5, 0, 5, 10))
     rows = recording.truth.primitives
-    first, second, *_, last = rows.select(rows.kind == "activity")
+    first, second, *_, last = rows.select(rows.kind == "primitive")
     own = cdist(stacked[first.start_frame : first.stop_frame], stacked)
     to_next = own[:, second.start_frame : second.stop_frame].min(axis=1)
     middle = slice(len(own) // 3, 2 * len(own) // 3)

@@ -29,7 +29,7 @@ GRAPH = {
 }  # fmt: skip
 ROW = {
     "level": "activity", "kind": "activity", "start_frame": 0, "stop_frame": 9, "start_s": 0.0,
-    "stop_s": 0.3, "cluster": 0, "activity": 0, "score": None,
+    "stop_s": 0.3, "cluster": 0, "activity": 0, "confidence": None,
 }  # fmt: skip
 
 
@@ -74,7 +74,7 @@ def graph(**changed: object) -> bytes:
 
 
 def table(**changed: object) -> bytes:
-    head = {"schema": "kineme.segments/1", "fps": 30.0, "n_frames": 9}
+    head = {"schema": "kineme.segments/2", "fps": 30.0, "n_frames": 9}
     return json.dumps(head | {"segments": [ROW | {"label": "a"} | changed]}).encode()
 
 

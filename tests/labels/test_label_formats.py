@@ -69,8 +69,10 @@ def spans(result: Segmentation, level: Level) -> list[tuple]:
     ]
 
 
-def kept(result: Segmentation, level: Level, name: str) -> list[tuple]:
-    """What of `spans` a format has room for."""
+def kept(
+    result: Segmentation, level: Level, name: str, read_as: Level | None = None
+) -> list[tuple]:
+    """What of `spans` a format has room for; primitives alone are read as activities."""
     rows = []
     for r in result.level(level):
         label = r.label
@@ -78,8 +80,9 @@ def kept(result: Segmentation, level: Level, name: str) -> list[tuple]:
             label = "".join("_" if letter.isspace() else letter for letter in label)
         if name == "elan":
             label = label.replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
-        kind = "activity" if r.label else r.kind
-        cluster = r.cluster if kind == "activity" and not r.label else -1
+        rests = r.kind == "transition" and not r.label
+        kind = "transition" if rests else read_as or level
+        cluster = -1 if rests or r.label else r.cluster
         if name == "bids":
             cluster = r.cluster
         rows.append((r.start_frame, r.stop_frame, r.start_s, r.stop_s, kind, cluster, label))
@@ -111,7 +114,7 @@ def example(labels: list[str], fps: float = 119.88) -> Segmentation:
         "stop_frame": [*borders[1:], *inner[1:]],
         "cluster": [-1] * n + [i % 3 for i in range(len(inner) - 1)],
         "label": [*labels, *[""] * (len(inner) - 1)],
-        "score": [0.5] * (n + len(inner) - 1),
+        "confidence": [0.5] * (n + len(inner) - 1),
     }
     provenance = {"input": {"path": "takes/take.bvh"}}
     return Segmentation.from_columns(columns, n_frames=7 * n, fps=fps, provenance=provenance)
@@ -128,7 +131,7 @@ def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> N
     back = there_and_back(result, place(folder, name), name, level)
     assert back.n_frames == result.n_frames
     assert back.fps == pytest.approx(result.fps, rel=1e-12)
-    expected = kept(result, level, name)
+    expected = kept(result, level, name, "activity")
     got = spans(back, "activity")
     if name == "ms-tcn":
         expected, got = merged(expected), merged(got)
@@ -291,7 +294,7 @@ def test_pandas_reads_bids_events_and_the_sidecar_describes_every_column(tmp_pat
     assert set(frame.columns) - {"onset", "duration"} <= set(sidecar)
     assert sidecar["SamplingFrequency"] == 30.0
     back = read_segments(tmp_path / "walk_events.tsv")
-    assert back.table.score.tolist() == result.table.score.tolist()
+    assert back.table.confidence.tolist() == result.table.confidence.tolist()
     assert back.primitives.cluster.tolist() == result.primitives.cluster.tolist()
 
 

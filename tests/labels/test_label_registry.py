@@ -103,7 +103,7 @@ def test_one_label_per_frame_needs_no_name_of_the_format(tmp_path: Path) -> None
         ("signals.txt", "0.1 0.2\n0.3 0.4\n"),
         ("signals.tsv", "time\tx\n0\t1\n"),
         ("keypoints.json", '{"people": []}'),
-        ("take.provenance.json", '{"schema": "kineme.segments/1"}'),
+        ("take.provenance.json", '{"schema": "kineme.segments/2"}'),
         ("walk.bvh", "HIERARCHY\n"),
     ],
 )

@@ -34,7 +34,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def small() -> Segmentation:
     columns = {
         "level": ["activity", "primitive", "primitive"],
-        "kind": ["activity"] * 3,
+        "kind": ["activity", "primitive", "primitive"],
         "start_frame": [0, 0, 50],
         "stop_frame": [120, 50, 120],
         "cluster": [-1, 0, 0],
@@ -61,7 +61,7 @@ def test_a_csv_alone_keeps_the_whole_table(folder: Path, result: Segmentation) -
     alone = read_segments(path)
     assert alone.n_frames == result.n_frames
     assert alone.fps == pytest.approx(result.fps, rel=1e-15)
-    for name in set(COLUMNS) - {"score", "border_confidence", "start_s", "stop_s"}:
+    for name in set(COLUMNS) - {"confidence", "border_confidence", "start_s", "stop_s"}:
         assert alone.table.columns()[name].tolist() == result.table.columns()[name].tolist()
     assert "computed from frames and seconds" in alone.provenance["notes"][0]
 
@@ -80,11 +80,11 @@ def test_pandas_reads_csv_and_parquet_directly(tmp_path: Path, small: Segmentati
     for suffix, reader in ((".csv", pd.read_csv), (".parquet", pd.read_parquet)):
         write_segments(small, tmp_path / f"cuts{suffix}")
         frame = reader(tmp_path / f"cuts{suffix}")
-        assert tuple(frame.columns) == COLUMNS
+        assert tuple(frame.columns) == tuple(COLUMNS)
         assert frame.stop_frame.tolist() == [120, 50, 120]
         assert frame.stop_s.tolist() == [1.0, 50 / 120, 1.0]
         assert frame.label[1] == 'a "long", step'
-        assert frame.score.isna().all()
+        assert frame.confidence.isna().all()
 
 
 def test_a_csv_that_went_through_pandas_is_still_read(tmp_path: Path, small: Segmentation) -> None:
@@ -122,10 +122,10 @@ def test_json_follows_its_documented_schema(tmp_path: Path, small: Segmentation)
     write_segments(small, tmp_path / "cuts.json")
     data = json.loads((tmp_path / "cuts.json").read_text())
     assert list(data) == ["schema", "n_frames", "fps", "provenance", "timings", "segments"]
-    assert data["schema"] == "kineme.segments/1"
+    assert data["schema"] == "kineme.segments/2"
     assert data["segments"][1] == {
         "level": "primitive",
-        "kind": "activity",
+        "kind": "primitive",
         "start_frame": 0,
         "stop_frame": 50,
         "start_s": 0.0,
@@ -133,7 +133,7 @@ def test_json_follows_its_documented_schema(tmp_path: Path, small: Segmentation)
         "cluster": 0,
         "activity": 0,
         "label": 'a "long", step',
-        "score": None,
+        "confidence": None,
         "action": -1,
         "border_confidence": None,
     }
@@ -221,8 +221,8 @@ def test_a_damaged_file_is_read_or_refused(folder: Path, suffix: str, data: st.D
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"kineme.segments/1"', '"kineme.segments/2"', "this version of kineme reads .*: upgrade"),
-        ('"kineme.segments/1"', '"other/1"', "is not a segment table"),
+        ('"kineme.segments/2"', '"kineme.segments/3"', "this version of kineme reads .*: upgrade"),
+        ('"kineme.segments/2"', '"other/1"', "is not a segment table"),
         ('"fps": 120.0', '"fps": "120"', '"fps" must be a positive number'),
         ('"fps": 120.0', '"fps": 1e999', "a number that is none, or too large"),
         ('"n_frames": 120', '"n_frames": 119', "must cover frames 0 to 119"),
@@ -252,8 +252,8 @@ def test_bad_json_says_what_is_wrong(
             "activity,0,12o",
             "line 2: stop_frame must be a whole number, not '12o'",
         ),
-        ("score,", "points,", "it has no column 'score'"),
-        ("activity,50,120,", "activity,50\n#", "line 4: the line ends before column"),
+        ("confidence,", "points,", "it has no column 'confidence'"),
+        ("primitive,50,120,", "primitive,50\n#", "line 4: the line ends before column"),
         (",120,", ",121,", "ends at frame 121, but cuts.provenance.json speaks of 120 frames"),
     ],
 )
@@ -326,7 +326,7 @@ def test_comments_are_a_column_that_is_read_again(tmp_path: Path, suffix: str) -
     path = tmp_path / f"take{suffix}"
     table = read_segments(bundled_truth(), fps=60)
     write_segments(table, path)
-    assert read_segments(path).provenance.get("comments") is None
+    assert read_segments(path).annotation.comments == ()
     first = table.table[0]
     said = editing.comment(table, first.level, first.start_frame, "=slips, twice\nand falls")
     write_segments(said, path)

@@ -211,7 +211,7 @@ def test_questions_in_sql(library: Library) -> None:
     assert answer["s"] == pytest.approx(library.recordings["duration_s"])
     near = library.query("select count(*) n from embeddings").to_pylist()[0]["n"]
     assert near == library.query(
-        "select count(*) n from segments where kind = 'activity' and recording != 'none'"
+        "select count(*) n from segments where kind != 'transition' and recording != 'none'"
     ).to_pylist()[0]["n"]  # fmt: skip
     for wrong in ("select", "from nowhere", "select * from '/etc/passwd'"):
         with pytest.raises(ParameterError):

@@ -71,9 +71,9 @@ def test_every_score_and_border_confidence_is_a_probability() -> None:
     gapped = kineme.Signals(motion.positions[:, ::5, 1], motion.fps, gaps=[(500, 560)])
     for segments in (kineme.segment(motion), kineme.segment(gapped)):
         table = segments.table
-        activity = table.kind == "activity"
-        assert np.isfinite(table.score).tolist() == activity.tolist()
-        for column in (table.score, table.border_confidence):
+        activity = table.kind != "transition"
+        assert np.isfinite(table.confidence).tolist() == activity.tolist()
+        for column in (table.confidence, table.border_confidence):
             known = column[np.isfinite(column)]
             assert known.size
             assert ((known >= 0) & (known <= 1)).all()

@@ -76,7 +76,7 @@ def test_everything_is_in_the_page(tmp_path: Path) -> None:
     }
     assert tiles == matrix_of_motion(RECORDING).report_tiles()[0]
     assert message["segmentation"]["provenance"]["preset"] == "kineme"
-    assert [tuple(row) for row in message["segmentation"]["segments"]] == [COLUMNS] * len(SEGMENTS)
+    assert [[*row] for row in message["segmentation"]["segments"]] == [[*COLUMNS]] * len(SEGMENTS)
     assert (tmp_path / "out.html").stat().st_size < 1_500_000
     assert [path.name for path in tmp_path.iterdir()] == ["out.html"]
 

@@ -25,11 +25,11 @@ def other_way() -> Segmentation:
         ("activity", "activity", 0, 33, 1, ""),
         ("activity", "transition", 33, 38, -1, ""),
         ("activity", "activity", 38, 60, 0, ""),
-        ("primitive", "activity", 0, 11, 1, ""),
-        ("primitive", "activity", 11, 22, 1, ""),
-        ("primitive", "activity", 22, 33, 1, ""),
+        ("primitive", "primitive", 0, 11, 1, ""),
+        ("primitive", "primitive", 11, 22, 1, ""),
+        ("primitive", "primitive", 22, 33, 1, ""),
         ("primitive", "transition", 33, 38, -1, ""),
-        ("primitive", "activity", 38, 60, 0, ""),
+        ("primitive", "primitive", 38, 60, 0, ""),
     ]
     names = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
     columns = dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))

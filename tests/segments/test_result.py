@@ -42,7 +42,7 @@ def test_rows_carry_frames_and_seconds() -> None:
     assert (transition.start_frame, transition.stop_frame) == (40, 50)
     assert (transition.start_s, transition.stop_s) == (40 / 30, 50 / 30)
     assert (transition.kind, transition.activity, transition.label) == ("transition", 1, "")
-    assert np.isnan(transition.score)
+    assert np.isnan(transition.confidence)
 
 
 def test_cuts_repetitions_and_frames() -> None:
@@ -89,7 +89,7 @@ def test_what_picks_no_rows_is_said() -> None:
 
 def test_pandas_sees_the_documented_columns_and_durations() -> None:
     frame = walk_jump().to_dataframe()
-    assert tuple(frame.columns.drop("duration_s")) == COLUMNS
+    assert list(frame.columns.drop("duration_s")) == list(COLUMNS)
     np.testing.assert_array_equal(frame.duration_s, frame.stop_s - frame.start_s)
     assert walk_jump().primitives.to_dataframe().duration_s.sum() == pytest.approx(3.0)
     assert frame.query("level == 'primitive' and cluster == 0").start_frame.tolist() == [0, 20, 70]
@@ -129,12 +129,12 @@ def test_row_order_does_not_matter(result: Segmentation, random: object) -> None
         ({"start_frame": [0, 30, 50, 0, 20, 40, 50, 70]}, "stops at frame 40, .* starts at 30"),
         ({"level": ["primitive"] * 8}, "activity level must cover frames 0 to 90"),
         ({"level": ["action"] * 8}, "level must be activity or primitive, not 'action'"),
-        ({"kind": ["rest"] * 8}, "kind must be activity or transition, not 'rest'"),
+        ({"kind": ["rest"] * 8}, "kind must be activity or primitive or transition, not 'rest'"),
         ({"activity": [0, 1, 2, 0, 0, 1, 2, 1]}, "names activity 1, but lies in activity 2"),
         ({"activity": [1, 1, 2, 0, 0, 1, 2, 2]}, "must count 0, 1, 2"),
         ({"cluster": [0.5] * 8}, "'cluster' must hold whole numbers"),
         ({"cluster": [0] * 7}, "'cluster' has shape"),
-        ({"score": [np.inf] * 8}, "'score' must be finite"),
+        ({"confidence": [np.inf] * 8}, "'confidence' must be finite"),
         ({"label": ["two\nlines"] * 8}, "must be one line"),
         ({"label": [None] * 8}, "must hold texts, not None"),
     ],

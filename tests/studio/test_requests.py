@@ -35,7 +35,7 @@ def conforms(kind: type, answer: dict[str, Any]) -> bool:
     """Whether an answer has exactly the fields of its message, each of its own type."""
     typed = copy.deepcopy(answer)
     for row in typed.get("segmentation", {}).get("segments", []):
-        for name in ("score", "border_confidence"):  # JSON has no nan
+        for name in ("confidence", "border_confidence"):  # JSON has no nan
             row[name] = math.nan if row[name] is None else row[name]
     return json.loads(to_json(msgspec.convert(typed, kind))) == answer
 
@@ -159,7 +159,7 @@ def test_each_edit_is_on_the_disk_and_can_be_taken_back(studio) -> None:
     split = studio.done(first["revision"], "split", level="activity", frame=border)
     assert split["saved"] == "take.segments.json"
     assert border in kineme.read_segments(studio.table).cuts("activity")
-    assert kineme.read_segments(studio.table).provenance["corrections"] == 1
+    assert kineme.read_segments(studio.table).annotation.corrections == 1
     moved = studio.done(
         split["revision"], "move_border", level="activity", frame=border, to=border + 7
     )

@@ -46,7 +46,7 @@ def test_marks_of_another_shape_are_not_believed(make_studio, folder: Path) -> N
     studio = make_studio()
     studio.done(1, "split", level="activity", frame=50)
     told = json.loads(studio.table.read_text())
-    told["provenance"]["checked"] = [["activity", [], {}]]
+    told["annotation"]["checked"] = [["activity", [], {}]]
     studio.table.write_text(json.dumps(told))
     message = make_studio().recording()
     assert any("take.segments.json was left alone" in note for note in message["warnings"])

@@ -38,7 +38,7 @@ from kineme.synthesis.feet import slides
 
 def repetitions_in(found: Segmentation, activity: int) -> int:
     rows = found.primitives
-    return int(((rows.activity == activity) & (rows.kind == "activity")).sum())
+    return int(((rows.activity == activity) & (rows.kind == "primitive")).sum())
 
 
 def largest_step(motion: Motion) -> float:

@@ -39,7 +39,7 @@ BLANK = without_labels(ASKED.truth)
 
 def of_activities(segments: Segmentation) -> list[tuple[str, str]]:
     rows = zip(ASKED.truth.primitives, segments.primitives, strict=True)
-    return [(truth.label, row.label) for truth, row in rows if truth.kind == "activity"]
+    return [(truth.label, row.label) for truth, row in rows if truth.kind == "primitive"]
 
 
 def test_another_body_at_another_rate_gets_the_right_names() -> None:
@@ -57,8 +57,8 @@ def test_scores_are_margins_and_costs_stay_within_the_threshold() -> None:
     result = transfer_labels(BLANK, FEATURES, KNOWLEDGE)
     rows = result.primitives
     named = rows.label != ""
-    assert (rows.score[named] > 0).all()
-    assert (rows.score[named] <= 1).all()
+    assert (rows.confidence[named] > 0).all()
+    assert (rows.confidence[named] <= 1).all()
     costs = result.provenance["transfer"]["costs"]
     assert [cost is not None for cost in costs] == named.tolist()
     assert max(cost for cost in costs if cost is not None) <= 0.85
@@ -76,7 +76,7 @@ def test_a_lower_threshold_only_takes_labels_away() -> None:
 
 
 def test_a_persons_labels_stay() -> None:
-    first = int(np.flatnonzero(ASKED.truth.primitives.kind == "activity")[0])
+    first = int(np.flatnonzero(ASKED.truth.primitives.kind == "primitive")[0])
     row = int(np.flatnonzero(BLANK.table.level == "primitive")[first])
     labels = BLANK.table.label.astype("U9")
     labels[row] = "my word"
@@ -95,7 +95,7 @@ def test_spreading_names_the_rest_of_a_cluster() -> None:
     clustered = replace(BLANK, table=replace(table, cluster=cluster))
     strict = transfer_labels(clustered, FEATURES, knowledge, threshold=0.5)
     spread = transfer_labels(clustered, FEATURES, knowledge, threshold=0.5, spread=True)
-    activity = walk.kind == "activity"
+    activity = walk.kind == "primitive"
     for number in (7, 8):
         members = activity & (one == number)
         votes = Counter(label for label in strict.primitives.label[members].tolist() if label)
@@ -121,7 +121,7 @@ def test_a_recording_too_short_for_activities_is_searched() -> None:
     }
     nothing = Segmentation.from_columns(columns, n_frames=short.n_frames, fps=short.fps)
     result = transfer_labels(nothing, transfer_features(short), KNOWLEDGE)
-    (found,) = [row for row in result.primitives if row.kind == "activity"]
+    (found,) = [row for row in result.primitives if row.kind == "primitive"]
     assert found.label == "kick"
     assert abs(found.start_frame - 12) < 12
     assert [row.label for row in result.activities if row.kind == "activity"] == ["kick"]
@@ -201,7 +201,7 @@ def test_precision_on_subject_86(data_dir: Path) -> None:
     features = transfer_features(asked.motion)
     result = transfer_labels(without_labels(named[1]), features, bases[0])
     rows = zip(named[1].primitives, result.primitives, strict=True)
-    pairs = [(truth.label, row.label) for truth, row in rows if row.kind == "activity"]
+    pairs = [(truth.label, row.label) for truth, row in rows if row.kind == "primitive"]
     found = [(truth, got) for truth, got in pairs if got]
     assert all(truth == got for truth, got in found)
     walks = [got for truth, got in pairs if truth == "walk"]

@@ -76,7 +76,7 @@ def _activity_rows(segmentation: Segmentation) -> Table:
     table = new_table("#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label")
     primitives = segmentation.primitives
     for number, row in enumerate(segmentation.activities):
-        repeated = (primitives.activity == number) & (primitives.kind == "activity")
+        repeated = (primitives.activity == number) & (primitives.kind == "primitive")
         inside = primitives.cluster[repeated].tolist()
         count = _repetitions(inside, row.cluster) if row.kind == "activity" else ""
         table.add_row(

@@ -167,7 +167,7 @@ def _truth(
         for i, (start, stop) in zip(run, pairwise(edges), strict=True):
             borders = np.linspace(start, stop, parts[i].repetitions + 1).astype(int).tolist()
             for a, b in pairwise(borders):
-                add("primitive", "activity", a, b, name)
+                add("primitive", "primitive", a, b, name)
     keys = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
     return Segmentation.from_columns(
         dict(zip(keys, map(list, zip(*rows, strict=True)), strict=True)),

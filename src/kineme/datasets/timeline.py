@@ -107,7 +107,7 @@ def true_segments(parts: list[Part], fps: float) -> Segmentation:
         borders = [frames[0], frames[-1]] if name == "stand" else frames
         add("activity", "activity", frames[0], frames[-1], name, cluster)
         for start, stop in pairwise(borders):
-            add("primitive", "activity", start, stop, name, cluster)
+            add("primitive", "primitive", start, stop, name, cluster)
         for level in ("activity", "primitive"):
             add(level, "transition", frames[-1], frames[-1] + part.fade_out, "")
     columns = zip(*rows, strict=True)

@@ -295,5 +295,5 @@ def _from(found: Segmentation, first: int) -> Segmentation:
     """The same with clusters numbered from a number on."""
     table = found.table
     cluster, action = (np.where(c >= 0, c + first, c) for c in (table.cluster, table.action))
-    changed = replace(table, cluster=cluster, action=action)
+    changed = table.with_columns(cluster=cluster, action=action)
     return replace(found, table=changed, hierarchy=None)

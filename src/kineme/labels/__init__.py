@@ -5,7 +5,7 @@ The package's own hold everything:
 =========== ============  ====================================================
 ``csv``     ``.csv``      the table alone, as pandas and spreadsheets read it;
                           all else goes into ``NAME.provenance.json`` beside it
-``json``    ``.json``     everything in one file, ``kineme.segments/1``
+``json``    ``.json``     everything in one file, ``kineme.segments/2``
 ``parquet`` ``.parquet``  the table; all else as metadata, ``kineme.segments``
 =========== ============  ====================================================
 
@@ -19,7 +19,7 @@ Those of other programs hold labels, see `kineme.labels.spans`:
 ``audacity`` ``.txt``      one level
 ``elan``     ``.eaf``      both levels, frame rate; milliseconds
 ``textgrid`` ``.TextGrid`` both levels
-``bids``     ``.tsv``      both levels, frame rate, clusters, scores
+``bids``     ``.tsv``      both levels, frame rate, clusters, confidences
 ``boris``    ``.csv``      both levels, frame rate
 ``babel``    ``.json``     one level; labels may overlap
 ``ms-tcn``   ``.txt``      one level, as one label per frame

@@ -1,7 +1,7 @@
-"""BIDS ``events.tsv`` with its JSON sidecar: both levels, clusters and scores.
+"""BIDS ``events.tsv`` with its JSON sidecar: both levels, clusters and confidences.
 
 Columns ``onset``, ``duration`` (seconds) and ``trial_type`` are those of the
-standard; ``level``, ``cluster``, ``score``, ``start_frame``, ``stop_frame``, ``action`` and
+standard; ``level``, ``cluster``, ``confidence``, ``start_frame``, ``stop_frame``, ``action`` and
 ``border_confidence`` are described in the sidecar, which also has ``SamplingFrequency`` and
 ``RecordingDuration`` as in Motion-BIDS, and a digest of the cuts. A missing
 value is ``n/a``. What a sidecar already says about columns is kept.
@@ -42,7 +42,7 @@ COLUMNS = {
         },
     },
     "cluster": {"Description": "Equal numbers are equal movements; n/a: in no cluster"},
-    "score": {"Description": "How probable it is that the segment is right"},
+    "confidence": {"Description": "How probable it is that what its kind claims is right"},
     "start_frame": {"Description": "First frame, counted from 0"},
     "stop_frame": {"Description": "One past the last frame"},
     "action": {"Description": "Cluster of the activity that it lies in; n/a: in no cluster"},
@@ -81,8 +81,10 @@ def read(path: Path) -> Labels:
     sidecar = _parsed(beside)
     facts = _facts(sidecar, beside)
     rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
-    own = max(rates, default=(0.0, None), key=itemgetter(0))[1]
-    notes = pairs.differences(path, beside, sidecar, pairs.digest(cuts), told=rate, own=own)
+    row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
+    notes = pairs.differences(
+        path, beside, sidecar, pairs.digest(cuts), head_rate=rate, row_rate=row_rate
+    )
     return Labels(spans, "seconds", rate, length, notes)
 
 
@@ -93,12 +95,12 @@ def sidecar_path(path: Path) -> Path:
 
 def _cells(row: Segment) -> list[Any]:
     cluster, action = (MISSING if each < 0 else each for each in (row.cluster, row.action))
-    score, border = (
-        MISSING if math.isnan(each) else each for each in (row.score, row.border_confidence)
+    confidence, border = (
+        MISSING if math.isnan(each) else each for each in (row.confidence, row.border_confidence)
     )
     time = [row.start_s, row.stop_s - row.start_s]
     frames = [row.start_frame, row.stop_frame]
-    return [*time, text_of(row), row.level, cluster, score, *frames, action, border]
+    return [*time, text_of(row), row.level, cluster, confidence, *frames, action, border]
 
 
 def _span(cells: dict[str, str], path: Path, line: int) -> Span:
@@ -108,22 +110,22 @@ def _span(cells: dict[str, str], path: Path, line: int) -> Span:
     text = cells["trial_type"] if cells["trial_type"] != MISSING else ""
     level: Level = "primitive" if cells.get("level") == "primitive" else "activity"
     cluster = cells.get("cluster", MISSING)
-    score = cells.get("score", MISSING)
+    confidence = cells.get("confidence", cells.get("score", MISSING))  # score: in older files
     return Span(
         onset,
         onset + length,
         text,
         level,
         -1 if cluster in (MISSING, "") else whole(cluster, "cluster", path, line),
-        math.nan if score in (MISSING, "") else number(score, "score", path, line),
+        math.nan if confidence in (MISSING, "") else number(confidence, "confidence", path, line),
     )
 
 
 def _rate(cells: dict[str, str], stop_s: float) -> float | None:
     """The frame rate that a row tells by its last frame and second, if it has both."""
     text = cells.get("stop_frame", MISSING)
-    known = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
-    return int(text) / stop_s if known else None
+    valid = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
+    return int(text) / stop_s if valid else None
 
 
 def _facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:

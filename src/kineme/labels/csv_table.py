@@ -38,9 +38,16 @@ from kineme.labels.json_table import SCHEMA, head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
 from kineme.labels.spans import Labels, Span
 from kineme.segments.editing.comments import from_rows, in_rows
-from kineme.segments.row import START_TIME
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, COMMENT, DESCRIBED, Level, Segment, lacking
+from kineme.segments.table import (
+    COLUMNS,
+    COMMENT,
+    START_TIME,
+    Level,
+    Segment,
+    lacking,
+    present_names,
+)
 
 Unit = Literal["seconds", "frames"]
 SPANS: dict[Unit, tuple[str, str]] = {
@@ -60,9 +67,9 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
             if times := segmentation.start_times():
                 names.append(START_TIME)
                 rows = map(_with_text, rows, times)
-            if any(said := in_rows(segmentation)):
+            if any(comments := in_rows(segmentation)):
                 names.append(COMMENT)
-                rows = map(_with_text, rows, said)
+                rows = map(_with_text, rows, comments)
             write_rows(file, names, rows)
 
 
@@ -76,9 +83,9 @@ def read(path: Path) -> Segmentation | Labels:
         file.seek(0)
         rows = csv.DictReader(file, strict=True, delimiter=comma)
         columns = _columns(rows, path, commas=comma != ",")
-    said = columns.pop(COMMENT, None)
+    comments = columns.pop(COMMENT, None)
     found = _with_the_rest(columns, path)
-    return found if said is None else from_rows(found, said)
+    return found if comments is None else from_rows(found, comments)
 
 
 def _with_the_rest(columns: dict[str, list[Any]], path: Path) -> Segmentation:
@@ -92,15 +99,15 @@ def _with_the_rest(columns: dict[str, list[Any]], path: Path) -> Segmentation:
                 f"ends at frame {max(columns['stop_frame'])}, but {beside.name} speaks of "
                 f"{head.get('n_frames')!r} frames: remove that file if it belongs to another table",
             )
-        alone = {name: said for name, said in head.items() if name != "hierarchy"}
-        told = with_head(columns, alone, path)
-        said = pairs.differences(
-            path, beside, head, _digest(columns), told=told.fps, own=_rate(columns)
+        rest = {name: value for name, value in head.items() if name != "hierarchy"}
+        table = with_head(columns, rest, path)
+        changes = pairs.differences(
+            path, beside, head, _digest(columns), head_rate=table.fps, row_rate=_rate(columns)
         )
-        if not said:
+        if not changes:
             return with_head(columns, head, path)
-        notes = [*told.provenance.get("notes", ()), *said]
-        return replace(told, provenance={**told.provenance, "notes": notes})
+        notes = [*table.provenance.get("notes", ()), *changes]
+        return replace(table, provenance={**table.provenance, "notes": notes})
     return with_head(columns, _guessed_head(columns, path), path)
 
 
@@ -126,11 +133,11 @@ def intervals(path: Path) -> dict[str, Labels]:
         for line, row in read_rows(file, path, wanted, delimiter=comma):
             unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
             cells = {name: row[name] if comma == "," else dotted(row[name]) for name in SPANS[unit]}
-            told = _second if unit == "seconds" else number
-            start, stop = (told(cell, name, path, line) for name, cell in cells.items())
+            convert = _second if unit == "seconds" else number
+            start, stop = (convert(cell, name, path, line) for name, cell in cells.items())
             span = Span(start, stop, _text(row), _level(row), repetitions=_count(row, path, line))
             spans.setdefault(row.get("recording", ""), []).append(span)
-    return {recording: Labels(own, unit) for recording, own in spans.items()}
+    return {recording: Labels(some, unit) for recording, some in spans.items()}
 
 
 def _intervals(path: Path) -> Labels:
@@ -169,15 +176,15 @@ def _count(row: dict[str, str], path: Path, line: int) -> int | None:
 def _columns(
     rows: csv.DictReader[str], path: Path, *, commas: bool = False
 ) -> dict[str, list[Any]]:
-    there = rows.fieldnames or ()
-    columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in there}
+    places = present_names({name: name for name in rows.fieldnames or ()})
+    columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in places}
     try:
-        missing = lacking(there)
+        missing = lacking(columns)
         if missing:
             raise ReadError(path, f"is not a segment table: it has no column {missing[0]!r}")
         for row in rows:
             for name, column in columns.items():
-                column.append(_cell(row[name], name, path, rows.line_num, commas=commas))
+                column.append(_cell(row[places[name]], name, path, rows.line_num, commas=commas))
     except csv.Error as error:
         raise ReadError(path, f"is not valid CSV: {error}", line=rows.line_num) from error
     if not columns["level"]:
@@ -188,7 +195,7 @@ def _columns(
 def _cell(text: str | None, name: str, path: Path, line: int, *, commas: bool) -> str | float:
     if text is None:
         raise ReadError(path, f"the line ends before column {name!r}", line=line)
-    kind = DESCRIBED[name].type if name in DESCRIBED else str
+    kind = COLUMNS[name].type if name in COLUMNS else str
     if kind is str:
         return from_text(text)
     if kind is float and not text.strip():
@@ -209,8 +216,8 @@ def _digest(columns: Mapping[str, Any]) -> str:
 def _rate(columns: dict[str, list[Any]]) -> float | None:
     """The frame rate that the last row tells, if it tells one."""
     n_frames, seconds = max(zip(columns["stop_frame"], columns["stop_s"], strict=True))
-    known = 0 < n_frames < 2**53 and 0 < seconds < math.inf
-    return roundest_rate(n_frames, seconds) if known else None
+    valid = 0 < n_frames < 2**53 and 0 < seconds < math.inf
+    return roundest_rate(n_frames, seconds) if valid else None
 
 
 def _guessed_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:

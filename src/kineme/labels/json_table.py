@@ -1,13 +1,14 @@
-"""Segments as JSON, schema ``kineme.segments/1``.
+"""Segments as JSON, schema ``kineme.segments/2``.
 
 One object:
 
     {
-      "schema": "kineme.segments/1",
+      "schema": "kineme.segments/2",
       "n_frames": 1200,            frames of the source file, at least 1
       "fps": 120.0,                frames per second of the source file
       "provenance": {...},         as in Segmentation
       "timings": {"graph": 0.02},  seconds per stage
+      "annotation": {...},         what people did, where they did anything
       "hierarchy": {               where there are other details: all, ascending
         "detail": 1.0,             that of "segments"
         "levels": [                each with its table by columns; that of "segments" without
@@ -17,14 +18,16 @@ One object:
       },
       "segments": [                one object per row, ordered by level, then time
         {"level": "activity", "kind": "activity", "start_frame": 0, "stop_frame": 600,
-         "start_s": 0.0, "stop_s": 5.0, "cluster": -1, "activity": 0, "label": "", "score": null,
-         "action": -1, "border_confidence": null}
+         "start_s": 0.0, "stop_s": 5.0, "cluster": -1, "activity": 0, "label": "",
+         "confidence": null, "action": -1, "border_confidence": null}
       ]
     }
 
 The columns are those of `kineme.segments.table`; a number that nobody knows is
 ``null``. A reader must ignore names it does not know; a change that old
-readers would misunderstand gets the next number.
+readers would misunderstand gets the next number. In ``kineme.segments/1``, which is read as
+well, ``confidence`` is called ``score``, a primitive is of kind ``activity``, and what is in the
+annotation stands in the provenance.
 """
 
 from __future__ import annotations
@@ -41,12 +44,22 @@ from kineme._json import decoded
 from kineme.errors import ReadError
 from kineme.labels.heads import head
 from kineme.labels.label_format import LabelFormat
+from kineme.segments.annotation import Annotation, parted
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, DESCRIBED, Segment, lacking
+from kineme.segments.table import COLUMNS, Column, Segment, lacking, present_names
 
-SCHEMA = "kineme.segments/1"
-HELD = tuple(name for name in COLUMNS if name not in ("start_s", "stop_s", "activity", "action"))
+SCHEMA = "kineme.segments/2"
+ABOUT = (
+    "The segments of a recording. The confidence of a row is the probability that what its kind "
+    "claims is right: of an activity its cluster, of a primitive the number of repetitions of its "
+    "activity; transitions and events have none. The border_confidence is the probability that it "
+    "starts where it says. With the published presets, and for labels from a knowledge base, the "
+    "confidence is a share and no probability."
+)
+"""The head of the schema."""
+OLDER = ("kineme.segments/1",)
+HELD = tuple(name for name, column in COLUMNS.items() if not column.derived)
 """Of the tables at other details; the rest follows from these."""
 
 
@@ -58,9 +71,9 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
 
 def dumps(segmentation: Segmentation) -> str:
     """The JSON text: small parts indented, one line per segment."""
-    told = head_of(segmentation)
-    levels = told.get("hierarchy", {}).pop("levels", [])
-    head = json.dumps(told, indent=2).removesuffix("\n}")
+    content = head_of(segmentation)
+    levels = content.get("hierarchy", {}).pop("levels", [])
+    head = json.dumps(content, indent=2).removesuffix("\n}")
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
         head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
@@ -79,6 +92,7 @@ def read(path: Path) -> Segmentation:
     rows = data.get("segments")
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise ReadError(path, '"segments" must be a list of objects')
+    rows = [present_names(row) for row in rows]
     for number, row in enumerate(rows):
         missing = lacking(row)
         if missing:
@@ -96,6 +110,8 @@ def head_of(segmentation: Segmentation) -> dict[str, Any]:
         "provenance": segmentation.provenance,
         "timings": segmentation.timings,
     }
+    if annotation := segmentation.annotation.to_json():
+        head["annotation"] = annotation
     if segmentation.hierarchy is not None:
         head["hierarchy"] = _levels(segmentation.hierarchy)
     return head
@@ -107,7 +123,7 @@ def parse(text: str, path: Path) -> dict[str, Any]:
     schema = data.get("schema") if isinstance(data, dict) else None
     if not isinstance(data, dict) or not str(schema).startswith("kineme.segments/"):
         raise ReadError(path, 'is not a segment table: it has no "schema": "kineme.segments/..."')
-    if schema != SCHEMA:
+    if schema != SCHEMA and schema not in OLDER:
         raise ReadError(
             path,
             f"has schema {schema!r:.40}, but this version of kineme reads {SCHEMA!r}: upgrade it",
@@ -126,13 +142,91 @@ def with_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     for name, value in notes.items():
         if not isinstance(value, dict):
             raise ReadError(path, f'"{name}" must be an object, not {value!r:.40}')
-    found = Segmentation.from_columns(columns, n_frames=n_frames, fps=fps, **notes)
+    provenance, older = parted(notes["provenance"])
+    found = Segmentation.from_columns(
+        columns,
+        n_frames=n_frames,
+        fps=fps,
+        provenance=provenance,
+        timings=notes["timings"],
+        annotation=Annotation.from_json(head.get("annotation", older)),
+    )
     if "hierarchy" not in head:
         return found
     try:
         return replace(found, hierarchy=_hierarchy(head["hierarchy"], found))
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise ReadError(path, f'"hierarchy" is none: {error}') from error
+
+
+def json_schema() -> dict[str, Any]:
+    """The JSON Schema of such a file, its columns as the table declares them."""
+    columns = {name: _schema_of(column) for name, column in COLUMNS.items()}
+    text, number, names = {"type": "string"}, {"type": "number"}, {"type": ["string", "null"]}
+    provenance = {
+        "kineme": text,
+        "preset": text,
+        "parameters": {"type": "object"},
+        "input": _object({"path": names, "format": names, "sha256": names}),
+        "notes": {"type": "array", "items": text},
+    }
+    positive = {"type": "number", "exclusiveMinimum": 0}
+    needed = [name for name in HELD if COLUMNS[name].default is None] + ["cluster"]
+    lists = {"type": "object", "required": needed, "additionalProperties": {"type": "array"}}
+    level = _object({"detail": positive, "columns": lists}, required=["detail"])
+    levels = {"type": "array", "minItems": 1, "items": level}
+    head = {
+        "schema": {"const": SCHEMA},
+        "n_frames": {"type": "integer", "minimum": 1},
+        "fps": positive,
+        "provenance": _object(provenance),
+        "timings": {"type": "object", "additionalProperties": number},
+    }
+    of, whole = {"enum": [*COLUMNS["level"].allowed]}, {"type": "integer", "minimum": 0}
+    span = {"type": "array", "prefixItems": [of, whole, whole], "minItems": 3}
+    comment = {"type": "array", "prefixItems": [of, whole, text], "minItems": 3}
+    annotation = {
+        "checked": {"type": "array", "items": span},
+        "by_hand": {"type": "array", "items": span},
+        "comments": {"type": "array", "items": comment},
+        "cluster_names": {"type": "object", "additionalProperties": text},
+        "corrections": whole,
+    }
+    rows = {"type": "array", "minItems": 1, "items": _object(columns, required=lacking(()))}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": SCHEMA,
+        "description": ABOUT,
+        **_object(
+            {
+                **head,
+                "annotation": _object(annotation),
+                "hierarchy": _object(
+                    {"detail": positive, "levels": levels}, required=["detail", "levels"]
+                ),
+                "segments": rows,
+            },
+            required=[*head, "segments"],
+        ),
+    }
+
+
+def _object(properties: dict[str, Any], *, required: Sequence[str] = ()) -> dict[str, Any]:
+    need = {"required": [*required]} if required else {}
+    return {"type": "object", **need, "properties": properties}
+
+
+def _schema_of(column: Column) -> dict[str, Any]:
+    """The schema of a cell."""
+    kinds: dict[Any, str] = {str: "string", int: "integer", float: "number"}
+    kind: str | list[str] = kinds[column.type]
+    if column.type is float and column.default is not None:  # null where nothing is known
+        kind = [kinds[float], "null"]
+    cell: dict[str, Any] = {"enum": [*column.allowed]} if column.allowed else {"type": kind}
+    if column.least is not None:
+        cell["minimum"] = column.least
+    unit = {"unit": column.unit} if column.unit else {}
+    return {"description": column.meaning, **cell, **unit}
 
 
 def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
@@ -157,7 +251,8 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
             tables[level["detail"]] = found.table
             continue
         columns = {
-            name: [_known(value, name) for value in values] for name, values in columns.items()
+            name: [_or_nan(value, name) for value in values]
+            for name, values in present_names(columns).items()
         }
         tables[level["detail"]] = Segmentation.from_columns(
             columns, n_frames=found.n_frames, fps=found.fps
@@ -166,12 +261,12 @@ def _hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
 
 
 def _value(row: dict[str, Any], name: str) -> Any:
-    """A cell; a number that is null, or that older files do not have, is nan."""
-    return _known(row[name] if DESCRIBED[name].since_first else row.get(name), name)
+    """A cell, or what holds where nothing is known: a number is null, an older file has none."""
+    return _or_nan(row.get(name, COLUMNS[name].default), name)
 
 
-def _known(value: Any, name: str) -> Any:
-    return math.nan if value is None and DESCRIBED[name].type is float else value
+def _or_nan(value: Any, name: str) -> Any:
+    return math.nan if value is None and COLUMNS[name].type is float else value
 
 
 def _cells(row: Segment) -> dict[str, Any]:

@@ -37,8 +37,8 @@ def differences(
     side: Mapping[str, Any],
     found: str,
     *,
-    told: float | None,
-    own: float | None,
+    head_rate: float | None,
+    row_rate: float | None,
 ) -> tuple[str, ...]:
     """What to say of a table and its side file that were not written together.
 
@@ -50,9 +50,9 @@ def differences(
         What the side file holds; older ones have no digest, and are believed.
     found : str
         The `digest` of the table.
-    told, own : float or None
-        The frame rate that the side file tells, and the one that frames and seconds of the
-        table tell.
+    head_rate, row_rate : float or None
+        The frame rate in the side file, and that which follows from frames and seconds of the
+        table.
 
     Returns
     -------
@@ -66,16 +66,17 @@ def differences(
     """
     if KEY not in side:
         return ()
-    if told is not None and own is not None and not isclose(told, own, rel_tol=SAME):
+    rates = [rate for rate in (head_rate, row_rate) if rate is not None]
+    if len(rates) == 2 and not isclose(*rates, rel_tol=SAME):
         raise ReadError(
             path,
-            f"is of {own:g} frames per second, but {beside.name} speaks of {told:g}, and was "
-            "written with another table: remove that file, or write both again",
+            f"is of {row_rate:g} frames per second, but {beside.name} speaks of {head_rate:g}, "
+            "and was written with another table: remove that file, or write both again",
         )
     if side[KEY] == found:
         return ()
-    said = (
+    note = (
         f"{path.name} is not the table that {beside.name} was written with: its cuts were moved "
         "since, or writing broke off between the two"
     )
-    return (said,)
+    return (note,)

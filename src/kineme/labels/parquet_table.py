@@ -19,9 +19,15 @@ from kineme.labels.heads import tail
 from kineme.labels.json_table import head_of, parse, with_head
 from kineme.labels.label_format import LabelFormat
 from kineme.segments.editing.comments import from_rows, in_rows
-from kineme.segments.row import START_TIME
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, COMMENT, Segment, lacking
+from kineme.segments.table import (
+    COLUMNS,
+    COMMENT,
+    START_TIME,
+    Segment,
+    lacking,
+    present_names,
+)
 
 KEY = b"kineme.segments"
 
@@ -32,8 +38,8 @@ def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     columns: dict[str, Any] = {**segmentation.table.columns()}
     if times := segmentation.start_times():
         columns[START_TIME] = times
-    if any(said := in_rows(segmentation)):
-        columns[COMMENT] = said
+    if any(comments := in_rows(segmentation)):
+        columns[COMMENT] = comments
     table = arrow.table(columns)
     table = table.replace_schema_metadata({KEY: json.dumps(head_of(segmentation)).encode()})
     with atomic_write(path) as draft:
@@ -46,17 +52,18 @@ def read(path: Path) -> Segmentation:
     file = parquet_file(content)
     metadata = file.schema_arrow.metadata or {}
     there = file.schema_arrow.names
-    if KEY not in metadata or lacking(there):
+    places = present_names({name: name for name in there})
+    if KEY not in metadata or lacking(places):
         raise ReadError(path, "is a Parquet file, but not a segment table written by kineme")
     head = parse(metadata[KEY].decode(errors="replace"), path)
-    names = [name for name in COLUMNS if name in there]
-    table = parquet_columns(content, file, names)
-    columns = {name: table.column(name).to_numpy() for name in names}
+    wanted = {name: places[name] for name in COLUMNS if name in places}
+    table = parquet_columns(content, file, [*wanted.values()])
+    columns = {name: table.column(place).to_numpy() for name, place in wanted.items()}
     found = with_head(columns, head, path)
     if COMMENT not in there:
         return found
-    said = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
-    return from_rows(found, [str(text or "") for text in said])
+    comments = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
+    return from_rows(found, [str(text or "") for text in comments])
 
 
 def _pyarrow() -> tuple[Any, Any]:

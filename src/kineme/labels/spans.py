@@ -1,9 +1,9 @@
 """Spans with a text each: what label formats hold, and the way there and back.
 
 A segment becomes one text: its label; without one ``transition``, ``cluster 3``
-or ``activity``. A text that is read is taken for what those words say, any
+or ``activity``, on either level. A text that is read is taken for what those words say, any
 other for the label of an activity. So a labelled segment loses its cluster, a
-labelled transition its kind, and every segment its score, but where the format
+labelled transition its kind, and every segment its confidence, but where the format
 has columns for them.
 
 Reading tiles: what no span covers is a transition. Spans of one level must not
@@ -26,11 +26,11 @@ from typing import Any, Literal, NamedTuple
 from kineme._counts import counted
 from kineme.errors import ParameterError, ReadError
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Kind, Level, Segment
+from kineme.segments.table import Kind, Level, Segment, kind_of
 
 TOO_FAR = 2**53
 """Frames that a float no longer tells from their neighbours."""
-COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "score")
+COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "confidence")
 
 Row = tuple[Level, Kind, int, int, int, str, float]
 
@@ -43,7 +43,7 @@ class Span(NamedTuple):
     text: str
     level: Level = "activity"
     cluster: int = -1
-    score: float = math.nan
+    confidence: float = math.nan
     repetitions: int | None = None
 
 
@@ -83,7 +83,7 @@ def text_of(row: Segment) -> str:
 
 
 def meaning(text: str) -> tuple[Kind, int, str]:
-    """Kind, cluster and label of a text: the inverse of `text_of`."""
+    """Kind, on the activity level, cluster and label of a text: the inverse of `text_of`."""
     if text == "transition":
         return "transition", -1, ""
     if text in ("activity", ""):
@@ -125,8 +125,8 @@ def as_segmentation(
         No spans, an unknown frame rate, or spans that overlap or lie outside.
     """
     if not labels.spans:
-        said = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
-        raise ReadError(path, f"has no labels{said}")
+        which = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
+        raise ReadError(path, f"has no labels{which}")
     rate = fps or labels.fps
     if rate is None:
         raise ReadError(
@@ -135,7 +135,7 @@ def as_segmentation(
     if not 0 < rate < math.inf:
         raise ReadError(path, f"the frame rate must be a positive number, not {rate}")
     per_unit = rate if labels.unit == "seconds" else 1.0
-    rows = [_meant(span, per_unit, path) for span in labels.spans]
+    rows = [_row(span, per_unit, path) for span in labels.spans]
     last = max(row[3] for row in rows)
     notes = [*labels.remarks]
     if n_frames is None and labels.length is not None:
@@ -180,13 +180,14 @@ def one_line(text: str) -> str:
     return "".join(" " if unicodedata.category(letter) in bad else letter for letter in text)
 
 
-def _meant(span: Span, per_unit: float, path: Path) -> Row:
+def _row(span: Span, per_unit: float, path: Path) -> Row:
     """A row of the table, with frames for the unit of the file."""
     start, stop = _frame(span.start, per_unit, path), _frame(span.stop, per_unit, path)
     if stop < start:
         raise ReadError(path, f"{span.text!r:.60} stops at {span.stop}, before {span.start}")
     kind, cluster, label = meaning(one_line(span.text))
-    return span.level, kind, start, stop, max(cluster, span.cluster), label, span.score
+    kind = kind_of(span.level, transition=kind == "transition")
+    return span.level, kind, start, stop, max(cluster, span.cluster), label, span.confidence
 
 
 def _frame(value: float, per_unit: float, path: Path) -> int:
@@ -205,7 +206,11 @@ def _as_long_as_a_frame(rows: list[Row], n_frames: int) -> list[Row]:
 def _both_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
     """The rows of each level with the gaps between them filled, no gap across an activity's end."""
     if all(row[0] == "primitive" for row in full):
-        full = [("activity", *row[1:]) for row in full]
+        activity: Level = "activity"
+        full = [
+            (activity, kind_of(activity, transition=row[1] == "transition"), *row[2:])
+            for row in full
+        ]
     inner = [row for row in full if row[0] == "primitive"]
     tiled = list(_tiled([row for row in full if row[0] == "activity"], n_frames, [], path))
     if inner:

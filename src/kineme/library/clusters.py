@@ -76,7 +76,7 @@ def clusters_of(tables: OpenTables) -> list[Cluster]:
     words, segments, told = tables.columns("words"), tables.columns("segments"), tables.recordings
     vocabularies = dict(zip(told["recording"], told["vocabulary"], strict=True))
     lasts = segments["stop_s"] - segments["start_s"]
-    active = segments["kind"] == "activity"
+    active = segments["kind"] != "transition"
     finer = segments["level"] == "primitive"
     found = []
     for number in sorted(set(words["cluster"].tolist())):

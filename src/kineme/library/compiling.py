@@ -168,7 +168,7 @@ def _shared(pieces: Sequence[Piece], words: _Words) -> list[Ints]:
 
 def _spans(columns: Columns, clusters: Ints) -> Spans:
     """The activities of a recording with their clusters, and what only primitives are of."""
-    active, coarse = columns["kind"] == "activity", columns["level"] == "activity"
+    active, coarse = columns["kind"] != "transition", columns["level"] == "activity"
     own = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))
     return columns["start_s"][own], columns["stop_s"][own], clusters[own]
 

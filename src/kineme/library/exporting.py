@@ -7,8 +7,6 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ParameterError, WriteError
 from kineme.labels.delimited import write_rows
@@ -140,7 +138,15 @@ def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:
     fps, n = recording.fps, recording.n_frames
     start = min(round(hit.start_s * fps), n - 1)
     stop = min(max(round(hit.stop_s * fps), start + 1), n)
-    span = (start, stop, start / fps, stop / fps)
     return Segment(
-        "primitive", "activity", *span, hit.cluster, -1, hit.label, np.nan, hit.cluster, np.nan
+        level="primitive",
+        kind="primitive",
+        start_frame=start,
+        stop_frame=stop,
+        start_s=start / fps,
+        stop_s=stop / fps,
+        cluster=hit.cluster,
+        activity=-1,
+        label=hit.label,
+        action=hit.cluster,
     )

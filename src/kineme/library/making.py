@@ -42,7 +42,7 @@ def make_piece(
     described = describe(recording, effectors=settings.effectors, emg=emg)
     embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
     for row, each in enumerate(found.table):
-        if each.kind == "activity":
+        if each.kind != "transition":
             embeddings[row] = described.embedding(each.start_s, each.stop_s)
     moments = _moments(recording) if isinstance(recording, Signals) else None
     reason = f"not searched: {described.reason}" if described.reason else ""

@@ -26,9 +26,9 @@ from kineme.segmentation.options import SegmentOptions
 from kineme.segmentation.outside import as_channels, on_recording
 from kineme.segmentation.spans import AT_GAP, gaps_between, in_frames
 from kineme.segmentation.views import View
-from kineme.segments.columns import segment_table
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import segment_table
 
 
 def segment(

@@ -114,8 +114,8 @@ class Hierarchy:
             No such number.
         """
         check_detail(detail)
-        known = np.searchsorted(self.details, detail * (1 + 1e-9), side="right") - 1
-        return Hierarchy(self.details, self.tables, self.details[max(0, int(known))])
+        place = np.searchsorted(self.details, detail * (1 + 1e-9), side="right") - 1
+        return Hierarchy(self.details, self.tables, self.details[max(0, int(place))])
 
     def borders(self, level: Level = "activity") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """The borders of the finest table, and the least detail at which each is there.
@@ -174,5 +174,5 @@ def _same_spans(a: SegmentTable, b: SegmentTable) -> bool:
     )
     if not same:
         return False
-    ours, theirs = a.cluster.tolist(), b.cluster.tolist()
-    return len({*zip(ours, theirs, strict=True)}) == len({*ours}) == len({*theirs})
+    first, second = a.cluster.tolist(), b.cluster.tolist()
+    return len({*zip(first, second, strict=True)}) == len({*first}) == len({*second})

@@ -43,11 +43,6 @@ class Provenance(TypedDict, total=False):
     parameters: dict[str, Any]
     notes: list[str]
     gaps: list[tuple[int, int]]
-    by_hand: list[tuple[str, int, int]]
-    checked: list[tuple[str, int, int]]
-    comments: list[tuple[str, int, str]]
-    cluster_names: dict[str, str]
-    corrections: int
 
 
 def check_recording(n_frames: int, fps: float) -> None:
@@ -119,8 +114,8 @@ def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
     try:
         msgspec.convert(provenance, Provenance)
     except msgspec.ValidationError as error:
-        said = sentence(str(error))
-        raise ParameterError(f"the provenance is not as kineme writes it: {said}") from error
+        reason = sentence(str(error))
+        raise ParameterError(f"the provenance is not as kineme writes it: {reason}") from error
     except ValueError as error:  # half of a pair of surrogates for a name
         raise ParameterError("the provenance has a name that is no text") from error
     return provenance

@@ -5,16 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from html import escape
-from typing import TYPE_CHECKING
 
-from kineme.segments.timeline import segment_color, timeline_svg
-
-if TYPE_CHECKING:
-    from kineme.segments.row import Rows, Segment
+from kineme.segments.timeline import Row, Rows, segment_color, timeline_svg
 
 ROWS = 8
 """Shown of a table."""
-COLUMNS = ("kind", "start s", "stop s", "duration s", "cluster", "label", "score")
+COLUMNS = ("kind", "start s", "stop s", "duration s", "cluster", "label", "confidence")
 
 
 def page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
@@ -49,7 +45,7 @@ def _rows(table: Rows) -> str:
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
-def _cells(segment: Segment) -> str:
+def _cells(segment: Row) -> str:
     square = f'<span style="color:{segment_color(segment)}">■</span>'
     cells = (
         segment.kind,
@@ -58,6 +54,6 @@ def _cells(segment: Segment) -> str:
         f"{segment.duration_s:.2f}",
         f"{square} {segment.cluster}" if segment.cluster >= 0 else "",
         escape(segment.label),
-        "" if math.isnan(segment.score) else f"{segment.score:.2f}",
+        "" if math.isnan(segment.confidence) else f"{segment.confidence:.2f}",
     )
     return "".join(f"<td>{cell}</td>" for cell in cells)

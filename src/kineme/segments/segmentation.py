@@ -5,15 +5,19 @@ The columns of its table are described in `kineme.segments.table`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, get_args, overload
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from kineme._checks import check_type
+from kineme._checks import check_type, is_one_of
 from kineme._clock import Clock
-from kineme.segments.columns import segment_table
+from kineme._counts import counted
+from kineme.errors import ParameterError
+from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.invariants import (
     as_provenance,
@@ -22,16 +26,22 @@ from kineme.segments.invariants import (
     check_tiles,
     plain_json,
 )
-from kineme.segments.levels import Levels
-from kineme.segments.row import START_TIME
-from kineme.segments.table import Level, SegmentTable
+from kineme.segments.table import (
+    COLUMNS,
+    START_TIME,
+    Level,
+    Segment,
+    SegmentTable,
+    segment_table,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, repr=False)
-class Segmentation(Levels):
+class Segmentation:
     """The segments of one recording.
 
     Usually made by `kineme.segment`, `from_columns` or `kineme.read_segments`.
@@ -53,6 +63,8 @@ class Segmentation(Levels):
     hierarchy : Hierarchy, optional
         The tables at other details, and this one among them; what `level` gives by number.
         None where there is one detail, and where the table is not one of them (any more).
+    annotation : Annotation
+        What people did to the table.
 
     Raises
     ------
@@ -71,14 +83,19 @@ class Segmentation(Levels):
     <Segmentation of 90 frames (3.0 s): 1 activity, 0 transitions, 0 primitives, 0 clusters>
     """
 
+    table: SegmentTable
+    n_frames: int
+    fps: float
     provenance: Mapping[str, Any] = field(default_factory=dict)
     timings: Mapping[str, float] = field(default_factory=dict, compare=False)
     hierarchy: Hierarchy | None = None
+    annotation: Annotation = NO_ANNOTATION
 
     def __post_init__(self) -> None:
         check_type(
             self.table, SegmentTable, "Segmentation", "Segmentation.from_columns takes columns"
         )
+        check_type(self.annotation, Annotation, "Segmentation", "Annotation() is one of nothing")
         check_recording(self.n_frames, self.fps)
         activities, primitives = self.activities, self.primitives
         check_tiles(activities, "activity", self.n_frames)
@@ -100,11 +117,12 @@ class Segmentation(Levels):
         fps: float,
         provenance: Mapping[str, Any] | None = None,
         timings: Mapping[str, float] | None = None,
+        annotation: Annotation = NO_ANNOTATION,
     ) -> Segmentation:
         """A segmentation from columns in any row order.
 
         ``level``, ``kind``, ``start_frame`` and ``stop_frame`` are needed.
-        ``cluster`` is -1, ``label`` empty, ``score`` and ``border_confidence``
+        ``cluster`` is -1, ``label`` empty, ``confidence`` and ``border_confidence``
         nan where not given; ``activity`` then follows from the frames.
         ``start_s``, ``stop_s`` and ``action`` are always computed, whatever
         is given.
@@ -119,6 +137,8 @@ class Segmentation(Levels):
             Frames per second.
         provenance, timings : mapping, optional
             As in `Segmentation`.
+        annotation : Annotation
+            What people did to the table.
 
         Returns
         -------
@@ -132,44 +152,19 @@ class Segmentation(Levels):
         check_recording(n_frames, fps)
         check_type(columns, Mapping, "from_columns", "give arrays by the names of columns")
         table = segment_table(columns, float(fps))
-        said = {} if provenance is None else provenance
-        spent = {} if timings is None else timings
-        return cls(table, int(n_frames), float(fps), said, spent)
+        provenance = {} if provenance is None else provenance
+        timings = {} if timings is None else timings
+        return cls(table, int(n_frames), float(fps), provenance, timings, annotation=annotation)
 
     @property
-    def clock(self) -> Clock | None:
-        """That of the recording, where its seconds are not those of frames counted from 0."""
-        said = self.provenance.get("clock")
-        return None if said is None else Clock.from_json(said)
+    def activities(self) -> SegmentTable:
+        """The activity level: activities and the transitions between them."""
+        return self._of_level("activity")
 
-    def start_times(self) -> list[str]:
-        """What the clock shows when each segment of the table starts; empty without a clock.
-
-        Returns
-        -------
-        list of str
-            Seconds, or dates of ISO 8601 where the clock counts since 1970.
-        """
-        clock = self.clock
-        return [] if clock is None else [clock.shown(row.start_s) for row in self]
-
-    def to_dataframe(self) -> pd.DataFrame:
-        """The table of both levels, as `SegmentTable.to_dataframe` gives it.
-
-        Returns
-        -------
-        pandas.DataFrame
-            With a column ``start_time`` where the recording has a clock, see `start_times`.
-
-        Raises
-        ------
-        MissingDependencyError
-            pandas is not installed.
-        """
-        frame = super().to_dataframe()
-        if times := self.start_times():
-            frame[START_TIME] = times
-        return frame
+    @property
+    def primitives(self) -> SegmentTable:
+        """The primitive level: single repetitions, and transitions whole."""
+        return self._of_level("primitive")
 
     @overload
     def level(self, level: Level) -> SegmentTable: ...
@@ -201,18 +196,154 @@ class Segmentation(Levels):
         --------
         >>> import kineme
         >>> found = kineme.segment(kineme.read(kineme.bundled_recording()))
-        >>> [len(found.level(detail).cuts()) for detail in (0.1, 0.5, 1)]
-        [0, 4, 12]
+        >>> {*found.level(0.5).cuts().tolist()} <= {*found.cuts().tolist()}
+        True
         >>> found.level(0.5).level(1) == found
         True
         """
         if isinstance(level, str):
-            return self.of_level(level)
+            return self._of_level(level)
         check_detail(level)
         if self.hierarchy is None:
             return self
         chosen = self.hierarchy.at(level)
-        provenance = {name: said for name, said in self.provenance.items() if name != "detail"}
+        provenance = {name: value for name, value in self.provenance.items() if name != "detail"}
         if chosen.detail != DEFAULT_DETAIL:
             provenance["detail"] = chosen.detail
         return replace(self, table=chosen.table, provenance=provenance, hierarchy=chosen)
+
+    def cuts(self, level: Level = "activity") -> NDArray[np.int64]:
+        """The frames where one segment of a level ends and the next starts."""
+        return self._of_level(level).start_frame[1:]
+
+    def repetitions(self) -> dict[int, int]:
+        """How many primitives each cluster has; those in no cluster are not counted."""
+        clusters = self.primitives.cluster
+        return dict(sorted(Counter(clusters[clusters >= 0].tolist()).items()))
+
+    def per_frame(self, column: str = "cluster", *, level: Level = "primitive") -> NDArray[Any]:
+        """A column of the table spread over the frames.
+
+        Parameters
+        ----------
+        column : str
+        level : {"activity", "primitive"}
+
+        Returns
+        -------
+        (n_frames,) array
+
+        Raises
+        ------
+        ParameterError
+            There is no such column or level.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
+        >>> segments.per_frame("label", level="activity")[60].item()
+        'walk'
+        """
+        if not is_one_of(column, COLUMNS):
+            raise ParameterError(f"no column {column!r}; there are {', '.join(COLUMNS)}")
+        rows = self._of_level(level)
+        values: NDArray[Any] = getattr(rows, column)
+        return np.repeat(values, rows.stop_frame - rows.start_frame)
+
+    def describe(self) -> str:
+        """How many of each there are, for people; primitives without transitions."""
+        kinds = self.activities.kind.tolist()
+        counts = {
+            "activity": kinds.count("activity"),
+            "transition": kinds.count("transition"),
+            "primitive": self.primitives.kind.tolist().count("primitive"),
+            "cluster": len(self.repetitions()),
+        }
+        return ", ".join(counted(n, name) for name, n in counts.items())
+
+    @property
+    def clock(self) -> Clock | None:
+        """That of the recording, where its seconds are not those of frames counted from 0."""
+        content = self.provenance.get("clock")
+        return None if content is None else Clock.from_json(content)
+
+    def start_times(self) -> list[str]:
+        """What the clock shows when each segment of the table starts; empty without a clock.
+
+        Returns
+        -------
+        list of str
+            Seconds, or dates of ISO 8601 where the clock counts since 1970.
+        """
+        clock = self.clock
+        return [] if clock is None else [clock.shown(row.start_s) for row in self]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """The table of both levels, as `SegmentTable.to_dataframe` gives it.
+
+        Returns
+        -------
+        pandas.DataFrame
+            With a column ``start_time`` where the recording has a clock, see `start_times`.
+
+        Raises
+        ------
+        MissingDependencyError
+            pandas is not installed.
+        """
+        frame = self.table.to_dataframe()
+        if times := self.start_times():
+            frame[START_TIME] = times
+        return frame
+
+    def plot(self, *, ax: Axes | None = None) -> Axes:
+        """Activities, and primitives below them, along the seconds of the recording.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; Axes of a new figure of pyplot by default.
+
+        Returns
+        -------
+        Axes
+
+        Examples
+        --------
+        >>> import kineme
+        >>> from kineme.datasets import bundled_truth
+        >>> from matplotlib.figure import Figure
+        >>> segments = kineme.read_segments(bundled_truth(), fps=60)
+        >>> axes = segments.plot(ax=Figure().add_subplot())
+        """
+        from kineme.segments.timeline import draw_timeline
+
+        rows = {"activities": self.activities, "primitives": self.primitives}
+        shown = {name: table for name, table in rows.items() if len(table)}
+        return draw_timeline(shown, self.n_frames / self.fps, ax=ax)
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+    def __iter__(self) -> Iterator[Segment]:
+        return iter(self.table)
+
+    def __repr__(self) -> str:
+        seconds = self.n_frames / self.fps
+        length = f"{counted(self.n_frames, 'frame')} ({seconds:.1f} s)"
+        return f"<Segmentation of {length}: {self.describe()}>"
+
+    def _repr_html_(self) -> str:
+        from kineme.segments.notebook import page
+
+        return page(repr(self).strip("<>"), [self.activities, self.primitives], self.activities)
+
+    def _of_level(self, level: Level) -> SegmentTable:
+        """The segments of one level, in time order; ParameterError for any other word."""
+        if not is_one_of(level, get_args(Level)):
+            raise ParameterError(
+                f"level must be 'activity' or 'primitive', or a detail above 0, not {level!r}"
+            )
+        return self.table.select(self.table.level == level)

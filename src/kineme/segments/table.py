@@ -1,44 +1,187 @@
 """The segment table: the package's common tongue.
 
-It has one row per segment and the columns described in `kineme.segments.row`. Rows are ordered by
-level, then by time. The activity level tiles the recording, and so does the
-primitive level where there is one: the first segment starts at 0, each starts
-where the one before it stops, the last stops at ``n_frames``. Frames are the
-truth; seconds are always derived from them.
+`Segment` declares its columns, a field each: type, meaning, unit, and what holds where nothing is
+known. Rows and arrays, the checks, CSV, JSON, Parquet and data frames, the JSON Schema, the table
+in the docs and the messages of the pages are made from that; a column more is a field more there.
+
+Rows are ordered by level, then by time. The activity level tiles the recording, and so does the
+primitive level where there is one: the first segment starts at 0, each starts where the one before
+it stops, the last stops at ``n_frames``. Frames are the truth; seconds are always derived from
+them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, get_args, overload
+import math
+import unicodedata
+from collections.abc import Container, Iterator, Mapping
+from dataclasses import MISSING, dataclass, fields, replace
+from types import MappingProxyType
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    Literal,
+    Self,
+    TypeVar,
+    get_args,
+    get_type_hints,
+    overload,
+)
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._counts import counted
 from kineme.errors import MissingDependencyError, ParameterError
-from kineme.segments.row import COLUMNS, COMMENT, DESCRIBED, Column, Kind, Level, Segment, lacking
 
 if TYPE_CHECKING:
     import pandas as pd
 
-__all__ = [
-    "COLUMNS",
-    "COMMENT",
-    "DESCRIBED",
-    "Column",
-    "Kind",
-    "Level",
-    "Segment",
-    "SegmentTable",
-    "lacking",
-]
+Level = Literal["activity", "primitive"]
+Kind = Literal["activity", "primitive", "transition"]
+Values = TypeVar("Values")
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True)
+class Column:
+    """One column of a table: what files, pages and docs need to know of it.
+
+    Attributes
+    ----------
+    meaning : str
+        In a sentence.
+    type : type
+        Of its cells; a float is nan where nothing is known.
+    unit : str
+        Of its numbers, where they have one.
+    least : int, optional
+        The smallest of its numbers.
+    optional : bool
+        Whether a file may lack it, as those do that are older than the column.
+    derived : bool
+        Whether it follows from other columns.
+    earlier : str
+        Its name in older files, where it had another.
+    allowed : tuple of str
+        The texts that it may hold; any where there are none.
+    default : str or float, optional
+        What holds where nothing is known; None: it is always needed.
+    """
+
+    meaning: str
+    type: type[str | int | float] = str
+    unit: str = ""
+    least: int | None = None
+    optional: bool = False
+    derived: bool = False
+    earlier: str = ""
+    allowed: tuple[str, ...] = ()
+    default: str | float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One row of the table: a span ``[start_frame, stop_frame)`` and what it is."""
+
+    level: Annotated[Level, Column("which rows of the table: `activity` or `primitive`")]
+    kind: Annotated[Kind, Column("`activity` or `primitive`, as its level, or `transition`")]
+    start_frame: Annotated[
+        int, Column("first frame, from 0, at the rate of the source file", unit="frames", least=0)
+    ]
+    stop_frame: Annotated[int, Column("one past the last frame", unit="frames", least=1)]
+    start_s: Annotated[float, Column("`start_frame / fps`", unit="s", least=0, derived=True)]
+    stop_s: Annotated[float, Column("`stop_frame / fps`", unit="s", least=0, derived=True)]
+    cluster: Annotated[
+        int, Column("equal numbers are equal movements; -1: in no cluster", least=-1)
+    ] = -1
+    activity: Annotated[
+        int,
+        Column(
+            "the segment of the activity level that it lies in (or is), from 0",
+            least=0,
+            derived=True,
+        ),
+    ] = 0
+    label: Annotated[str, Column("a name given by a person or a knowledge base, or empty")] = ""
+    confidence: Annotated[
+        float,
+        Column(
+            "how probable it is that what its kind claims is right; none where nobody says",
+            earlier="score",
+        ),
+    ] = math.nan
+    action: Annotated[
+        int,
+        Column(
+            "`cluster` of the activity that it lies in (or is)",
+            least=-1,
+            optional=True,
+            derived=True,
+        ),
+    ] = -1
+    border_confidence: Annotated[
+        float,
+        Column("how probable it is that its start is right; none where nobody says", optional=True),
+    ] = math.nan
+
+    @property
+    def duration_s(self) -> float:
+        """Seconds from start to stop."""
+        return self.stop_s - self.start_s
+
+
+def _declared() -> Iterator[tuple[str, Column]]:
+    """Name and column of each field of a segment."""
+    hints = get_type_hints(Segment, include_extras=True)
+    for field in fields(Segment):
+        kind, column = get_args(hints[field.name])
+        texts = get_args(kind)
+        yield (
+            field.name,
+            replace(
+                column,
+                type=str if texts else kind,
+                allowed=texts,
+                default=None if field.default is MISSING else field.default,
+            ),
+        )
+
+
+COLUMNS: Mapping[str, Column] = MappingProxyType(dict(_declared()))
+"""The columns by name, in the documented order."""
+START_TIME = "start_time"
+"""One more column of files and data frames, where the recording has a clock: what it shows."""
+COMMENT = "comment"
+"""One more column of files: what people said about a segment, in tables that have comments."""
+
+
+def present_names(columns: Mapping[str, Values]) -> dict[str, Values]:
+    """Columns by the names that they have today, whatever they were called in older files."""
+    older = {column.earlier: name for name, column in COLUMNS.items() if column.earlier}
+    renamed = {name: columns[was] for was, name in older.items() if was in columns}
+    return renamed | {name: column for name, column in columns.items() if name not in older}
+
+
+def lacking(names: Container[str]) -> list[str]:
+    """The columns that every segment table in a file has, and these names have not."""
+    return [name for name, column in COLUMNS.items() if not column.optional and name not in names]
+
+
+def kind_of(level: Level, *, transition: bool) -> Kind:
+    """The kind of a segment of a level that is a transition, or none."""
+    return "transition" if transition else level
+
+
+def _of_columns(table: type[Values]) -> type[Values]:
+    """The class as a dataclass of one array for each column."""
+    table.__annotations__ = dict.fromkeys(COLUMNS, NDArray[Any])
+    return dataclass(frozen=True, eq=False, repr=False)(table)
+
+
+@_of_columns
 class SegmentTable:
-    """Segments as columns: one numpy array each, all of the same length.
+    """Segments as columns: one numpy array for each field of a `Segment`, all of the same length.
 
     Usually taken from a `Segmentation`. A slice, a mask or row numbers pick rows,
     as in numpy; one number gives a `Segment`.
@@ -52,27 +195,24 @@ class SegmentTable:
     ('activity', <SegmentTable of 5 segments, 0.00 to 48.30 s>)
     """
 
-    level: NDArray[np.str_]
-    kind: NDArray[np.str_]
-    start_frame: NDArray[np.int64]
-    stop_frame: NDArray[np.int64]
-    start_s: NDArray[np.float64]
-    stop_s: NDArray[np.float64]
-    cluster: NDArray[np.int64]
-    activity: NDArray[np.int64]
-    label: NDArray[np.str_]
-    score: NDArray[np.float64]
-    action: NDArray[np.int64]
-    border_confidence: NDArray[np.float64]
+    if TYPE_CHECKING:
+
+        def __init__(self, **columns: NDArray[Any]) -> None: ...
+        def __getattr__(self, name: str) -> NDArray[Any]: ...
 
     @property
     def duration_s(self) -> NDArray[np.float64]:
         """Seconds from start to stop of each segment."""
-        return self.stop_s - self.start_s
+        seconds: NDArray[np.float64] = self.stop_s - self.start_s
+        return seconds
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """The columns by name, in the documented order."""
         return {name: getattr(self, name) for name in COLUMNS}
+
+    def with_columns(self, **columns: NDArray[Any]) -> Self:
+        """The same segments with other values in some columns, which are not checked."""
+        return type(self)(**{**self.columns(), **columns})
 
     def to_dataframe(self) -> pd.DataFrame:
         """One row per segment: the columns in the documented order, and ``duration_s``.
@@ -100,10 +240,10 @@ class SegmentTable:
         except ImportError as error:
             raise MissingDependencyError("pandas", "tables") from error
         frame = pd.DataFrame(self.columns())
-        frame.insert(COLUMNS.index("stop_s") + 1, "duration_s", self.duration_s)
+        frame.insert([*COLUMNS].index("stop_s") + 1, "duration_s", self.duration_s)
         return frame
 
-    def select(self, rows: slice | ArrayLike) -> SegmentTable:
+    def select(self, rows: slice | ArrayLike) -> Self:
         """The rows that a mask, a slice or an index array picks, as ``table[rows]``.
 
         Parameters
@@ -127,7 +267,7 @@ class SegmentTable:
             columns = {name: column[picked] for name, column in self.columns().items()}
         except (TypeError, ValueError):  # a slice that is none of whole numbers
             raise ParameterError(f"{rows!r} picks no rows: give whole numbers") from None
-        return SegmentTable(**columns)
+        return type(self)(**columns)
 
     def __len__(self) -> int:
         return len(self.level)
@@ -138,8 +278,8 @@ class SegmentTable:
     @overload
     def __getitem__(self, rows: int) -> Segment: ...
     @overload
-    def __getitem__(self, rows: slice | ArrayLike) -> SegmentTable: ...
-    def __getitem__(self, rows: Any) -> Segment | SegmentTable:
+    def __getitem__(self, rows: slice | ArrayLike) -> Self: ...
+    def __getitem__(self, rows: Any) -> Segment | Self:
         """The segment in a row; or the table of those that a slice, mask or index array picks.
 
         Raises
@@ -160,8 +300,8 @@ class SegmentTable:
         if not isinstance(other, SegmentTable):
             return NotImplemented
         return all(
-            np.array_equal(mine, theirs, equal_nan=mine.dtype.kind == "f")
-            for mine, theirs in zip(self.columns().values(), other.columns().values(), strict=True)
+            np.array_equal(first, second, equal_nan=first.dtype.kind == "f")
+            for first, second in zip(self.columns().values(), other.columns().values(), strict=True)
         )
 
     __hash__ = None  # type: ignore[assignment]
@@ -177,6 +317,113 @@ class SegmentTable:
 
         levels = [self[self.level == level] for level in get_args(Level)]
         return page(repr(self).strip("<>"), levels, self)
+
+
+def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
+    """A table from columns in any row order; see `Segmentation.from_columns`.
+
+    Parameters
+    ----------
+    columns : mapping of str to array_like
+        By name, today's or that of older files, one value for each segment.
+    fps : float
+        Frames per second.
+
+    Returns
+    -------
+    SegmentTable
+
+    Raises
+    ------
+    ParameterError
+        A column is missing, of another length, or holds what it cannot.
+    """
+    present = present_names(columns)
+    needed = {name: column for name, column in COLUMNS.items() if not column.derived}
+    for name, column in needed.items():
+        if column.default is None and name not in present:
+            raise ParameterError(f"a segment table needs the column {name!r}")
+    n = np.size(present["level"])
+    arrays = {
+        name: _checked(present.get(name, np.full(n, column.default)), name)
+        for name, column in needed.items()
+    }
+    if "activity" in present:
+        arrays["activity"] = _checked(present["activity"], "activity")
+    for name, array in arrays.items():
+        if array.shape != (n,):
+            raise ParameterError(f"column {name!r} has shape {array.shape}, 'level' has ({n},)")
+    arrays = _derived(arrays, fps) | arrays
+    arrays["kind"] = kinds_of(arrays["level"], arrays["kind"])
+    order = np.lexsort((arrays["stop_frame"], arrays["start_frame"], arrays["level"]))
+    return SegmentTable(**{name: arrays[name][order] for name in COLUMNS})
+
+
+def kinds_of(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.str_]:
+    """The kinds of segments of these levels; a primitive of older files is an activity there.
+
+    Raises
+    ------
+    ParameterError
+        A primitive on the activity level.
+    """
+    if ((levels == "activity") & (kinds == "primitive")).any():
+        raise ParameterError(
+            "a segment of level 'activity' is an activity or a transition, not a primitive"
+        )
+    return np.where(kinds == "transition", kinds, levels)
+
+
+def _derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArray[Any]]:
+    """The columns that follow from others."""
+    start = arrays["start_frame"]
+    activities = np.flatnonzero(arrays["level"] == "activity")
+    activities = activities[np.argsort(start[activities], kind="stable")]
+    enclosing = np.searchsorted(start[activities], start, side="right") - 1
+    clusters = np.append(arrays["cluster"][activities], -1)  # the last: that of none
+    return {
+        "start_s": start / fps,
+        "stop_s": arrays["stop_frame"] / fps,
+        "activity": enclosing,
+        "action": clusters[enclosing],
+    }
+
+
+def _checked(values: ArrayLike, name: str) -> NDArray[Any]:
+    """The values of a column as an array of its type; ParameterError where it cannot hold them."""
+    column = COLUMNS[name]
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ParameterError(f"column {name!r} must hold one value per row") from error
+    if column.type is str:
+        return _texts(array, name, column.allowed)
+    if column.type is int:
+        return _integers(array, name)
+    if array.dtype.kind not in "iuf" or np.isinf(array).any():
+        raise ParameterError(f"column {name!r} must be finite, or nan where nothing is known")
+    return array.astype(np.float64)
+
+
+def _integers(array: NDArray[Any], name: str) -> NDArray[np.int64]:
+    if array.size and array.dtype.kind not in "iu":
+        raise ParameterError(f"column {name!r} must hold whole numbers, not {array.dtype}")
+    if array.size and int(array.max()) > np.iinfo(np.int64).max:
+        raise ParameterError(f"column {name!r} holds {array.max()}, which is too large")
+    return array.astype(np.int64)
+
+
+def _texts(array: NDArray[Any], name: str, allowed: tuple[str, ...]) -> NDArray[np.str_]:
+    values = array.ravel().tolist()
+    other = next((value for value in values if not isinstance(value, str)), "")
+    if other != "":
+        raise ParameterError(f"column {name!r} must hold texts, not {other!r:.60}")
+    for text in set(values):
+        if allowed and text not in allowed:
+            raise ParameterError(f"{name} must be {' or '.join(allowed)}, not {text!r}")
+        if any(unicodedata.category(letter) in ("Cc", "Cs", "Zl", "Zp") for letter in text):
+            raise ParameterError(f"{name} {text!r} must be one line of plain text")
+    return array.astype(np.str_)
 
 
 def _picked(rows: ArrayLike, n: int) -> NDArray[Any]:

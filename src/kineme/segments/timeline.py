@@ -6,9 +6,9 @@ in every picture; grey is what is in no cluster, lighter grey a transition.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +17,6 @@ from kineme._colors import cluster_color, label_colors
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from kineme.segments.row import Rows, Segment
 
 BAND = 0.8
 """Height of a row's bars; the rest parts it from the next."""
@@ -32,7 +30,40 @@ WIDTH, HEIGHT = 720, 16
 """Pixels of a row in a notebook."""
 
 
-def segment_color(segment: Segment, labels: Mapping[str, str] = NO_LABELS) -> str:
+class Row(Protocol):
+    """What pictures need of a `kineme.segments.table.Segment`."""
+
+    @property
+    def kind(self) -> str: ...
+    @property
+    def start_s(self) -> float: ...
+    @property
+    def stop_s(self) -> float: ...
+    @property
+    def duration_s(self) -> float: ...
+    @property
+    def cluster(self) -> int: ...
+    @property
+    def label(self) -> str: ...
+    @property
+    def confidence(self) -> float: ...
+
+
+class Rows(Protocol):
+    """What pictures need of a `kineme.segments.table.SegmentTable`."""
+
+    @property
+    def start_s(self) -> NDArray[np.float64]: ...
+    @property
+    def stop_s(self) -> NDArray[np.float64]: ...
+    @property
+    def duration_s(self) -> NDArray[np.float64]: ...
+    def select(self, rows: Any, /) -> Self: ...
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Row]: ...
+
+
+def segment_color(segment: Row, labels: Mapping[str, str] = NO_LABELS) -> str:
     """``#RRGGBB`` of a segment's bar: of its cluster, else of its label."""
     if segment.cluster < 0 and segment.label in labels:
         return labels[segment.label]
@@ -69,15 +100,15 @@ def draw_timeline(
     if colors is None:
         labels = label_colors(segment for table in rows.values() for segment in table)
         colors = [[segment_color(segment, labels) for segment in table] for table in rows.values()]
-    for number, (table, own) in enumerate(zip(rows.values(), colors, strict=True)):
+    for number, (table, shades) in enumerate(zip(rows.values(), colors, strict=True)):
         axes.broken_barh(
             list(zip(table.start_s, table.duration_s, strict=True)),
             (number - BAND / 2, BAND),
-            facecolors=own,
+            facecolors=shades,
             edgecolors="white",
             linewidth=0.6 if len(table) < MOST_EDGES else 0.0,
         )
-        for segment, color in zip(table, own, strict=True):
+        for segment, color in zip(table, shades, strict=True):
             if segment.label and segment.duration_s > NAMED * seconds:
                 _write_label(axes, segment, number, color)
     axes.set_yticks(range(len(rows)), list(rows))
@@ -108,7 +139,7 @@ def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
     bars = [
         f'<rect x="{left}" y="{number * HEIGHT + 1}" width="{right - left}" '
         f'height="{HEIGHT - 2}" fill="{segment_color(segment, labels)}">'
-        f"<title>{_told(segment)}</title></rect>"
+        f"<title>{_description(segment)}</title></rect>"
         for number, table in enumerate(rows)
         for segment, left, right in _pixels(table, start_s, stop_s)
     ]
@@ -118,7 +149,7 @@ def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
     )
 
 
-def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Segment, float, float]]:
+def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float, float]]:
     """The segments that begin a pixel of their own, with the pixels where they start and stop."""
     scale = WIDTH / max(stop_s - start_s, 1e-9)
     left = (table.start_s - start_s) * scale
@@ -133,13 +164,13 @@ def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Segment, f
     ]
 
 
-def _told(segment: Segment) -> str:
+def _description(segment: Row) -> str:
     """What a bar says when the pointer is on it."""
     name = segment.label or (f"cluster {segment.cluster}" if segment.cluster >= 0 else segment.kind)
     return escape(f"{name}: {segment.start_s:.2f} to {segment.stop_s:.2f} s")
 
 
-def _write_label(axes: Axes, segment: Segment, row: int, color: str) -> None:
+def _write_label(axes: Axes, segment: Row, row: int, color: str) -> None:
     red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
     dark = 0.299 * red + 0.587 * green + 0.114 * blue < 140
     axes.text(

@@ -128,10 +128,8 @@ def _by_hand(table: Segmentation, edit: Struct) -> Segmentation:
     after = BY_HAND[type(edit)](table, *fields)
     if isinstance(edit, sent.Check | sent.Remark):
         return after
-    before = table.provenance.get("corrections")
-    count = before + 1 if isinstance(before, int) else 1
-    after = noted(table, after)
-    return replace(after, provenance={**after.provenance, "corrections": count})
+    after, count = noted(table, after), table.annotation.corrections + 1
+    return replace(after, annotation=replace(after.annotation, corrections=count))
 
 
 def _told(before: Segmentation, after: Segmentation, edit: Struct) -> list[str]:

@@ -42,7 +42,7 @@ def versions_of(kept: Mapping[int, Step], tables: Mapping[int, Segmentation]) ->
             at=step.at,
             edit=step.edit,
             segments=len(tables[number]),
-            corrections=int(tables[number].provenance.get("corrections") or 0),
+            corrections=tables[number].annotation.corrections,
             names=names_of(tables[number]),
         )
         for number, step in kept.items()

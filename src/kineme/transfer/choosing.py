@@ -63,7 +63,7 @@ def another_movement(
 
 
 def spread_in_clusters(
-    labels: NDArray[Any], scores: Floats, clusters: NDArray[np.int64], todo: NDArray[np.intp]
+    labels: NDArray[Any], margins: Floats, clusters: NDArray[np.int64], todo: NDArray[np.intp]
 ) -> None:
     """Give every cluster's members the label that most of them have; a person's label stays."""
     for cluster in set(clusters[todo].tolist()) - {-1}:
@@ -73,7 +73,7 @@ def spread_in_clusters(
         winner, votes = named.most_common(1)[0]
         others = [row for row in todo if clusters[row] == cluster and labels[row] != winner]
         labels[others] = winner
-        scores[others] = votes / named.total()
+        margins[others] = votes / named.total()
 
 
 def activity_labels(segmentation: Segmentation, labels: NDArray[Any]) -> list[str]:

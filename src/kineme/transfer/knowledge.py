@@ -241,10 +241,10 @@ def _labelled(segments: Segmentation) -> SegmentTable:
     rows = segments.primitives
     if len(rows):
         inherited = segments.activities.label[rows.activity]
-        rows = replace(rows, label=np.where(rows.label == "", inherited, rows.label))
+        rows = rows.with_columns(label=np.where(rows.label == "", inherited, rows.label))
     else:
         rows = segments.activities
-    rows = rows.select((rows.label != "") & (rows.kind == "activity"))
+    rows = rows.select((rows.label != "") & (rows.kind != "transition"))
     if not len(rows):
         raise ParameterError("no activity has a label: there is nothing to learn")
     return rows

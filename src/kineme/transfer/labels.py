@@ -2,7 +2,7 @@
 
 Every unlabelled primitive takes the label of its cheapest valid match (see
 `kineme.transfer.matching`), and stays without one where none is cheap
-enough. The score is the margin: the share by which the next label is dearer,
+enough. Its confidence is the margin: the share by which the next label is dearer,
 from 0 (a toss-up) to 1.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1; threshold, margin and
@@ -49,7 +49,7 @@ def transfer_labels(
     threshold: float = THRESHOLD,
     spread: bool = False,
 ) -> Segmentation:
-    """The same segments, with labels from the knowledge base and the margin as score.
+    """The same segments, with labels from the knowledge base and the margin as confidence.
 
     A recording without activities, as one that is too short to repeat anything, is searched for
     all that is known, and cut into what is found there. Labels that are there already stay. An
@@ -68,7 +68,7 @@ def transfer_labels(
         Largest cost of a match: 0 is equal, 1.41 has nothing in common. Lower: fewer
         labels, more of them right.
     spread : bool
-        Whether a cluster takes the label that most of its members got, its score for
+        Whether a cluster takes the label that most of its members got, its confidence for
         the others being the share of them that did.
 
     Returns
@@ -101,34 +101,35 @@ def transfer_labels(
     threshold = min(float(threshold), LARGEST)
     features = _checked(features, segmentation)
     table = segmentation.table
-    if not ((table.kind == "activity") | (table.label != "")).any():
+    if not ((table.kind != "transition") | (table.label != "")).any():
         return _searched(segmentation, features, knowledge, threshold, spread=spread)
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     rows = segmentation.level(level)
     labels = rows.label.astype(object)
-    scores, costs = rows.score.copy(), np.full(len(rows), np.nan)
-    todo = np.flatnonzero((rows.kind == "activity") & (rows.label == ""))
+    margins, costs = rows.confidence.copy(), np.full(len(rows), np.nan)
+    todo = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
     if len(todo) and len(knowledge):
         unknown = _primitives(rows.select(todo), features, segmentation.fps)
         found, names = costs_of(unknown, knowledge, REACH * threshold)
         named = cheapest(found, names, threshold)
         other = another_movement(named[0], named[2], same_movements(unknown, ALIKE))
         named[0][other], named[1][other], named[2][other] = "", np.nan, np.nan
-        labels[todo], scores[todo], costs[todo] = named
+        labels[todo], margins[todo], costs[todo] = named
     if spread:
-        spread_in_clusters(labels, scores, rows.cluster, todo)
+        spread_in_clusters(labels, margins, rows.cluster, todo)
     own = table.level == level
-    all_labels, all_scores = table.label.astype(object), table.score.copy()
-    all_labels[own], all_scores[own] = labels, scores
+    all_labels, all_margins = table.label.astype(object), table.confidence.copy()
+    all_labels[own], all_margins[own] = labels, margins
     if level == "primitive":
         activities = table.level == "activity"
         all_labels[activities] = activity_labels(segmentation, labels)
     return Segmentation(
-        replace(table, label=all_labels.astype(np.str_), score=all_scores),
+        table.with_columns(label=all_labels.astype(np.str_), confidence=all_margins),
         segmentation.n_frames,
         segmentation.fps,
         _provenance(segmentation, labels[todo], costs, threshold, spread=spread),
         segmentation.timings,
+        annotation=segmentation.annotation,
     )
 
 
@@ -169,7 +170,7 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
         Counter(per_frame[row.start_frame : row.stop_frame]).most_common(1)[0][0]
         for row in segmentation
     ]
-    table = replace(segmentation.table, label=np.array(names, dtype=np.str_))
+    table = segmentation.table.with_columns(label=np.array(names, dtype=np.str_))
     return replace(segmentation, table=table, hierarchy=None)
 
 

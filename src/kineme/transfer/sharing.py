@@ -117,7 +117,7 @@ def _met_before(
     motion: Motion, found: Segmentation, known: KnowledgeBase, threshold: float
 ) -> dict[int, int]:
     """The numbers of the clusters that are found in the knowledge."""
-    unnamed = replace(found.table, label=np.full(len(found), ""))
+    unnamed = found.table.with_columns(label=np.full(len(found), ""))
     bare = replace(found, table=unnamed, hierarchy=None)
     named = transfer_labels(bare, transfer_features(motion), known, threshold=threshold)
     rows = named.primitives if len(named.primitives) else named.activities
@@ -136,7 +136,7 @@ def _met_before(
 
 def _renumbered(found: Segmentation, numbers: dict[int, int]) -> Segmentation:
     clusters = np.array([numbers.get(c, -1) for c in found.table.cluster.tolist()], np.int64)
-    return replace(found, table=replace(found.table, cluster=clusters), hierarchy=None)
+    return replace(found, table=found.table.with_columns(cluster=clusters), hierarchy=None)
 
 
 def _named_by_cluster(found: Segmentation) -> Segmentation:
@@ -144,4 +144,4 @@ def _named_by_cluster(found: Segmentation) -> Segmentation:
     labels: NDArray[np.str_] = np.array(
         [str(c) if c >= 0 else "" for c in found.table.cluster.tolist()]
     )
-    return replace(found, table=replace(found.table, label=labels), hierarchy=None)
+    return replace(found, table=found.table.with_columns(label=labels), hierarchy=None)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.matching import search
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Level, kind_of
 from kineme.transfer.features import FPS
 from kineme.transfer.knowledge import KnowledgeBase
 
@@ -70,9 +71,10 @@ def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmen
     columns: dict[str, list[object]] = {
         name: [] for name in ("level", "kind", "start_frame", "stop_frame", "label", "cluster")
     }
+    level: Level
     for level, rows in (("activity", activities), ("primitive", primitives)):
         for start, stop, label in _tiled(rows, segmentation.n_frames):
-            kind = "activity" if label else "transition"
+            kind = kind_of(level, transition=not label)
             values = (level, kind, start, stop, label, names.get(label, -1))
             for column, value in zip(columns.values(), values, strict=True):
                 column.append(value)
@@ -83,6 +85,7 @@ def segmented_as_found(segmentation: Segmentation, found: list[Found]) -> Segmen
         fps=segmentation.fps,
         provenance=segmentation.provenance,
         timings=segmentation.timings,
+        annotation=segmentation.annotation,
     )
 
 

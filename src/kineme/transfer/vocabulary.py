@@ -70,8 +70,8 @@ def share_by_moments(
         actions = np.where(found.activities.kind == "activity", nearest, -1)
         table = found.table
         action = actions[table.activity]
-        cluster = np.where(table.kind == "activity", action, -1)
-        changed = replace(table, cluster=cluster, action=action)
+        cluster = np.where(table.kind != "transition", action, -1)
+        changed = table.with_columns(cluster=cluster, action=action)
         shared.append(replace(found, table=changed, hierarchy=None))
     return shared
 

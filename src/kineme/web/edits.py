@@ -85,7 +85,10 @@ class SetCluster(EditBase, frozen=True, kw_only=True, tag="set_cluster"):
 
 
 class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
-    """The segment that starts at ``frame`` is an activity, or a transition and in no cluster."""
+    """The segment that starts at ``frame`` is a transition and in no cluster, or none.
+
+    ``to`` is ``transition``, or what its level says.
+    """
 
     level: Level
     frame: Whole

@@ -12,6 +12,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from kineme.segments.annotation import Annotation
 from kineme.segments.table import Level, Segment
 from kineme.web.edits import Edit
 
@@ -25,10 +26,10 @@ class CommentAt(Struct, frozen=True, kw_only=True):
 
 
 class Segments(Struct, frozen=True, kw_only=True):
-    """A segment table as its JSON file has it (``kineme.segments/1``), and what people did to it.
+    """A segment table as its JSON file has it (``kineme.segments/2``), and what people did to it.
 
-    ``cluster_names`` has the names of clusters by their numbers; ``checked`` and ``by_hand``
-    are numbers of rows.
+    What follows from rows and annotation: ``cluster_names`` has the names of clusters by their
+    numbers; ``checked`` and ``by_hand`` are numbers of rows.
     """
 
     schema: str
@@ -36,6 +37,7 @@ class Segments(Struct, frozen=True, kw_only=True):
     fps: float
     provenance: dict[str, Any]
     timings: dict[str, float]
+    annotation: Annotation
     segments: list[Segment]
     cluster_names: dict[str, str]
     checked: list[int]

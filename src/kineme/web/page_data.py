@@ -174,6 +174,7 @@ def segments_message(segmentation: Segmentation) -> Segments:
         fps=segmentation.fps,
         provenance=dict(segmentation.provenance),
         timings=dict(segmentation.timings),
+        annotation=segmentation.annotation,
         segments=rows,
         cluster_names={str(cluster): name for cluster, name in cluster_names(segmentation).items()},
         checked=[i for i, row in enumerate(rows) if span_of(row) in spans["checked"]],

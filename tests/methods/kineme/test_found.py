@@ -33,7 +33,7 @@ def found_in(seed: int) -> Segmentation:
 
 
 def counts(found: Segmentation) -> list[int]:
-    inside = found.primitives.kind == "activity"
+    inside = found.primitives.kind == "primitive"
     parents = found.primitives.activity[inside].tolist()
     return [len(list(run)) for _, run in groupby(parents)]
 

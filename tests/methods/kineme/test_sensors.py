@@ -169,7 +169,7 @@ def test_up_and_down_are_one_repetition_though_the_sensor_shakes_alike() -> None
         shaken = np.column_stack([np.sin(2 * phase), np.cos(2 * phase), np.sin(4 * phase + 1)])
         held = 0.8 * np.tanh(3 * np.sin(phase))
         found = kineme.segment(kineme.Signals(np.column_stack([shaken, held]), FPS))
-        assert np.count_nonzero(found.primitives.kind == "activity") == times
+        assert np.count_nonzero(found.primitives.kind == "primitive") == times
 
 
 def test_long_recordings_are_cut_as_finely_as_their_parts_and_known_again() -> None:

@@ -25,7 +25,8 @@ from kineme.errors import ReadError
 from kineme.library.index.windows import all_windows
 from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.places import near, written
-from kineme.segments.table import COLUMNS, DESCRIBED, SegmentTable
+from kineme.library.storage.tables import segments_of
+from kineme.segments.table import COLUMNS, SegmentTable
 
 METADATA = b"kineme.library"
 FEATURES, WINDOWS, MOMENTS = ".npy", ".windows.npy", ".moments.npy"
@@ -78,7 +79,7 @@ def write_piece(
     flat = as_column(piece.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)
     columns = {
-        name: as_column(column, DESCRIBED[name].type)
+        name: as_column(column, COLUMNS[name].type)
         for name, column in piece.table.columns().items()
     }
     table = pa.table({**columns, "embedding": embeddings})
@@ -108,6 +109,7 @@ def read_piece(folder: Path, key: str) -> Piece:
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
         facts = decoded(table.schema.metadata[METADATA], path, dict[str, Any])
+        table = segments_of(table)
         columns = {name: _column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
     return Piece(facts, SegmentTable(**columns), flat.reshape(-1, EMBEDDED))

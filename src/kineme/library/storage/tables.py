@@ -21,46 +21,45 @@ from kineme._files import atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.library.storage.layout import EMBEDDED, TABLES, arrow, as_array, as_column
 from kineme.library.storage.places import is_remote, written
-from kineme.segments.table import DESCRIBED as SEGMENTS
-from kineme.segments.table import Column
+from kineme.segments.table import COLUMNS, Column, kinds_of, present_names
 
 DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     "recordings": {
-        "recording": Column(str, "its name in the library: the path in the folder that was given"),
-        "path": Column(str, "where it was read from"),
-        "vocabulary": Column(str, "`bodies`, or which channels; empty where it is not searched"),
-        "format": Column(str, "of its file"),
-        "n_frames": Column(int, "frames of its file"),
-        "fps": Column(float, "frames per second"),
-        "duration_s": Column(float, "seconds"),
-        "piece": Column(str, "name of the files in `pieces/` that hold what is kept of it"),
-        "features_fps": Column(float, "samples of its features per second"),
-        "samples": Column(int, "of its features; 0 where it is not searched"),
-        "notes": Column(str, "what had to be inferred and what is unsure, one a line"),
+        "recording": Column("its name in the library: the path in the folder that was given"),
+        "path": Column("where it was read from"),
+        "vocabulary": Column("`bodies`, or which channels; empty where it is not searched"),
+        "format": Column("of its file"),
+        "n_frames": Column("frames of its file", int),
+        "fps": Column("frames per second", float),
+        "duration_s": Column("seconds", float),
+        "piece": Column("name of the files in `pieces/` that hold what is kept of it"),
+        "features_fps": Column("samples of its features per second", float),
+        "samples": Column("of its features; 0 where it is not searched", int),
+        "notes": Column("what had to be inferred and what is unsure, one a line"),
     },
     "segments": {
-        "recording": Column(str, "the recording it is of"),
-        "segment": Column(int, "its row among those of the recording, from 0"),
-        **SEGMENTS,
-        "own_cluster": Column(int, "its cluster in the recording alone"),
-        "action_label": Column(str, "the name of `action`"),
+        "recording": Column("the recording it is of"),
+        "segment": Column("its row among those of the recording, from 0", int),
+        **COLUMNS,
+        "own_cluster": Column("its cluster in the recording alone", int),
+        "action_label": Column("the name of `action`"),
     },
     "words": {
-        "recording": Column(str, "the recording it is of"),
-        "own_cluster": Column(int, "the cluster in that recording"),
-        "cluster": Column(int, "the cluster of the library"),
-        "label": Column(str, "the name of that, or empty"),
-        "following": Column(int, "the cluster it is next to but for its own; -1: none"),
-        "confidence": Column(float, "how much nearer it is to its own cluster, 0 to 1"),
-        "spread": Column(float, "mean distance to the other words of its cluster"),
-        "start_s": Column(float, "where its typical segment starts"),
-        "stop_s": Column(float, "where that stops"),
-        "seconds": Column(float, "of all its segments"),
+        "recording": Column("the recording it is of"),
+        "own_cluster": Column("the cluster in that recording", int),
+        "cluster": Column("the cluster of the library", int),
+        "label": Column("the name of that, or empty"),
+        "following": Column("the cluster it is next to but for its own; -1: none", int),
+        "confidence": Column("how much nearer it is to its own cluster, 0 to 1", float),
+        "spread": Column("mean distance to the other words of its cluster", float),
+        "start_s": Column("where its typical segment starts", float),
+        "stop_s": Column("where that stops", float),
+        "seconds": Column("of all its segments", float),
     },
     "embeddings": {
-        "recording": Column(str, "the recording it is of"),
-        "segment": Column(int, "its row among those of the recording, from 0"),
-        "embedding": Column(float, f"{EMBEDDED} numbers: what is near is alike"),
+        "recording": Column("the recording it is of"),
+        "segment": Column("its row among those of the recording, from 0", int),
+        "embedding": Column(f"{EMBEDDED} numbers: what is near is alike", float),
     },
 }
 """The columns of each table, edits applied, and what is in them."""
@@ -87,6 +86,26 @@ def table_of(name: str, columns: Mapping[str, Any]) -> Any:
             if column in columns
         }
     )
+
+
+def segments_of(table: Any) -> Any:
+    """Segments as they are kept today, from a pyarrow.Table of any version.
+
+    Older ones have other names for some columns, no columns for what was not known then, and
+    call primitives activities.
+    """
+    places = present_names({name: name for name in table.column_names})
+    today = {was: name for name, was in places.items() if was != name}
+    table = table.rename_columns([today.get(name, name) for name in table.column_names])
+    for name, known in COLUMNS.items():
+        if known.optional and name not in table.column_names:
+            column = as_column(np.full(table.num_rows, known.default), known.type)
+            table = table.append_column(name, column)
+    if not today:
+        return table
+    place = table.column_names.index("kind")
+    levels, kinds = (as_array(table.column(name)).astype(np.str_) for name in ("level", "kind"))
+    return table.set_column(place, "kind", as_column(kinds_of(levels, kinds), str))
 
 
 def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
@@ -155,6 +174,8 @@ def read_table(folder: Path, named: str, name: str) -> Any:
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `arrow`
         table.validate(full=True)
+        if name == "segments":
+            table = segments_of(table)
     for column, known in DESCRIBED[name].items():
         times = table.column_names.count(column)
         if times > 1 or (times == 0 and column not in ADDED):

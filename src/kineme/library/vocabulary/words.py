@@ -56,7 +56,7 @@ def places_in(piece: Piece, recording: int) -> list[Place]:
     counted.
     """
     table = piece.table
-    active, finer, lasts = table.kind == "activity", table.level == "primitive", table.duration_s
+    active, finer, lasts = table.kind != "transition", table.level == "primitive", table.duration_s
     places = []
     for cluster in sorted(set(table.cluster[active].tolist()) - {-1}):
         own = np.flatnonzero((table.cluster == cluster) & active)

@@ -7,8 +7,8 @@ primitive that comes to lie in another activity keeps its own cluster and label
 where they differ from those of the activity it was in; what it had in common
 with that one it has in common with the new one.
 
-A person's word has no score: segments whose span, kind or cluster was changed
-lose theirs.
+What a person says has no confidence: segments whose span, kind or cluster was
+changed lose theirs.
 """
 
 from kineme.segments.editing.borders import delete_border, merge, move_border, split

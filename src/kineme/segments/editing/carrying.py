@@ -5,7 +5,7 @@ the new ones give way. Clusters are matched by the frames that they share: an ol
 the new one that holds more than half of it, unless that has more of another. What matches keeps
 its number, and so its colour; other new clusters get numbers that the table so far has not. Names
 go where they match: that of a cluster to the matching one, that of a segment to the segment that
-it shares more than half of both their frames with. What finds no place is told.
+it shares more than half of both their frames with. What finds no place is listed.
 """
 
 from __future__ import annotations
@@ -18,9 +18,10 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.segments.annotation import Span
 from kineme.segments.editing.comments import comments, with_comments
 from kineme.segments.editing.imposing import imposed, in_the_middle, overlap
-from kineme.segments.editing.marks import Mark, Span, marked, span_of, with_marks
+from kineme.segments.editing.marks import Mark, marked, span_of, with_marks
 from kineme.segments.editing.naming import cluster_names, name_cluster, with_cluster_names
 from kineme.segments.editing.rows import Rows, length, with_rows
 from kineme.segments.segmentation import Segmentation
@@ -67,15 +68,15 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
     fixed = [row for row in before if span_of(row) in set().union(*marks.values())]
     if not len(found.primitives):
         fixed = [row for row in fixed if row.level == "activity"]
-    own = {span_of(row) for row in _with_own_name(before)}
-    placed = [row if span_of(row) in own else replace(row, label="") for row in fixed]
+    singles = {span_of(row) for row in _with_own_name(before)}
+    placed = [row if span_of(row) in singles else replace(row, label="") for row in fixed]
     now = imposed(_numbered_like(before, found), placed)
     for mark, spans in marks.items():
         now = with_marks(now, mark, spans)
     now = with_comments(now, comments(before))
-    if "corrections" in before.provenance and fixed:
-        corrections = {"corrections": before.provenance["corrections"]}
-        now = replace(now, provenance={**now.provenance, **corrections})
+    if fixed:
+        corrections = before.annotation.corrections
+        now = replace(now, annotation=replace(now.annotation, corrections=corrections))
     return _named(now, before, len(fixed))
 
 
@@ -135,20 +136,20 @@ def _counts(pairs: NDArray[np.int64]) -> tuple[list[list[int]], list[int]]:
 
 def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
     """The new table with the names of the old one, and the names that found no place."""
-    lost, given = [], dict[int, str]()
+    lost, new_names = [], dict[int, str]()
     there = set(now.table.cluster.tolist())
-    names, own = cluster_names(before), _with_own_name(before)
-    if not names and not own:
+    names, singles = cluster_names(before), _with_own_name(before)
+    if not names and not singles:
         return Carried(now, fixed, 0, [])
     for cluster, name in names.items():
         if cluster in there:
-            given[cluster] = name
+            new_names[cluster] = name
         else:
             lost.append(f"the name “{name}” of cluster {cluster}: no cluster matches it")
-    for cluster, name in given.items():
+    for cluster, name in new_names.items():
         now = name_cluster(now, cluster, name)
     labels: dict[Span, str] = {}
-    for row in own:
+    for row in singles:
         twin = _twin(now, row)
         if twin is None:
             where = f"the {row.level} at {row.start_s:.2f} s"
@@ -156,8 +157,8 @@ def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
         else:
             labels[span_of(twin)] = row.label
     rows = [replace(row, label=labels.get(span_of(row), row.label)) for row in now]
-    now = with_cluster_names(with_rows(now, rows, []), dict.fromkeys(there, "") | given)
-    return Carried(now, fixed, len(names) + len(own), lost)
+    now = with_cluster_names(with_rows(now, rows, []), dict.fromkeys(there, "") | new_names)
+    return Carried(now, fixed, len(names) + len(singles), lost)
 
 
 def _twin(segmentation: Segmentation, row: Segment) -> Segment | None:

@@ -14,7 +14,7 @@ from kineme.segments.editing.naming import (
     members_of,
     with_cluster_names,
 )
-from kineme.segments.editing.rows import as_activity, as_transition, joined, starting, with_rows
+from kineme.segments.editing.rows import as_movement, as_transition, joined, starting, with_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
 
@@ -46,12 +46,15 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     if not -1 <= cluster <= following:
         raise ParameterError(f"there is no cluster {cluster}; the next new one is {following}")
     chosen = starting(segmentation, level, frame)
-    kind: Kind = "activity" if cluster >= 0 else chosen.kind
     members = [(level, chosen)]
     if level == "activity":
         inside = segmentation.primitives.select(segmentation.primitives.activity == chosen.activity)
         members += [("primitive", row) for row in inside if row.cluster == chosen.cluster]
-    return _moved_to(segmentation, members, cluster, kind=kind, score=math.nan)
+    moved = _moved_to(segmentation, members, cluster)
+    become = as_transition if cluster < 0 and chosen.kind == "transition" else as_movement
+    places = {(row.level, row.start_frame) for _, row in members}
+    rows = [become(row) if (row.level, row.start_frame) in places else row for row in moved]
+    return with_rows(moved, rows, [])
 
 
 def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segmentation:
@@ -79,7 +82,7 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
     if cluster == into:
         raise ParameterError(f"cluster {cluster} cannot be merged with itself: name another")
     members = [(row.level, row) for row in members_of(segmentation, cluster)]
-    return _moved_to(segmentation, members, into, score=math.nan)
+    return _moved_to(segmentation, members, into)
 
 
 def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int]) -> Segmentation:
@@ -105,21 +108,21 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     """
     chosen, rows = set(frames), members_of(segmentation, cluster)
     level: Level = "primitive" if any(row.level == "primitive" for row in rows) else "activity"
-    own = [row for row in rows if row.level == level]
-    gone = [row for row in own if row.start_frame in chosen]
-    if not gone or len(gone) == len(own):
+    members = [row for row in rows if row.level == level]
+    gone = [row for row in members if row.start_frame in chosen]
+    if not gone or len(gone) == len(members):
         raise ParameterError(
-            f"{len(gone)} of {len(own)} segments of cluster {cluster} are chosen: "
+            f"{len(gone)} of {len(members)} segments of cluster {cluster} are chosen: "
             "choose some of them, not all"
         )
-    staying = {row.activity for row in own if row.start_frame not in chosen}
+    staying = {row.activity for row in members if row.start_frame not in chosen}
     leaving = {row.activity for row in gone} - staying
     moved: list[tuple[Level, Segment]] = [(row.level, row) for row in gone]
     if level == "primitive":
         whole = enumerate(segmentation.activities)
         moved += [("activity", row) for i, row in whole if i in leaving and row.cluster == cluster]
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
-    return _moved_to(segmentation, moved, following, score=math.nan)
+    return _moved_to(segmentation, moved, following)
 
 
 def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmentation:
@@ -151,7 +154,7 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
 
 
 def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -> Segmentation:
-    """The segment that starts at ``frame`` is an activity, or a transition and in no cluster.
+    """The segment that starts at ``frame`` is a transition and in no cluster, or none.
 
     An activity's primitives become what it becomes; a transition is one primitive.
 
@@ -161,7 +164,8 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     level : {"activity", "primitive"}
     frame : int
         Where the segment starts.
-    kind : {"activity", "transition"}
+    kind : {"activity", "primitive", "transition"}
+        One of the first two: what its level says.
 
     Returns
     -------
@@ -175,9 +179,9 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     if kind not in get_args(Kind):
         raise ParameterError(f"kind must be {' or '.join(get_args(Kind))}, not {kind!r}")
     chosen = starting(segmentation, level, frame)
-    if kind == chosen.kind:
+    if (kind == "transition") == (chosen.kind == "transition"):
         return segmentation
-    become = as_transition if kind == "transition" else as_activity
+    become = as_transition if kind == "transition" else as_movement
     activities, primitives = list(segmentation.activities), list(segmentation.primitives)
     if level == "primitive":
         primitives = [become(row) if row.start_frame == frame else row for row in primitives]
@@ -196,7 +200,6 @@ def _moved_to(
     segmentation: Segmentation,
     members: Sequence[tuple[Level, Segment]],
     cluster: int,
-    **columns: object,
 ) -> Segmentation:
     """The members in another cluster, called by its name unless they have their own."""
     names = known_names(segmentation)
@@ -209,5 +212,5 @@ def _moved_to(
         ]
         label = {"label": names.get(cluster, "")} if inherits else {}
         if some:
-            moved = changed(moved, some, cluster=cluster, **columns, **label)
+            moved = changed(moved, some, cluster=cluster, confidence=math.nan, **label)
     return with_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)

@@ -1,31 +1,19 @@
-"""What people say about segments.
-
-A comment is at a frame of a level, and so of the segment that holds this frame, whatever becomes
-of its borders: no edit and no new segmentation loses one. They are in the provenance
-(``comments``), a list of ``[level, frame, text]``.
-"""
+"""What people say about segments: comments in the `kineme.segments.annotation`."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
+from kineme.segments.annotation import Comment
 from kineme.segments.editing.rows import starting
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
-Comment = tuple[Level, int, str]
-
 
 def comments(segmentation: Segmentation) -> list[Comment]:
     """Level, frame and text of each, in time order."""
-    said: Any = segmentation.provenance.get("comments")
-    found = said if isinstance(said, list) else []
-    return sorted(
-        (tuple(each) for each in found if isinstance(each, list) and len(each) == 3),
-        key=lambda each: (each[1], each[0]),
-    )
+    return sorted(segmentation.annotation.comments, key=lambda each: (each[1], each[0]))
 
 
 def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> Segmentation:
@@ -58,8 +46,8 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
 
 def in_rows(segmentation: Segmentation) -> list[str]:
     """What is said about each row, in their order; empty where nothing is."""
-    said = comments(segmentation)
-    return ["; ".join(each[2] for each in said if _is_of(each, row)) for row in segmentation]
+    entries = comments(segmentation)
+    return ["; ".join(each[2] for each in entries if _is_of(each, row)) for row in segmentation]
 
 
 def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
@@ -77,17 +65,14 @@ def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
     """
     if list(texts) == in_rows(segmentation):
         return segmentation
-    said = [_of(row, text) for row, text in zip(segmentation, texts, strict=True) if text]
-    return with_comments(segmentation, said)
+    entries = [_of(row, text) for row, text in zip(segmentation, texts, strict=True) if text]
+    return with_comments(segmentation, entries)
 
 
-def with_comments(segmentation: Segmentation, said: list[Comment]) -> Segmentation:
+def with_comments(segmentation: Segmentation, entries: list[Comment]) -> Segmentation:
     """The same segments with these comments and no others."""
-    kept = segmentation.provenance.items()
-    provenance = {name: what for name, what in kept if name != "comments"}
-    if said:
-        provenance["comments"] = [list(each) for each in said]
-    return replace(segmentation, provenance=provenance)
+    annotation = replace(segmentation.annotation, comments=tuple(entries))
+    return replace(segmentation, annotation=annotation)
 
 
 def _of(row: Segment, text: str) -> Comment:
@@ -95,7 +80,7 @@ def _of(row: Segment, text: str) -> Comment:
     return row.level, (row.start_frame + row.stop_frame) // 2, text
 
 
-def _is_of(said: Comment, row: Segment) -> bool:
+def _is_of(entry: Comment, row: Segment) -> bool:
     """Whether a comment is on a segment."""
-    level, frame, _ = said
+    level, frame, _ = entry
     return level == row.level and row.start_frame <= frame < row.stop_frame

@@ -16,15 +16,15 @@ from kineme.segments.table import Level, Segment, SegmentTable
 
 def imposed(found: Segmentation, fixed: Rows) -> Segmentation:
     """The segmentation with these segments in it as they are."""
-    own = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
-    activities = _sparing(list(found.activities), own["primitive"])
-    activities = _with_fixed(activities, own["activity"])
+    by_level = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
+    activities = _sparing(list(found.activities), by_level["primitive"])
+    activities = _with_fixed(activities, by_level["activity"])
     if not len(found.primitives):
         return with_rows(found, activities, [])
     primitives = _cut_at(activities, list(found.primitives))
-    for row in own["activity"]:
+    for row in by_level["activity"]:
         primitives = _inside(primitives, row, found)
-    primitives = _cut_at(activities, _with_fixed(primitives, own["primitive"]))
+    primitives = _cut_at(activities, _with_fixed(primitives, by_level["primitive"]))
     return with_rows(found, activities, primitives)
 
 
@@ -52,27 +52,27 @@ def _sparing(activities: Rows, primitives: Rows) -> Rows:
 
 def _with_fixed(rows: Rows, fixed: Rows) -> Rows:
     """The rows with others in their place; what is left of less than half of a row is joined on."""
-    held = {_edges(one) for one in fixed}
+    edges = {_edges(one) for one in fixed}
     for one in fixed:
         start, stop = _edges(one)
         before = [row for row in rows if row.start_frame < start]
         after = [row for row in rows if row.stop_frame > stop]
         if before and before[-1].stop_frame > start:
-            before = _shortened(before, -1, -2, (before[-1].start_frame, start), held)
+            before = _shortened(before, -1, -2, (before[-1].start_frame, start), edges)
         if after and after[0].start_frame < stop:
-            after = _shortened(after, 0, 1, (stop, after[0].stop_frame), held)
+            after = _shortened(after, 0, 1, (stop, after[0].stop_frame), edges)
         rows = [*before, one, *after]
     return rows
 
 
 def _shortened(
-    rows: Rows, at: int, beside: int, span: tuple[int, int], held: set[tuple[int, int]]
+    rows: Rows, at: int, beside: int, span: tuple[int, int], edges: set[tuple[int, int]]
 ) -> Rows:
     """A row with the frames that it keeps; they go to the row beside it if they are few."""
     row, rows = rows[at], list(rows)
     rows[at] = _spanning(row, *span)
     few = 2 * length(rows[at]) < length(row) and len(rows) > 1
-    if few and _edges(rows[beside]) not in held:
+    if few and _edges(rows[beside]) not in edges:
         i, j, k = (k % len(rows) for k in (min(at, beside), max(at, beside), beside))
         return joined(rows, min(i, j), max(i, j), k)
     return rows

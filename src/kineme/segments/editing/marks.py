@@ -1,8 +1,6 @@
 """What people vouch for: segments that they made, and segments that they checked.
 
-Both are lists of ``[level, start_frame, stop_frame]`` in the provenance, ``by_hand`` and
-``checked``. A mark holds as long as a segment has exactly these frames: one that was moved
-or joined since is not the one that was marked.
+Both are marks in the `kineme.segments.annotation`.
 """
 
 from __future__ import annotations
@@ -11,12 +9,12 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, Literal
 
+from kineme.segments.annotation import Span
 from kineme.segments.editing.rows import starting
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
 Mark = Literal["by_hand", "checked"]
-Span = tuple[Level, int, int]
 
 
 def span_of(row: Segment) -> Span:
@@ -36,10 +34,8 @@ def marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
     -------
     set of (level, start_frame, stop_frame)
     """
-    said: Any = segmentation.provenance.get(mark)
-    said = said if isinstance(said, list) else []
-    wanted = {tuple(each) for each in said if isinstance(each, list) and len(each) == 3}
-    return {span_of(row) for row in segmentation if span_of(row) in wanted} if wanted else set()
+    spans = {*getattr(segmentation.annotation, mark)}
+    return {span_of(row) for row in segmentation if span_of(row) in spans} if spans else set()
 
 
 def with_marks(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
@@ -55,11 +51,8 @@ def with_marks(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) ->
     -------
     Segmentation
     """
-    provenance = {name: said for name, said in segmentation.provenance.items() if name != mark}
-    listed = sorted({tuple(span) for span in spans})
-    if listed:
-        provenance[mark] = [list(span) for span in listed]
-    return replace(segmentation, provenance=provenance)
+    marks: dict[str, Any] = {mark: tuple(sorted(set(spans)))}
+    return replace(segmentation, annotation=replace(segmentation.annotation, **marks))
 
 
 def check(
@@ -101,6 +94,6 @@ def noted(before: Segmentation, after: Segmentation) -> Segmentation:
     -------
     Segmentation
     """
-    known = {(span_of(row), row.kind, row.cluster) for row in before}
-    made = {span_of(row) for row in after if (span_of(row), row.kind, row.cluster) not in known}
+    earlier = {(span_of(row), row.kind, row.cluster) for row in before}
+    made = {span_of(row) for row in after if (span_of(row), row.kind, row.cluster) not in earlier}
     return with_marks(after, "by_hand", made | marked(after, "by_hand"))

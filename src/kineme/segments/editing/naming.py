@@ -2,8 +2,8 @@
 
 A cluster has a name, which its segments are called by; a segment may have a name of its
 own, which stays whatever the cluster is called. The label of a segment is the one that
-counts for it. Names of clusters are in the provenance (``cluster_names``); in a table that
-does not say, a cluster is called what more than half of its segments are.
+counts for it. Names of clusters are in the `kineme.segments.annotation`; where they are not,
+a cluster is called what more than half of its segments are.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 from kineme.errors import ParameterError
 from kineme.segments.editing.rows import starting, with_rows
@@ -93,8 +92,8 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
     --------
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
-    >>> cluster_names(kineme.read_segments(bundled_truth(), fps=60))
-    {}
+    >>> cluster_names(kineme.read_segments(bundled_truth(), fps=60))[0]
+    'walk'
     """
     return {cluster: name for cluster, name in known_names(segmentation).items() if name}
 
@@ -113,17 +112,14 @@ def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> 
     Segmentation
     """
     there = set(segmentation.table.cluster.tolist())
-    kept = {str(cluster): names[cluster] for cluster in sorted(names) if cluster in there}
-    provenance = {**segmentation.provenance, "cluster_names": kept}
-    if not kept:
-        del provenance["cluster_names"]
-    return replace(segmentation, provenance=provenance)
+    kept = {cluster: names[cluster] for cluster in sorted(names) if cluster in there}
+    annotation = replace(segmentation.annotation, cluster_names=kept)
+    return replace(segmentation, annotation=annotation)
 
 
 def known_names(segmentation: Segmentation) -> dict[int, str]:
     """The names of clusters by number; empty for those that are said to have none."""
-    said: Any = segmentation.provenance.get("cluster_names")
-    known: Mapping[str, Any] = said if isinstance(said, dict) else {}
+    entries = segmentation.annotation.cluster_names
     labels: dict[int, Counter[str]] = {}
     for cluster, label in zip(
         segmentation.table.cluster.tolist(), segmentation.table.label.tolist(), strict=True
@@ -133,8 +129,8 @@ def known_names(segmentation: Segmentation) -> dict[int, str]:
     names = {}
     for cluster in sorted(labels):
         (label, count), *_ = labels[cluster].most_common(1)
-        if str(cluster) in known:
-            names[cluster] = str(known[str(cluster)])
+        if cluster in entries:
+            names[cluster] = entries[cluster]
         elif 2 * count > labels[cluster].total() and label:
             names[cluster] = label
     return names

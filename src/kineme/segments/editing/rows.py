@@ -10,7 +10,7 @@ import numpy as np
 
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Level, Segment
+from kineme.segments.table import COLUMNS, Level, Segment, kind_of
 
 Rows = list[Segment]
 
@@ -27,9 +27,9 @@ def starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
 def moved(rows: Rows, frame: int, to: int) -> Rows:
     """The border at ``frame`` stands at ``to``."""
     return [
-        replace(row, stop_frame=to, score=math.nan)
+        replace(row, stop_frame=to, confidence=math.nan)
         if row.stop_frame == frame
-        else replace(row, start_frame=to, score=math.nan, border_confidence=math.nan)
+        else replace(row, start_frame=to, confidence=math.nan, border_confidence=math.nan)
         if row.start_frame == frame
         else row
         for row in rows
@@ -41,9 +41,9 @@ def cut(rows: Rows, frame: int) -> Rows:
     parts: Rows = []
     for row in rows:
         if row.start_frame < frame < row.stop_frame:
-            parts.append(replace(row, stop_frame=frame, score=math.nan))
+            parts.append(replace(row, stop_frame=frame, confidence=math.nan))
             row = replace(  # noqa: PLW2901
-                row, start_frame=frame, score=math.nan, border_confidence=math.nan
+                row, start_frame=frame, confidence=math.nan, border_confidence=math.nan
             )
         parts.append(row)
     return parts
@@ -57,7 +57,7 @@ def joined(rows: Rows, first: int, last: int, like: int) -> Rows:
         rows[like],
         start_frame=rows[first].start_frame,
         stop_frame=rows[last].stop_frame,
-        score=math.nan,
+        confidence=math.nan,
         border_confidence=rows[first].border_confidence,
     )
     return [*rows[:first], one, *rows[last + 1 :]]
@@ -65,24 +65,26 @@ def joined(rows: Rows, first: int, last: int, like: int) -> Rows:
 
 def adopted(row: Segment, before: Segment, after: Segment) -> Segment:
     """A primitive that lay in one activity and lies in another."""
+    same = (row.kind == "transition") == (before.kind == "transition")
+    kind = kind_of(row.level, transition=after.kind == "transition")
     new = replace(
         row,
-        kind=after.kind if row.kind == before.kind else row.kind,
+        kind=kind if same else row.kind,
         cluster=after.cluster if row.cluster == before.cluster >= 0 else row.cluster,
         label=after.label if row.label == before.label != "" else row.label,
     )
-    same = (new.kind, new.cluster) == (row.kind, row.cluster)
-    return new if same else replace(new, score=math.nan)
+    unchanged = (new.kind, new.cluster) == (row.kind, row.cluster)
+    return new if unchanged else replace(new, confidence=math.nan)
 
 
 def as_transition(row: Segment) -> Segment:
     """The row as a transition, which is in no cluster."""
-    return replace(row, kind="transition", cluster=-1, score=math.nan)
+    return replace(row, kind="transition", cluster=-1, confidence=math.nan)
 
 
-def as_activity(row: Segment) -> Segment:
-    """The row as an activity or a primitive in one."""
-    return replace(row, kind="activity", score=math.nan)
+def as_movement(row: Segment) -> Segment:
+    """The row as what its level says: an activity, or a primitive."""
+    return replace(row, kind=row.level, confidence=math.nan)
 
 
 def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, int, int]) -> Rows:
@@ -99,8 +101,8 @@ def handed_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, in
     for i in inside:
         primitives[i] = adopted(primitives[i], before[gave], after[took])
     if inside and after[took].kind == "transition":
-        own = inside[-1] + 1 if to < frame else inside[0] - 1
-        primitives = joined(primitives, min(own, inside[0]), max(own, inside[-1]), own)
+        host = inside[-1] + 1 if to < frame else inside[0] - 1
+        primitives = joined(primitives, min(host, inside[0]), max(host, inside[-1]), host)
     return primitives
 
 
@@ -135,4 +137,5 @@ def with_rows(
         fps=segmentation.fps,
         provenance=segmentation.provenance,
         timings=segmentation.timings,
+        annotation=segmentation.annotation,
     )

@@ -78,7 +78,7 @@ class Journal:
         digest = _digest(table)
         if steps and steps[history.present].n_frames == table.n_frames:
             for known in (history, _or_none(history.undone), _or_none(history.redone)):
-                if known is not None and steps[known.present].sha256 == digest:
+                if known is not None and self._is(known.present, table, digest):
                     if known is not history:  # the last change was cut short, and has no answer
                         names, revision = self._record.names[:-1], self._record.revision - 1
                         self._record = replace(
@@ -239,6 +239,15 @@ class Journal:
         except ReadError:
             return Identities(digest[:8])
         return self.ids.after(present, table, digest, replaced=True)
+
+    def _is(self, number: int, table: Segmentation, digest: str) -> bool:
+        """Whether a table of the history is this one, by whichever version it was written."""
+        if self._record.steps[number].sha256 == digest:
+            return True
+        try:
+            return self.table(number) == table
+        except ReadError:
+            return False
 
     def _numbers(self) -> set[int]:
         """Of the tables in the folder."""

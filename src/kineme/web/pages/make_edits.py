@@ -20,6 +20,7 @@ from typing import Any
 from kineme._files import atomic_write
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import COLUMNS, Level, kind_of
 from kineme.studio.edits import edited
 from kineme.studio.kept.identities import Identities
 from kineme.web.encoding import from_json, to_json
@@ -28,6 +29,8 @@ from kineme.web.requests import EditRequest
 
 TARGET = Path(__file__).parent / "tests" / "studio" / "edits.json"
 CHAINS, LENGTH = 6, 24
+TOLD = [name for name, known in COLUMNS.items() if not known.derived or name == "activity"]
+"""Columns of the rows; the others follow from them."""
 N_FRAMES = 120
 Chance = random.Random
 
@@ -44,10 +47,11 @@ def chains() -> list[dict[str, Any]]:
 
 
 def edits_json() -> str:
-    """The file: a line for each edit."""
+    """The file: the columns of its rows, and a line for each edit."""
     dense = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"))
     lines = ",\n".join(map(dense.encode, chains()))
-    return f"[\n{lines}\n]\n".replace('{"edit":{"kind"', '\n{"edit":{"kind"')
+    text = f'{{"columns":{dense.encode(TOLD)},"chains":[\n{lines}\n]}}\n'
+    return text.replace('{"edit":{"kind"', '\n{"edit":{"kind"')
 
 
 def _chain(chance: Chance, seed: int) -> dict[str, Any]:
@@ -62,7 +66,7 @@ def _chain(chance: Chance, seed: int) -> dict[str, Any]:
             made = edited(table, edit, None, None, None).table  # type: ignore[arg-type]
             table, ids = made, ids.after(table, made, name)
             after = _told(table, ids)
-            del after["provenance"]
+            del after["annotation"]
         except ParameterError:
             pass
         steps.append({"edit": said, "name": name, "after": after})
@@ -72,11 +76,8 @@ def _chain(chance: Chance, seed: int) -> dict[str, Any]:
 def _told(table: Segmentation, ids: Identities) -> dict[str, Any]:
     """What a page is told of a table, as far as edits change it; rows without names of columns."""
     message = json.loads(to_json(segments_message(table)))
-    rows = [
-        [value for name, value in row.items() if name not in ("start_s", "stop_s", "action")]
-        for row in message["segments"]
-    ]
-    names = ("cluster_names", "checked", "by_hand", "comments", "provenance")
+    rows = [[row[name] for name in TOLD] for row in message["segments"]]
+    names = ("cluster_names", "checked", "by_hand", "comments", "annotation")
     return {"rows": rows, "ids": ids.of(table), **{name: message[name] for name in names}}
 
 
@@ -84,7 +85,7 @@ def _table(chance: Chance, *, primitives: bool) -> Segmentation:
     """Activities, a transition among them, and primitives that mostly are what these are."""
     borders = [0, 30, 45, 80, N_FRAMES]
     clusters = [0, -1, 1, 0]
-    rows = [
+    rows: list[tuple[Level, int, int, int]] = [
         ("activity", *span, cluster)
         for span, cluster in zip(pairwise(borders), clusters, strict=True)
     ]
@@ -99,9 +100,9 @@ def _table(chance: Chance, *, primitives: bool) -> Segmentation:
         "start_frame": [row[1] for row in rows],
         "stop_frame": [row[2] for row in rows],
         "cluster": [row[3] for row in rows],
-        "kind": ["activity" if row[3] >= 0 else "transition" for row in rows],
+        "kind": [kind_of(row[0], transition=row[3] < 0) for row in rows],
         "label": ["walk" if row[3] == 0 else chance.choice(["", "", "own"]) for row in rows],
-        "score": [round(chance.random(), 2) for _ in rows],
+        "confidence": [round(chance.random(), 2) for _ in rows],
         "border_confidence": [round(chance.random(), 2) for _ in rows],
     }
     return Segmentation.from_columns(columns, n_frames=N_FRAMES, fps=30.0)
@@ -186,7 +187,7 @@ _ONE: dict[str, Make] = {
     "set_cluster": lambda chance, table: _of_one(
         chance, table, cluster=_cluster(chance, table, 2) - 1),
     "set_kind": lambda chance, table: _of_one(
-        chance, table, to=chance.choice(["activity", "transition"])),
+        chance, table, to=chance.choice(["activity", "primitive", "transition"])),
     "merge_clusters": lambda chance, table: {
         "cluster": _cluster(chance, table), "into": _cluster(chance, table)},
     "split_cluster": _members,

@@ -12,22 +12,30 @@ two sides differ.
 
 from __future__ import annotations
 
+import json
+import math
 import re
 from pathlib import Path
 from types import ModuleType, UnionType
 from typing import Any, Literal, get_origin
 
-from msgspec import Struct, inspect
+from msgspec import Struct, inspect, to_builtins
 
 from kineme._files import atomic_write
-from kineme.segments.table import Kind, Level, Segment
+from kineme.segments.annotation import NO_ANNOTATION, Annotation
+from kineme.segments.table import COLUMNS, Kind, Level, Segment
 from kineme.web import edits, folder_messages, library_messages, messages, requests
 
 TARGET = Path(__file__).parent / "src" / "messages.ts"
 HEAD = (
     "// Made from kineme/web (messages, edits, requests) by make_messages.py; change them there.\n"
 )
-NULL_FOR_NAN = {(Segment, "score"), (Segment, "border_confidence")}  # JSON has no nan
+FIRST = {str: "activity", int: 0, float: 0.0}
+"""What a column that is always needed has in a row of which nothing is known."""
+BARE = {
+    name: FIRST[column.type] if column.default is None else column.default
+    for name, column in COLUMNS.items()
+}
 PLAIN: dict[Any, str] = {
     inspect.StrType: "string",
     inspect.IntType: "number",
@@ -94,9 +102,29 @@ def _interface(kind: Any, aliases: dict[str, inspect.Type]) -> str:
         lines.append(f'  {info.tag_field}: "{info.tag}";')
     for field in info.fields:
         said = _type(field.type, aliases)
-        null = " | null" if (kind, field.name) in NULL_FOR_NAN else ""
-        lines.append(f"  {field.encode_name}{'' if field.required else '?'}: {said}{null};")
+        may_lack = _is_struct(kind) and not field.required  # dataclasses are told whole
+        null = " | null" if kind is Segment and _is_nan(BARE[field.name]) else ""
+        lines.append(f"  {field.encode_name}{'?' if may_lack else ''}: {said}{null};")
     return "\n".join([*lines, "}\n"])
+
+
+def _is_nan(value: Any) -> bool:
+    return isinstance(value, float) and math.isnan(value)  # null in JSON
+
+
+def _bare() -> str:
+    """A row and an annotation of which nothing is known, for tests to fill."""
+    cells = "".join(
+        f"  {name}: {json.dumps(None if _is_nan(value) else value)},\n"
+        for name, value in BARE.items()
+    )
+    segment = f"export const bareSegment: Segment = {{\n{cells}}};\n"
+    annotation = json.dumps(to_builtins(NO_ANNOTATION, str_keys=True))
+    return (
+        f"/** A row of which nothing is known. */\n{segment}\n"
+        "/** What nobody did anything to has. */\n"
+        f"export const bareAnnotation: Annotation = {annotation};\n"
+    )
 
 
 def _type(info: Any, aliases: dict[str, inspect.Type]) -> str:
@@ -115,7 +143,7 @@ def _type(info: Any, aliases: dict[str, inspect.Type]) -> str:
 
 
 def _container(info: Any, aliases: dict[str, inspect.Type]) -> str:
-    if isinstance(info, inspect.ListType):
+    if isinstance(info, inspect.ListType | inspect.VarTupleType):
         item = _type(info.item_type, aliases)
         return f"({item})[]" if " | " in item else f"{item}[]"
     if isinstance(info, inspect.TupleType):
@@ -142,10 +170,9 @@ def _comment(text: str) -> str:
 
 def messages_typescript() -> str:
     """What ``messages.ts`` holds."""
-    of_table = {"Level": Level, "Kind": Kind, "Segment": Segment}
-    return typescript(
-        of_table | types_of(messages, folder_messages, edits, requests, library_messages)
-    )
+    of_table = {"Level": Level, "Kind": Kind, "Segment": Segment, "Annotation": Annotation}
+    types = types_of(messages, folder_messages, edits, requests, library_messages)
+    return f"{typescript(of_table | types)}\n{_bare()}"
 
 
 if __name__ == "__main__":

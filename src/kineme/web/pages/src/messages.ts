@@ -2,7 +2,7 @@
 
 export type Level = "activity" | "primitive";
 
-export type Kind = "activity" | "transition";
+export type Kind = "activity" | "primitive" | "transition";
 
 /** One row of the table: a span `[start_frame, stop_frame)` and what it is. */
 export interface Segment {
@@ -15,9 +15,34 @@ export interface Segment {
   cluster: number;
   activity: number;
   label: string;
-  score: number | null;
+  confidence: number | null;
   action: number;
   border_confidence: number | null;
+}
+
+/**
+ * What people did to a segment table.
+ *
+ * Attributes
+ * ----------
+ * checked : tuple of (level, start_frame, stop_frame)
+ * Segments that somebody looked at and found right, which no new segmentation changes.
+ * by_hand : tuple of (level, start_frame, stop_frame)
+ * Segments that somebody made, which no new segmentation changes.
+ * comments : tuple of (level, frame, text)
+ * What people said about segments.
+ * cluster_names : dict of str
+ * By cluster; empty for one that has none, whatever its segments are called. A cluster that
+ * is not there is called what more than half of its segments are.
+ * corrections : int
+ * How often the table was corrected.
+ */
+export interface Annotation {
+  checked: [Level, number, number][];
+  by_hand: [Level, number, number][];
+  comments: [Level, number, string][];
+  cluster_names: Record<number, string>;
+  corrections: number;
 }
 
 export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
@@ -30,10 +55,10 @@ export interface CommentAt {
 }
 
 /**
- * A segment table as its JSON file has it (`kineme.segments/1`), and what people did to it.
+ * A segment table as its JSON file has it (`kineme.segments/2`), and what people did to it.
  *
- * `cluster_names` has the names of clusters by their numbers; `checked` and `by_hand`
- * are numbers of rows.
+ * What follows from rows and annotation: `cluster_names` has the names of clusters by their
+ * numbers; `checked` and `by_hand` are numbers of rows.
  */
 export interface Segments {
   schema: string;
@@ -41,6 +66,7 @@ export interface Segments {
   fps: number;
   provenance: Record<string, unknown>;
   timings: Record<string, number>;
+  annotation: Annotation;
   segments: Segment[];
   cluster_names: Record<string, string>;
   checked: number[];
@@ -349,7 +375,11 @@ export interface SetCluster {
   cluster: number;
 }
 
-/** The segment that starts at `frame` is an activity, or a transition and in no cluster. */
+/**
+ * The segment that starts at `frame` is a transition and in no cluster, or none.
+ *
+ * `to` is `transition`, or what its level says.
+ */
 export interface SetKind {
   kind: "set_kind";
   level: Level;
@@ -620,3 +650,22 @@ export interface PartCluster {
 }
 
 export type LibraryEdit = CallCluster | JoinClusters | PartCluster;
+
+/** A row of which nothing is known. */
+export const bareSegment: Segment = {
+  level: "activity",
+  kind: "activity",
+  start_frame: 0,
+  stop_frame: 0,
+  start_s: 0.0,
+  stop_s: 0.0,
+  cluster: -1,
+  activity: 0,
+  label: "",
+  confidence: null,
+  action: -1,
+  border_confidence: null,
+};
+
+/** What nobody did anything to has. */
+export const bareAnnotation: Annotation = {"checked": [], "by_hand": [], "comments": [], "cluster_names": {}, "corrections": 0};

@@ -41,11 +41,11 @@ const known = new WeakMap<Segments, ReadonlyMap<Segment, Sureness>>();
 /** What a segment is judged by besides its own row. */
 class Around {
   readonly members = new Map<string, number>();
-  /** Of each activity: how many repetitions are counted, and the least score of them. */
+  /** Of each activity: how many repetitions are counted, and the least confidence of them. */
   readonly counts = new Map<number, { times: number; sure: number }>();
   /** Frames at which activities start. */
   readonly starts = new Set<number>();
-  /** Whether scores are probabilities, as they are where those of borders are known. */
+  /** Whether confidences are probabilities, as they are where those of borders are known. */
   readonly probable: boolean;
 
   constructor({ segments }: Segments) {
@@ -54,9 +54,9 @@ class Around {
       const key = clusterOf(row);
       this.members.set(key, (this.members.get(key) ?? 0) + 1);
       if (row.level === "activity") this.starts.add(row.start_frame);
-      else if (row.score !== null) {
+      else if (row.confidence !== null) {
         const { times, sure } = this.counts.get(row.activity) ?? { times: 0, sure: 1 };
-        this.counts.set(row.activity, { times: times + 1, sure: Math.min(sure, row.score) });
+        this.counts.set(row.activity, { times: times + 1, sure: Math.min(sure, row.confidence) });
       }
     }
   }
@@ -68,7 +68,8 @@ function ofOne(segment: Segment, around: Around): Sureness {
   const sure = parts.reduce((all, part) => all * part.sure, 1);
   if (!around.probable) {
     const short = sure.toFixed(2);
-    return { sure, short, text: `score ${short}`, why: `It was found with a score of ${short}.` };
+    const why = `Its confidence is ${short}, a share and no probability.`;
+    return { sure, short, text: `confidence ${short}`, why };
   }
   const short = `${Math.round(100 * sure)} %`;
   const text = `${short} sure`;
@@ -81,13 +82,13 @@ function ofOne(segment: Segment, around: Around): Sureness {
 }
 
 function partsOf(segment: Segment, around: Around): Part[] {
-  const { level, start_frame, start_s, score, border_confidence: border } = segment;
+  const { level, start_frame, start_s, confidence, border_confidence: border } = segment;
   const apart = level === "primitive" && around.starts.size > 0;
   const parts: Part[] = [];
   if (start_frame > 0 && border !== null && !(apart && around.starts.has(start_frame)))
     parts.push({ sure: border, that: `that a segment starts at ${clock(start_s, 2)}` });
-  if (score !== null && !(apart && around.probable))
-    parts.push({ sure: score, that: `that this is ${nameOf(segment)}` });
+  if (confidence !== null && !(apart && around.probable))
+    parts.push({ sure: confidence, that: `that this is ${nameOf(segment)}` });
   const counted = level === "activity" && around.probable && around.counts.get(segment.activity);
   if (counted) {
     const { times, sure } = counted;
@@ -97,7 +98,7 @@ function partsOf(segment: Segment, around: Around): Part[] {
 }
 
 function reasonOfNone(segment: Segment, around: Around): string {
-  if (segment.level === "primitive" && segment.score !== null)
+  if (segment.level === "primitive" && segment.confidence !== null)
     return "It is as sure as its activity, with which it is looked at.";
   const alone = segment.cluster >= 0 && around.members.get(clusterOf(segment)) === 1;
   return alone ? "No other segment is like it." : "Nothing says how sure it is.";

@@ -1,21 +1,24 @@
 /** Small recordings for tests. */
-import type { MotionHead, Segment, Segments } from "../src/messages";
+import {
+  bareAnnotation,
+  bareSegment,
+  type MotionHead,
+  type Segment,
+  type Segments,
+} from "../src/messages";
 import type { Motion } from "../src/motion";
 
 export function segment(start: number, stop: number, more: Partial<Segment> = {}): Segment {
+  const level = more.level ?? "primitive";
   return {
-    level: "primitive",
-    kind: "activity",
+    ...bareSegment,
+    level,
+    kind: level,
     start_frame: start,
     stop_frame: stop,
     start_s: start / 10,
     stop_s: stop / 10,
     cluster: 0,
-    activity: 0,
-    label: "",
-    score: null,
-    action: -1,
-    border_confidence: null,
     ...more,
   };
 }
@@ -23,7 +26,7 @@ export function segment(start: number, stop: number, more: Partial<Segment> = {}
 /** A table of these segments. */
 export function tableOf(segments: Segment[], more: Partial<Segments> = {}): Segments {
   const n_frames = Math.max(...segments.map((each) => each.stop_frame), 0);
-  const bare = { schema: "", fps: 10, provenance: {}, timings: {} };
+  const bare = { schema: "", fps: 10, provenance: {}, timings: {}, annotation: bareAnnotation };
   return {
     ...bare,
     n_frames,

@@ -113,7 +113,7 @@ function countsOf({ segmentation }: Recording): string {
     segmentation.segments.filter(want).length;
   const of = (level: string, kind: string): number =>
     count((segment) => segment.level === level && segment.kind === kind);
-  return `${of("activity", "activity")} activities, ${of("activity", "transition")} transitions, ${of("primitive", "activity")} primitives`;
+  return `${of("activity", "activity")} activities, ${of("activity", "transition")} transitions, ${of("primitive", "primitive")} primitives`;
 }
 
 function isRecord(value: unknown): value is Record<string, unknown> {

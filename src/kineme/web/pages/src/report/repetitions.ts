@@ -18,7 +18,7 @@ export function repetitionsOf(table: Segments): Repeated[] {
   const primitives = laneOf(table, "primitive");
   return lane.flatMap((activity, number) => {
     const durations = primitives
-      .filter((row) => row.activity === number && row.kind === "activity")
+      .filter((row) => row.activity === number && row.kind === "primitive")
       .map(durationOf);
     if (activity.kind === "transition" || !durations.length) return [];
     const mean_s = durations.reduce((sum, each) => sum + each, 0) / durations.length;

@@ -6,51 +6,38 @@ import type { Edit, Segment, Segments } from "../../src/messages";
 import { foreseen } from "../../src/studio/editing/foreseen/foreseen";
 import { idsAfter, madeOn, readdressed, type Known } from "../../src/studio/editing/identities";
 
-type Row = [
-  level: Segment["level"],
-  kind: Segment["kind"],
-  start: number,
-  stop: number,
-  cluster: number,
-  activity: number,
-  label: string,
-  score: number | null,
-  border_confidence: number | null,
-];
 type Said = Pick<Segments, "cluster_names" | "checked" | "by_hand" | "comments"> & {
-  rows: Row[];
+  rows: unknown[][];
   ids: string[];
 };
+/** Rows have the columns that others follow from. */
+interface Edits {
+  columns: string[];
+  chains: Chain[];
+}
 interface Chain {
-  start: Said & Pick<Segments, "provenance">;
+  start: Said & Pick<Segments, "annotation">;
   steps: { edit: Edit; name: string; after: Said | null }[];
 }
 
 const FPS = 30;
-const chains = JSON.parse(
+const { columns, chains } = JSON.parse(
   readFileSync(join(import.meta.dirname, "edits.json"), "utf-8"),
-) as Chain[];
+) as Edits;
 
 function knownOf({ rows, ids, ...rest }: Chain["start"]): Known {
-  const actions = rows.filter(([level]) => level === "activity").map((row) => row[4]);
-  const segments = rows.map(
-    ([level, kind, start, stop, cluster, activity, label, score, sure]): Segment => ({
-      level,
-      kind,
-      start_frame: start,
-      stop_frame: stop,
-      start_s: start / FPS,
-      stop_s: stop / FPS,
-      cluster,
-      activity,
-      label,
-      score,
-      action: actions[activity]!,
-      border_confidence: sure,
-    }),
+  const told = rows.map(
+    (row) => Object.fromEntries(row.map((cell, i) => [columns[i]!, cell])) as unknown as Segment,
   );
+  const actions = told.filter((row) => row.level === "activity").map((row) => row.cluster);
+  const segments = told.map((row) => ({
+    ...row,
+    start_s: row.start_frame / FPS,
+    stop_s: row.stop_frame / FPS,
+    action: actions[row.activity]!,
+  }));
   const n_frames = segments.at(-1)!.stop_frame;
-  const table = { schema: "", n_frames, fps: FPS, timings: {}, ...rest, segments };
+  const table = { schema: "", n_frames, fps: FPS, provenance: {}, timings: {}, ...rest, segments };
   return { segmentation: table, ids };
 }
 
@@ -65,8 +52,8 @@ it.each(chains.map((chain, i) => [i, chain] as const))(
         continue;
       }
       const known = { segmentation: now, ids: idsAfter(before, now, name) };
-      const { provenance } = now;
-      expect(known, JSON.stringify(edit)).toEqual(knownOf({ ...after, provenance }));
+      const { annotation } = now;
+      expect(known, JSON.stringify(edit)).toEqual(knownOf({ ...after, annotation }));
       before = known;
     }
   },

@@ -5,9 +5,9 @@ import { surenessOf } from "../../src/sureness";
 import { segment, tableOf } from "../recordings";
 
 const rows = [
-  segment(0, 10, { score: 0.9 }),
-  segment(10, 30, { score: 0.8, border_confidence: 0.3, label: "hop" }),
-  segment(30, 40, { cluster: 1, score: 0.4, border_confidence: 0.9 }),
+  segment(0, 10, { confidence: 0.9 }),
+  segment(10, 30, { confidence: 0.8, border_confidence: 0.3, label: "hop" }),
+  segment(30, 40, { cluster: 1, confidence: 0.4, border_confidence: 0.9 }),
   segment(40, 50, { cluster: -1, kind: "transition" }),
 ];
 const table = tableOf(rows);
@@ -24,13 +24,13 @@ it("shows first where the result is least sure, and says why", () => {
 });
 
 it("asks once for an activity what can be wrong with it and its repetitions", () => {
-  const activity = { level: "activity" as const, score: 0.9, border_confidence: 0.8 };
+  const activity = { level: "activity" as const, confidence: 0.9, border_confidence: 0.8 };
   const found = tableOf([
     segment(0, 20, { ...activity, activity: 0 }),
     segment(20, 50, { ...activity, activity: 1 }),
-    segment(0, 20, { activity: 0, score: 0.95 }),
-    segment(20, 30, { activity: 1, score: 0.5, border_confidence: 0.8 }),
-    segment(30, 50, { activity: 1, score: 0.5, border_confidence: 0.7 }),
+    segment(0, 20, { activity: 0, confidence: 0.95 }),
+    segment(20, 30, { activity: 1, confidence: 0.5, border_confidence: 0.8 }),
+    segment(30, 50, { activity: 1, confidence: 0.5, border_confidence: 0.7 }),
   ]);
   const doubts = doubtsOf(found);
   expect(doubts.map(({ segment }) => [segment.level, segment.start_frame])).toEqual([
@@ -50,9 +50,9 @@ it("asks once for an activity what can be wrong with it and its repetitions", ()
 
 it("has one number for a segment, wherever that is shown", () => {
   const found = tableOf([
-    segment(0, 40, { level: "activity", score: 0.99, border_confidence: null }),
-    segment(0, 40, { score: 0.19 }),
-    segment(40, 50, { level: "activity", activity: 1, score: 0.9, border_confidence: 0.9 }),
+    segment(0, 40, { level: "activity", confidence: 0.99, border_confidence: null }),
+    segment(0, 40, { confidence: 0.19 }),
+    segment(40, 50, { level: "activity", activity: 1, confidence: 0.9, border_confidence: 0.9 }),
   ]);
   const [doubt] = doubtsOf(found);
   const [first] = rowsOf(found, EVERYTHING, "sure", false);
@@ -63,10 +63,10 @@ it("has one number for a segment, wherever that is shown", () => {
   expect(why.match(/\d+ %/g)).toEqual([short]);
 });
 
-it("calls a score that is no probability by its name", () => {
-  const found = tableOf([segment(0, 10, { level: "activity", score: 0.4 })]);
-  expect(doubtsOf(found)[0]!.why).toBe("It was found with a score of 0.40.");
-  expect(doubtsOf(found)[0]!.text).toBe("score 0.40");
+it("says of a confidence that it is no probability", () => {
+  const found = tableOf([segment(0, 10, { level: "activity", confidence: 0.4 })]);
+  expect(doubtsOf(found)[0]!.why).toBe("Its confidence is 0.40, a share and no probability.");
+  expect(doubtsOf(found)[0]!.text).toBe("confidence 0.40");
 });
 
 it("leaves out what is checked, and counts it", () => {

@@ -1,34 +1,39 @@
 /** Small segment tables and recordings for the tests of the studio. */
-import type { Level, Recording, Segment, Segments } from "../../src/messages";
+import {
+  bareAnnotation,
+  bareSegment,
+  type Level,
+  type Recording,
+  type Segment,
+  type Segments,
+} from "../../src/messages";
 
 export const FPS = 10;
 
 /** A row of a level from its first frame, last frame, cluster and label. */
 export function row(level: Level, start: number, stop: number, cluster = 0, label = ""): Segment {
   return {
+    ...bareSegment,
     level,
-    kind: "activity",
+    kind: level,
     start_frame: start,
     stop_frame: stop,
     start_s: start / FPS,
     stop_s: stop / FPS,
     cluster,
-    activity: 0,
     label,
-    score: null,
-    action: -1,
-    border_confidence: null,
   };
 }
 
 /** One activity of 100 frames, and primitives of 30, 30 and 40. */
 export function table(): Segments {
   return {
-    schema: "kineme.segments/1",
+    schema: "kineme.segments/2",
     n_frames: 100,
     fps: FPS,
     provenance: {},
     timings: {},
+    annotation: bareAnnotation,
     cluster_names: {},
     checked: [],
     by_hand: [],

@@ -31,7 +31,9 @@ export function inWords(edit: Edit, fps: number): string {
         ? `${edit.level} at ${at(edit.frame)} removed from its cluster`
         : `${edit.level} at ${at(edit.frame)} put into cluster ${edit.cluster}`;
     case "set_kind":
-      return `${edit.level} at ${at(edit.frame)} made ${edit.to === "activity" ? "an" : "a"} ${edit.to}`;
+      return edit.to === "transition"
+        ? `${edit.level} at ${at(edit.frame)} made a transition`
+        : `transition at ${at(edit.frame)} made ${edit.level === "activity" ? "an" : "a"} ${edit.level}`;
     case "merge_clusters":
       return `cluster ${edit.cluster} merged into ${edit.into}`;
     case "split_cluster":
@@ -71,7 +73,7 @@ export function counted(n: number, one: string, many = `${one}s`): string {
 /** What a segmentation found, and in what time. */
 export function foundIn(table: Segments): string {
   const count = (level: Level): number =>
-    table.segments.filter((row) => row.level === level && row.kind === "activity").length;
+    table.segments.filter((row) => row.level === level && row.kind !== "transition").length;
   const seconds = Object.values(table.timings).reduce((sum, each) => sum + each, 0);
   return `${count("activity")} activities, ${count("primitive")} primitives, found in ${seconds.toFixed(2)} s.`;
 }

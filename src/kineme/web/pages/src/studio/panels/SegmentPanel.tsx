@@ -69,7 +69,7 @@ export function SegmentPanel({ session, editor, review }: Props & { review: Revi
             value={segment.kind}
             onChange={(event) => editor.setKind(segment, event.currentTarget.value as Kind)}
           >
-            <option value="activity">{segment.level}</option>
+            <option value={segment.level}>{segment.level}</option>
             <option value="transition">transition</option>
           </select>
         </label>

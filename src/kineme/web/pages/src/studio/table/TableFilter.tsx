@@ -1,7 +1,7 @@
 /** What the table of segments is narrowed to. */
 import type { Signal } from "@preact/signals";
 import type { JSX } from "preact";
-import type { Kind, Level } from "../../messages";
+import type { Level } from "../../messages";
 import type { Filter } from "./rows";
 
 export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element {
@@ -32,10 +32,10 @@ export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element
       <select
         aria-label="Kind of segment"
         value={filter.value.kind}
-        onChange={(event) => change({ kind: event.currentTarget.value as Kind | "" })}
+        onChange={(event) => change({ kind: event.currentTarget.value as Filter["kind"] })}
       >
         <option value="">every kind</option>
-        <option value="activity">no transitions</option>
+        <option value="movement">no transitions</option>
         <option value="transition">transitions</option>
       </select>
       <select

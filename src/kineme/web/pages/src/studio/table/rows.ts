@@ -1,5 +1,5 @@
 /** Which segments the table shows, in which order; pure functions. */
-import type { Kind, Level, Segment, Segments } from "../../messages";
+import type { Level, Segment, Segments } from "../../messages";
 import { durationOf, nameOf } from "../../segments";
 import { surenessOf, type Sureness } from "../../sureness";
 
@@ -8,7 +8,7 @@ export type Order = "start" | "duration" | "name" | "cluster" | "sure";
 
 export interface Filter {
   level: Level | "";
-  kind: Kind | "";
+  kind: "" | "movement" | "transition";
   checked: "yes" | "no" | "";
   /** Part of a label, or "cluster 3". */
   text: string;
@@ -79,7 +79,7 @@ function passes({ segment, checked, sureness }: Row, filter: Filter): boolean {
   const duration = durationOf(segment);
   return (
     (!level || segment.level === level) &&
-    (!kind || segment.kind === kind) &&
+    (!kind || (segment.kind === "transition") === (kind === "transition")) &&
     (!filter.checked || checked === (filter.checked === "yes")) &&
     isCalled(segment, text.trim().toLowerCase()) &&
     duration >= shortest &&

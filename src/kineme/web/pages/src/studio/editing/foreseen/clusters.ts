@@ -1,7 +1,16 @@
 /** What segments are: their clusters and kinds, as `kineme/segments/editing/clusters.py` has it. */
 import type { Kind, Level, Segment } from "../../../messages";
 import { isCalledByCluster, knownNames, membersOf, withNames } from "./names";
-import { allRows, eachRow, Impossible, joined, starting, withRows, type Draft } from "./rows";
+import {
+  allRows,
+  eachRow,
+  Impossible,
+  joined,
+  kindOf,
+  starting,
+  withRows,
+  type Draft,
+} from "./rows";
 
 export function setCluster(draft: Draft, level: Level, frame: number, cluster: number): Draft {
   if (cluster < -1 || cluster > following(draft)) throw new Impossible();
@@ -10,7 +19,8 @@ export function setCluster(draft: Draft, level: Level, frame: number, cluster: n
     (row) => row.activity === chosen.activity && row.cluster === chosen.cluster,
   );
   const members = level === "activity" ? [chosen, ...inside] : [chosen];
-  return movedTo(draft, members, cluster, cluster >= 0 ? "activity" : chosen.kind);
+  const rests = cluster < 0 && chosen.kind === "transition";
+  return movedTo(draft, members, cluster, (row) => kindOf(row.level, rests));
 }
 
 export function mergeClusters(draft: Draft, cluster: number, into: number): Draft {
@@ -49,10 +59,11 @@ export function orderClusters(draft: Draft, order: readonly number[]): Draft {
 
 export function setKind(draft: Draft, level: Level, frame: number, kind: Kind): Draft {
   const chosen = starting(draft, level, frame);
-  if (kind === chosen.kind) return draft;
+  const rests = kind === "transition";
+  if (rests === (chosen.kind === "transition")) return draft;
   const become = (row: Segment): Segment => {
-    const cluster = kind === "transition" ? -1 : row.cluster;
-    return { ...row, kind, cluster, score: null };
+    const cluster = rests ? -1 : row.cluster;
+    return { ...row, kind: kindOf(row.level, rests), cluster, confidence: null };
   };
   const { activity, primitive } = draft;
   if (level === "primitive") {
@@ -60,7 +71,7 @@ export function setKind(draft: Draft, level: Level, frame: number, kind: Kind): 
     return withRows(draft, activity, parts);
   }
   const inside = primitive.flatMap((row, i) => (row.activity === chosen.activity ? [i] : []));
-  const one = inside.length > 0 && kind === "transition";
+  const one = inside.length > 0 && rests;
   const parts = one ? joined(primitive, inside[0]!, inside.at(-1)!, inside[0]!) : primitive;
   const changed = new Set(one ? inside.slice(0, 1) : inside);
   return withRows(
@@ -76,13 +87,18 @@ function following(draft: Draft): number {
 }
 
 /** The members in another cluster, called by its name unless they have their own. */
-function movedTo(draft: Draft, members: readonly Segment[], cluster: number, kind?: Kind): Draft {
+function movedTo(
+  draft: Draft,
+  members: readonly Segment[],
+  cluster: number,
+  kind = (row: Segment): Kind => row.kind,
+): Draft {
   const names = knownNames(draft);
   const chosen = new Set(members);
   const rows = eachRow(draft, (row) => {
     if (!chosen.has(row)) return row;
     const label = isCalledByCluster(row, names) ? (names.get(cluster) ?? "") : row.label;
-    return { ...row, cluster, score: null, label, kind: kind ?? row.kind };
+    return { ...row, cluster, confidence: null, label, kind: kind(row) };
   });
   return withNames(rows, new Map([...(cluster >= 0 ? [[cluster, ""] as const] : []), ...names]));
 }

@@ -62,7 +62,7 @@ function made(draft: Draft, edit: ByHand): Draft {
   }
 }
 
-/** The message of a table, with what follows from its rows and its provenance. */
+/** The message of a table, with what follows from its rows and its annotation. */
 function tableOf(before: Segments, draft: Draft): Segments {
   const segments = [...allRows(draft)];
   const [checked, byHand] = [markedIn(draft, "checked"), markedIn(draft, "by_hand")];
@@ -70,7 +70,7 @@ function tableOf(before: Segments, draft: Draft): Segments {
     segments.flatMap((row, i) => (marks.has(keyOf(row)) ? [i] : []));
   return {
     ...before,
-    provenance: draft.provenance,
+    annotation: draft.annotation,
     segments,
     cluster_names: Object.fromEntries([...knownNames(draft)].filter(([, name]) => name)),
     checked: among(checked),

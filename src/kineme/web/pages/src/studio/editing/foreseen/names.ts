@@ -34,14 +34,13 @@ export function membersOf(draft: Draft, cluster: number): Segment[] {
 export function withNames(draft: Draft, names: Names): Draft {
   const there = new Set(allRows(draft).map((row) => row.cluster));
   const kept = [...names].filter(([cluster]) => there.has(cluster));
-  const { cluster_names: _, ...provenance } = draft.provenance;
-  if (!kept.length) return { ...draft, provenance };
-  return { ...draft, provenance: { ...provenance, cluster_names: Object.fromEntries(kept) } };
+  const annotation = { ...draft.annotation, cluster_names: Object.fromEntries(kept) };
+  return { ...draft, annotation };
 }
 
 /** The names of clusters by number; empty for those that are said to have none. */
 export function knownNames(draft: Draft): Map<number, string> {
-  const said = (draft.provenance.cluster_names ?? {}) as Record<string, string>;
+  const said = draft.annotation.cluster_names;
   const labels = new Map<number, Map<string, number>>();
   for (const { cluster, label } of allRows(draft)) {
     if (cluster < 0) continue;

@@ -2,25 +2,25 @@
  * Rows of one level and what an edit makes of them, as `kineme/segments/editing/rows.py` has it.
  * What the server will say counts; this is what the page shows until then.
  */
-import type { Level, Segment, Segments } from "../../../messages";
+import type { Annotation, Kind, Level, Segment, Segments } from "../../../messages";
 import { indexAt } from "../../../segments";
 
 export type Rows = readonly Segment[];
 
-/** A table while an edit is made on it; marks, names and comments are in its provenance. */
+/** A table while an edit is made on it. */
 export interface Draft {
   readonly fps: number;
   readonly activity: Rows;
   readonly primitive: Rows;
-  readonly provenance: Readonly<Record<string, unknown>>;
+  readonly annotation: Readonly<Annotation>;
 }
 
 /** The edit cannot be made; the server will say why. */
 export class Impossible extends Error {}
 
-export function draftOf({ fps, segments, provenance }: Segments): Draft {
+export function draftOf({ fps, segments, annotation }: Segments): Draft {
   const of = (level: Level): Rows => segments.filter((row) => row.level === level);
-  return { fps, activity: of("activity"), primitive: of("primitive"), provenance };
+  return { fps, activity: of("activity"), primitive: of("primitive"), annotation };
 }
 
 export function allRows({ activity, primitive }: Draft): Rows {
@@ -56,9 +56,9 @@ export function starting(draft: Draft, level: Level, frame: number): Segment {
 /** The border at `frame` stands at `to`. */
 export function moved(rows: Rows, frame: number, to: number): Rows {
   return rows.map((row) => {
-    if (row.stop_frame === frame) return { ...row, stop_frame: to, score: null };
+    if (row.stop_frame === frame) return { ...row, stop_frame: to, confidence: null };
     if (row.start_frame !== frame) return row;
-    return { ...row, start_frame: to, score: null, border_confidence: null };
+    return { ...row, start_frame: to, confidence: null, border_confidence: null };
   });
 }
 
@@ -67,8 +67,8 @@ export function cut(rows: Rows, frame: number): Rows {
   return rows.flatMap((row) =>
     row.start_frame < frame && frame < row.stop_frame
       ? [
-          { ...row, stop_frame: frame, score: null },
-          { ...row, start_frame: frame, score: null, border_confidence: null },
+          { ...row, stop_frame: frame, confidence: null },
+          { ...row, start_frame: frame, confidence: null, border_confidence: null },
         ]
       : [row],
   );
@@ -79,18 +79,24 @@ export function joined(rows: Rows, first: number, last: number, like: number): R
   if (first === last) return rows;
   const { start_frame, border_confidence } = rows[first]!;
   const { stop_frame } = rows[last]!;
-  const one = { ...rows[like]!, start_frame, stop_frame, score: null, border_confidence };
+  const one = { ...rows[like]!, start_frame, stop_frame, confidence: null, border_confidence };
   return [...rows.slice(0, first), one, ...rows.slice(last + 1)];
 }
 
 /** A primitive that lay in one activity and lies in another. */
 export function adopted(row: Segment, before: Segment, after: Segment): Segment {
-  const kind = row.kind === before.kind ? after.kind : row.kind;
+  const same = (row.kind === "transition") === (before.kind === "transition");
+  const kind = same ? kindOf(row.level, after.kind === "transition") : row.kind;
   const own = row.cluster !== before.cluster || before.cluster < 0;
   const cluster = own ? row.cluster : after.cluster;
   const label = row.label === before.label && before.label !== "" ? after.label : row.label;
-  const same = kind === row.kind && cluster === row.cluster;
-  return { ...row, kind, cluster, label, score: same ? row.score : null };
+  const unchanged = kind === row.kind && cluster === row.cluster;
+  return { ...row, kind, cluster, label, confidence: unchanged ? row.confidence : null };
+}
+
+/** The kind of a segment of a level that is a transition, or none. */
+export function kindOf(level: Level, isTransition: boolean): Kind {
+  return isTransition ? "transition" : level;
 }
 
 /** The primitives once the border of activities (number, from, to) has moved. */

@@ -1,0 +1,83 @@
+"""What people did to a segment table, beside it: marks, comments, names, how much was corrected.
+
+A mark is on a span of a level and holds as long as a segment has exactly these frames: one that
+was moved or joined since is not the one that was marked. A comment is at a frame of a level, and
+so on the segment that holds this frame, whatever becomes of its borders: no edit and no new
+segmentation loses one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any, Self
+
+import msgspec
+
+from kineme._json import sentence
+from kineme.errors import ParameterError
+from kineme.segments.table import Level
+
+Span = tuple[Level, int, int]
+"""Level, first frame, and one past the last frame."""
+Comment = tuple[Level, int, str]
+"""Level, frame and text."""
+
+
+@dataclass(frozen=True, slots=True)  # slots: msgspec then sets what a file leaves out
+class Annotation:
+    """What people did to a segment table.
+
+    Attributes
+    ----------
+    checked : tuple of (level, start_frame, stop_frame)
+        Segments that somebody looked at and found right, which no new segmentation changes.
+    by_hand : tuple of (level, start_frame, stop_frame)
+        Segments that somebody made, which no new segmentation changes.
+    comments : tuple of (level, frame, text)
+        What people said about segments.
+    cluster_names : dict of str
+        By cluster; empty for one that has none, whatever its segments are called. A cluster that
+        is not there is called what more than half of its segments are.
+    corrections : int
+        How often the table was corrected.
+    """
+
+    checked: tuple[Span, ...] = ()
+    by_hand: tuple[Span, ...] = ()
+    comments: tuple[Comment, ...] = ()
+    cluster_names: dict[int, str] = field(default_factory=dict)
+    corrections: int = 0
+
+    @classmethod
+    def from_json(cls, content: object) -> Self:
+        """The annotation that a file holds.
+
+        Raises
+        ------
+        ParameterError
+            It is of another shape.
+        """
+        try:
+            return msgspec.convert(content, cls, str_keys=True)
+        except msgspec.ValidationError as error:
+            reason = sentence(str(error))
+            raise ParameterError(f"the annotation is not as kineme writes it: {reason}") from error
+        except ValueError as error:  # half of a pair of surrogates for a name
+            raise ParameterError("the annotation has a name that is no text") from error
+
+    def to_json(self) -> dict[str, Any]:
+        """What a file holds of it: the parts that there are, empty where there is none."""
+        parts: dict[str, Any] = msgspec.to_builtins(self, str_keys=True)
+        return {name: part for name, part in parts.items() if part}
+
+
+NO_ANNOTATION = Annotation()
+"""Of a table that nobody did anything to."""
+PARTS = tuple(part.name for part in fields(Annotation))
+
+
+def parted(provenance: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """A provenance of an older file without the annotation in it, and that."""
+    rest = {name: value for name, value in provenance.items() if name not in PARTS}
+    return rest, {name: value for name, value in provenance.items() if name in PARTS}

@@ -1,0 +1,119 @@
+"""What people did stands beside the table: kept in files, by edits, and apart from provenance."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kineme.errors import ParameterError, ReadError
+from kineme.labels import read_segments, write_segments
+from kineme.segments import editing
+from kineme.segments.annotation import NO_ANNOTATION, Annotation
+from kineme.segments.segmentation import Segmentation
+from kineme.web.encoding import to_json
+from segmentations import LABELS, segmentations
+
+LEVELS = st.sampled_from(["activity", "primitive"])
+SPANS = st.lists(st.tuples(LEVELS, st.integers(0, 60), st.integers(0, 60)), max_size=3).map(tuple)
+ANNOTATIONS = st.builds(
+    Annotation,
+    SPANS,
+    SPANS,
+    st.lists(st.tuples(LEVELS, st.integers(0, 60), LABELS), max_size=3).map(tuple),
+    st.dictionaries(st.integers(0, 5), LABELS, max_size=3),
+    st.integers(0, 9),
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("annotated")
+
+
+def walk() -> Segmentation:
+    columns = {
+        "level": ["activity", "activity", "primitive", "primitive", "primitive"],
+        "kind": ["activity", "transition", "primitive", "primitive", "transition"],
+        "start_frame": [0, 60, 0, 30, 60],
+        "stop_frame": [60, 90, 30, 60, 90],
+        "cluster": [0, -1, 0, 0, -1],
+    }
+    return Segmentation.from_columns(columns, n_frames=90, fps=30, provenance={"notes": ["a"]})
+
+
+@given(ANNOTATIONS)
+def test_it_is_the_same_in_json(annotation: Annotation) -> None:
+    read = Annotation.from_json(json.loads(json.dumps(annotation.to_json())))
+    assert read == annotation
+    assert to_json(read) == to_json(annotation)  # whole for the pages, too
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".json", ".parquet"])
+@given(segmentations(), ANNOTATIONS)
+def test_it_is_kept_in_files(folder: Path, suffix: str, table, annotation) -> None:
+    path = folder / f"table{suffix}"
+    annotated = replace(table, annotation=annotation)
+    write_segments(annotated, path)
+    assert read_segments(path) == annotated
+
+
+def test_a_table_that_nobody_touched_has_none(tmp_path: Path) -> None:
+    assert walk().annotation == NO_ANNOTATION
+    write_segments(walk(), tmp_path / "walk.json")
+    assert "annotation" not in json.loads((tmp_path / "walk.json").read_text())
+
+
+def test_edits_leave_the_provenance_and_keep_the_annotation() -> None:
+    edited = editing.check(walk(), "primitive", [0], True)
+    edited = editing.comment(edited, "activity", 0, "slips")
+    edited = editing.name_cluster(edited, 0, "walk")
+    expected = Annotation(
+        checked=(("primitive", 0, 30),),
+        comments=(("activity", 30, "slips"),),
+        cluster_names={0: "walk"},
+    )
+    assert edited.annotation == expected
+    for changed in (
+        editing.split(edited, "primitive", 40),
+        editing.set_kind(edited, "primitive", 30, "transition"),
+        editing.set_cluster(edited, "primitive", 30, 1),
+    ):
+        assert changed.annotation.checked == expected.checked
+        assert changed.annotation.comments == expected.comments
+        assert changed.annotation.cluster_names[0] == "walk"
+        assert changed.provenance == walk().provenance
+    assert edited != walk()
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        3,
+        {"checked": 5},
+        {"checked": [["floor", 0, 1]]},
+        {"by_hand": [["activity", 0]]},
+        {"comments": [["activity", 0, 1]]},
+        {"cluster_names": {"0": []}},
+        {"cluster_names": {"walk": "walk"}},
+        {"corrections": "many"},
+    ],
+    ids=str,
+)
+def test_one_of_another_shape_is_refused(tmp_path: Path, said: object) -> None:
+    write_segments(walk(), tmp_path / "walk.json")
+    told = json.loads((tmp_path / "walk.json").read_text()) | {"annotation": said}
+    (tmp_path / "walk.json").write_text(json.dumps(told))
+    with pytest.raises(ReadError, match="the annotation is not as kineme writes it"):
+        read_segments(tmp_path / "walk.json")
+    with pytest.raises(ParameterError, match="annotation"):
+        Annotation.from_json(said)
+
+
+def test_what_is_none_is_refused() -> None:
+    with pytest.raises(ParameterError, match="Annotation"):
+        replace(walk(), annotation={"checked": []})  # type: ignore[arg-type]
