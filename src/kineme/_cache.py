@@ -56,7 +56,7 @@ def _temporary() -> str:
     folder = Path(tempfile.gettempdir(), f"kineme-{user}")
     folder.mkdir(mode=0o700, exist_ok=True)
     found = folder.lstat()
-    own = stat.S_ISDIR(found.st_mode) and found.st_uid == user
-    if own and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+    private = stat.S_ISDIR(found.st_mode) and found.st_uid == user
+    if private and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
         return str(folder)
     return tempfile.mkdtemp(prefix="kineme-")

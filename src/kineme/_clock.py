@@ -94,11 +94,11 @@ class Clock:
         return cls(seconds[starts].tolist(), shown[starts].tolist())
 
     @classmethod
-    def from_json(cls, said: Any) -> Clock:
+    def from_json(cls, data: Any) -> Clock:
         """The clock that `to_json` gave; ParameterError where that is none."""
-        if not isinstance(said, Mapping) or not {"seconds", "times"} <= said.keys():
-            raise ParameterError(f"a clock has seconds and times, not {said!r:.60}")
-        return cls(said["seconds"], said["times"])
+        if not isinstance(data, Mapping) or not {"seconds", "times"} <= data.keys():
+            raise ParameterError(f"a clock has seconds and times, not {data!r:.60}")
+        return cls(data["seconds"], data["times"])
 
     def to_json(self) -> dict[str, list[float]]:
         """Seconds and times, as JSON holds them."""
@@ -112,8 +112,8 @@ class Clock:
     def time(self, seconds: ArrayLike) -> Floats:
         """What it shows at seconds of the recording."""
         at = np.asarray(seconds, np.float64)
-        piece = np.maximum(np.searchsorted(self.seconds, at, side="right") - 1, 0)
-        shown: Floats = np.asarray(self.times)[piece] + at - np.asarray(self.seconds)[piece]
+        k = np.maximum(np.searchsorted(self.seconds, at, side="right") - 1, 0)
+        shown: Floats = np.asarray(self.times)[k] + at - np.asarray(self.seconds)[k]
         return shown
 
     def second(self, times: ArrayLike) -> Floats:
@@ -124,9 +124,9 @@ class Clock:
         at = np.asarray(times, np.float64)
         begin, shown = np.asarray(self.seconds), np.asarray(self.times)
         end = np.append(begin[1:], np.inf)
-        piece = np.searchsorted(np.maximum.accumulate(shown + end - begin), at, side="right")
-        since = at - shown[piece]
-        found: Floats = begin[piece] + np.where(piece > 0, np.maximum(since, 0.0), since)
+        k = np.searchsorted(np.maximum.accumulate(shown + end - begin), at, side="right")
+        since = at - shown[k]
+        found: Floats = begin[k] + np.where(k > 0, np.maximum(since, 0.0), since)
         return found
 
     def since_first(self) -> Clock:

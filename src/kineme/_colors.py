@@ -66,8 +66,8 @@ def label_colors(rows: Iterable[Row]) -> dict[str, str]:
                 seconds[row.cluster] += row.stop_s - row.start_s  # type: ignore[assignment]
     colors: dict[str, str] = {}
     for label in sorted(most, key=lambda text: text.encode("utf-16-be", "surrogatepass")):
-        known = most[label].most_common(1)
-        colors[label] = cluster_color(known[0][0]) if known else _free_color(label, taken)
+        clusters = most[label].most_common(1)
+        colors[label] = cluster_color(clusters[0][0]) if clusters else _free_color(label, taken)
         taken.add(colors[label])
     return colors
 

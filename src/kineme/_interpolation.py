@@ -46,5 +46,5 @@ def bridge_line(track: Floats, hidden: NDArray[np.bool_]) -> None:
     hidden : ndarray of bool, shape (frames,)
         At least one frame is not.
     """
-    seen = np.flatnonzero(~hidden)
-    track[hidden] = np.interp(np.flatnonzero(hidden), seen, track[seen])
+    present = np.flatnonzero(~hidden)
+    track[hidden] = np.interp(np.flatnonzero(hidden), present, track[present])

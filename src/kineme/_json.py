@@ -97,10 +97,10 @@ def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
         raise ReadError(path, "is not as it was written: a name is no text") from error
 
 
-def sentence(problem: str, whole: str = "the whole of it") -> str:
+def sentence(problem: str, everything: str = "the whole of it") -> str:
     """What msgspec says of a shape, with the place first and no signs of its own."""
     what, _, place = problem.partition(" - at ")
-    where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or whole
+    where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or everything
     return f"{where}: {what[:1].lower()}{what[1:].replace('`', '')}"
 
 

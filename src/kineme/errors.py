@@ -92,8 +92,10 @@ class KinemeWarning(UserWarning):
     """Something unusual was accepted; the message says what was made of it."""
 
 
-def _as_it_was(kind: type[KinemeError], args: tuple[Any, ...], told: dict[str, Any]) -> KinemeError:
+def _as_it_was(
+    kind: type[KinemeError], args: tuple[Any, ...], state: dict[str, Any]
+) -> KinemeError:
     """An error that was pickled: those that are made of other things than ``args`` as well."""
     error = kind.__new__(kind, *args)
-    vars(error).update(told)
+    vars(error).update(state)
     return error

@@ -148,13 +148,13 @@ def _writer(recording: Motion | Signals, shortest: int | None, *, loops: bool) -
     if isinstance(recording, Signals):
         if loops:
             raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
-        own = rows_of(recording, shortest=shortest)
+        file_rows = rows_of(recording, shortest=shortest)
 
         def write_rows(row: Segment, path: Path) -> tuple[float, ...]:
-            own.write(path, row.start_frame, row.stop_frame)
+            file_rows.write(path, row.start_frame, row.stop_frame)
             return ()
 
-        return own.suffix, write_rows
+        return file_rows.suffix, write_rows
 
     def write_motion(row: Segment, path: Path) -> tuple[float, ...]:
         clip = cut(recording, row.start_frame, row.stop_frame)

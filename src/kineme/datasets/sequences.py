@@ -122,8 +122,8 @@ def join_exercises(
         Exercises that do not fit together, or one without rotations.
     """
     motion, starts, halves = joined([part.motion for part in parts], join)
-    said = note or f"{len(parts)} exercises joined"
-    provenance = Provenance(format="sequence").noted(said)
+    sentence = note or f"{len(parts)} exercises joined"
+    provenance = Provenance(format="sequence").noted(sentence)
     truth = _truth(list(parts), starts, halves, motion.fps)
     return SyntheticRecording(replace(motion, provenance=provenance), truth)
 

@@ -135,11 +135,11 @@ def _turned_axis(
 def _facing(to_left: Floats) -> tuple[Floats, Floats]:
     """Cosine and sine, (frames, 1) each, of the turn that brings the axis to +x."""
     length = np.hypot(to_left[:, 0], to_left[:, 2])
-    known = np.flatnonzero(length > _UPRIGHT)
-    if len(known) == 0:
+    upright = np.flatnonzero(length > _UPRIGHT)
+    if len(upright) == 0:
         return np.ones((len(length), 1)), np.zeros((len(length), 1))
-    if len(known) < len(length):
-        middles = (known[:-1] + known[1:]) / 2
-        nearest = known[np.searchsorted(middles, np.arange(len(length)))]
+    if len(upright) < len(length):
+        middles = (upright[:-1] + upright[1:]) / 2
+        nearest = upright[np.searchsorted(middles, np.arange(len(length)))]
         to_left, length = to_left[nearest], length[nearest]
     return (to_left[:, 0] / length)[:, None], (to_left[:, 2] / length)[:, None]

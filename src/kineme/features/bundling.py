@@ -50,7 +50,7 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
     Parameters
     ----------
     features : array_like of shape (frames, dims)
-        Search vectors in the order of time, finite, in any unit.
+        Stacked features in the order of time, finite, in any unit.
     neighbors : int
         Frames that each frame moves towards: its nearest, without itself. At
         least as many are taken as there are components.

@@ -35,7 +35,7 @@ MOST_POINTS = 16
 CONSIDERED = 1000
 """Points of which some are taken; of more, so many: there are as many distances squared."""
 _FRAMES = 200  # enough to tell how points lie and move
-_ALIKE = 0.01  # of the largest distance: two points nearer than this are one
+_SAME = 0.01  # of the largest distance: two points nearer than this are one
 _CONSTANT = 0.001  # of the largest distance: by less than this, a distance does not vary
 _STILL = 0.01  # of the largest movement: less than this is none
 _APART = 0.5  # of its movement: a point's distance from what it is fixed to varies less
@@ -99,7 +99,7 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     apart, varying = apart[np.ix_(kept, kept)], varying[np.ix_(kept, kept)]
     chosen = [int(varying.sum(axis=1).argmax())]
     nearest = apart[chosen[0]]
-    while len(chosen) < most and nearest.max() > _ALIKE * apart.max():
+    while len(chosen) < most and nearest.max() > _SAME * apart.max():
         chosen.append(int(nearest.argmax()))
         nearest = np.minimum(nearest, apart[chosen[-1]])
     return np.sort(taken[kept[chosen]])
@@ -130,7 +130,7 @@ def _mean_and_deviation(positions: Floats) -> tuple[Floats, Floats]:
 def _without_spikes(values: Floats) -> Floats:
     """Each value the median of itself and its two neighbours in time.
 
-    A marker that is taken for another for a moment would outweigh all movement.
+    A marker that is taken for another for a frame or two would outweigh all movement.
     """
     before, here, after = values[:-2], values[1:-1], values[2:]
     middle = np.maximum(np.minimum(before, here), np.minimum(np.maximum(before, here), after))

@@ -11,7 +11,7 @@ length at rest is one, which no gyroscope and no place in a room has. There must
 be two such sensors at least, which feel the same: who sits down moves as a
 whole, too. And a pulse must be taken back by another.
 
-Source: speed by integrating acceleration between moments at rest is that of
+Source: speed by integrating acceleration between frames at rest is that of
 inertial navigation (zero velocity updates); the rest is ours.
 """
 
@@ -40,7 +40,7 @@ OVER = 15.0
 """Seconds whose median tells how a sensor hangs."""
 SHAKEN, TURNED = 0.1, 0.15
 """Shares of gravity: who is shaken or turned by more is on the move."""
-ALIKE = 0.3
+EQUAL = 0.3
 """Shares that differ by less of their mean, from sensor to sensor, are the same."""
 LEAST = 0.06
 """Least acceleration of a pulse, m/s²."""
@@ -153,7 +153,7 @@ def _shared_acceleration(means: Floats, variances: Floats) -> Floats:
     mean = (held * counted).sum(axis=0) / count
     spread = np.sqrt(((held - mean) ** 2 * counted).sum(axis=0) / count)
     most = (counted.sum(axis=0) >= SENSORS) & (2 * counted.sum(axis=0) > len(sensors))
-    return np.where(most & (spread < ALIKE * np.abs(mean)), GRAVITY * mean, 0.0)
+    return np.where(most & (spread < EQUAL * np.abs(mean)), GRAVITY * mean, 0.0)
 
 
 def _pulses(acceleration: Floats) -> list[Ride]:

@@ -60,7 +60,7 @@ def empty_ring(steps, width):
     " int64[:, ::1], int64)",
     **OPTIONS,
 )
-def enter_row(ring, line, looks, r, indices, first, node, steps, offset):
+def enter_row(ring, line, slots, r, indices, first, node, steps, offset):
     """Put row r into the ring in place of the row that falls out of reach.
 
     Afterwards the node one step s before column j of row r is
@@ -76,7 +76,7 @@ def enter_row(ring, line, looks, r, indices, first, node, steps, offset):
     for v in range(node[r], node[r + 1]):
         ring[here + indices[v + shift]] = v
     for s in range(len(steps)):
-        looks[s] = ((r - steps[s, 0]) % depth) * line + offset - steps[s, 1]
+        slots[s] = ((r - steps[s, 0]) % depth) * line + offset - steps[s, 1]
 
 
 @njit("int32[::1](int32[::1], int64[::1], int64[::1], int64[:, ::1], int64, int64)", **OPTIONS)
@@ -85,15 +85,15 @@ def component_roots(indices, first, node, steps, column_start, width):
     n = node[-1]
     parents = np.empty(n, np.int32)
     ring, line, reach = empty_ring(steps, width)
-    looks = np.empty(len(steps), np.int64)
+    slots = np.empty(len(steps), np.int64)
     for r in range(len(first)):
-        enter_row(ring, line, looks, r, indices, first, node, steps, reach - column_start)
+        enter_row(ring, line, slots, r, indices, first, node, steps, reach - column_start)
         shift = first[r] - node[r]
         for v in range(node[r], node[r + 1]):
             j = indices[v + shift]
             root = np.int32(v)
-            for look in looks:
-                u = ring[look + j]
+            for slot in slots:
+                u = ring[slot + j]
                 if u < 0 or u >= v:
                     continue
                 up = parents[u]
@@ -134,9 +134,9 @@ def cheapest_arrivals(
     before = np.full(n, -1, np.int32)
     origins = np.full(n, -1, np.int32)
     ring, line, reach = empty_ring(steps, width)
-    looks = np.empty(len(steps), np.int64)
+    slots = np.empty(len(steps), np.int64)
     for r in range(len(first)):
-        enter_row(ring, line, looks, r, indices, first, node, steps, reach - column_start)
+        enter_row(ring, line, slots, r, indices, first, node, steps, reach - column_start)
         shift = first[r] - node[r]
         for v in range(node[r], node[r + 1]):
             if not wanted[roots[v]]:
@@ -146,8 +146,8 @@ def cheapest_arrivals(
             if roots[v] >= node[r]:
                 best = 0.0
                 origins[v] = j
-            for s in range(len(looks)):
-                u = ring[looks[s] + j]
+            for s in range(len(slots)):
+                u = ring[slots[s] + j]
                 if u >= 0 and costs[u] + penalties[s] < best:
                     best = costs[u] + penalties[s]
                     before[v] = u

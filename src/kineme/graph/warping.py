@@ -180,8 +180,8 @@ def _as_steps(steps: Sequence[Step]) -> NDArray[np.int64]:
         given = np.array(steps)
     except ValueError:  # of different lengths
         given = np.empty(0)
-    whole = given.dtype.kind in "iu" and given.ndim == 2 and given.shape[1] == 2
-    moves = given.astype(np.int64) if whole else np.empty((0, 2), np.int64)
+    integral = given.dtype.kind in "iu" and given.ndim == 2 and given.shape[1] == 2
+    moves = given.astype(np.int64) if integral else np.empty((0, 2), np.int64)
     if not len(moves) or moves.min() < 0 or (moves.sum(axis=1) == 0).any():
         raise ParameterError(
             f"warping steps are pairs (a, b) from 0, not both 0; got {steps!r:.60}"

@@ -62,11 +62,11 @@ def to_movement(
         import xarray as xr
     except ImportError as error:
         raise MissingDependencyError("xarray", "xarray") from error
-    seen = np.ones(motion.n_frames)
+    present = np.ones(motion.n_frames)
     for start, stop in motion.gaps:
-        seen[start:stop] = 0.0
-    positions = np.where(seen[:, None, None] > 0, motion.positions, np.nan)
-    confidence = np.repeat(seen[:, None], motion.skeleton.n_joints, axis=1)
+        present[start:stop] = 0.0
+    positions = np.where(present[:, None, None] > 0, motion.positions, np.nan)
+    confidence = np.repeat(present[:, None], motion.skeleton.n_joints, axis=1)
     variables: dict[str, Any] = {
         "position": (DIMS, positions.transpose(0, 2, 1)[..., None]),
         "confidence": (("time", "keypoints", "individuals"), confidence[..., None]),
@@ -136,8 +136,8 @@ def from_movement(
         places[..., "xyz".index(axis)] = position.sel(space=axis)
     notes = [] if "z" in axes else ["two-dimensional: z is 0, and image rows count downwards"]
     if "confidence" in person:
-        sure = np.asarray(person["confidence"].transpose("time", "keypoints"), np.float64)
-        places[sure < confidence] = np.nan
+        likelihood = np.asarray(person["confidence"].transpose("time", "keypoints"), np.float64)
+        places[likelihood < confidence] = np.nan
     attributes = dataset.attrs
     source = FileContent(Path(str(attributes.get("source_file") or "dataset")), b"")
     timing = _timed(source, dataset, fps)
@@ -150,10 +150,10 @@ def from_movement(
         up or attributes.get("up") or ("-y" if flat else None),
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
-    said = Provenance(str(source.path), name, clock=timing.clock).noted(*timing.notes, *notes)
-    motion = split_at(to_motion(points, said), timing.gaps)
+    provenance = Provenance(str(source.path), name, clock=timing.clock).noted(*timing.notes, *notes)
+    motion = split_at(to_motion(points, provenance), timing.gaps)
     if remarks := motion.provenance.warnings:
-        warn(f"{said.path or 'dataset'}: {'; '.join(remarks)}")
+        warn(f"{provenance.path or 'dataset'}: {'; '.join(remarks)}")
     return motion
 
 
@@ -165,12 +165,12 @@ def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
         raise ParameterError("the dataset has no position (time, space, keypoints, individuals)")
     if "individuals" not in dataset.dims:
         return dataset
-    known = [str(one) for one in dataset["individuals"].values]
-    if name is None and len(known) > 1:
-        raise ParameterError(f"the dataset has several individuals: name one of {', '.join(known)}")
-    if name is not None and name not in known:
-        raise ParameterError(f"no individual {name!r}; there are {', '.join(known)}")
-    return dataset.isel(individuals=0 if name is None else known.index(name))
+    names = [str(one) for one in dataset["individuals"].values]
+    if name is None and len(names) > 1:
+        raise ParameterError(f"the dataset has several individuals: name one of {', '.join(names)}")
+    if name is not None and name not in names:
+        raise ParameterError(f"no individual {name!r}; there are {', '.join(names)}")
+    return dataset.isel(individuals=0 if name is None else names.index(name))
 
 
 def _timed(source: FileContent, dataset: xr.Dataset, fps: float | None) -> Timing:

@@ -83,10 +83,10 @@ def _send_body(recording: Any, motion: Motion) -> None:
     )
     recording.log("body/joints", names, static=True)
     recording.log("body/bones", rr.LineStrips3D.from_fields(radii=BONE_RADIUS), static=True)
-    seen = np.ones(motion.n_frames, np.bool_)
+    present = np.ones(motion.n_frames, np.bool_)
     for start, stop in motion.gaps:
-        seen[start:stop] = False
-    frames = np.flatnonzero(seen)
+        present[start:stop] = False
+    frames = np.flatnonzero(present)
     positions = motion.positions[frames].astype(np.float32)
     joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
     times = _times(frames, motion.fps)

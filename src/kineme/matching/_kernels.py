@@ -15,13 +15,13 @@ HALF, NOTHING = np.float32(0.5), np.float32(0)
     "float32[:, ::1], float32[::1], int32[::1])",
     **OPTIONS,
 )
-def warp_along(products, squares, own_squares, first, sums, begins, rows, costs, starts):
+def warp_columns(products, squares, example_squares, first, sums, begins, rows, costs, starts):
     """Cost and start of the cheapest warping of an example that ends at each sample.
 
     ``products[j, i]`` is -2 times that of sample first + j of a recording and sample i of an
-    example of m, ``squares`` those of the recording and ``own_squares`` of the example: the sum of
-    the three is the square of their distance. ``sums``, ``begins`` (3, m + 1) and ``rows`` (2, m)
-    are what goes on from one call to the next: sums of distances up to each sample of the example,
+    example of m, ``squares`` those of the recording, ``example_squares`` of the example: the sum
+    of the three is the square of their distance. ``sums``, ``begins`` (3, m + 1) and ``rows``
+    (2, m) go on from one call to the next: sums of distances up to each sample of the example,
     for the last three samples of the recording in turn, where their warpings begin, and the
     distances from the last two of its samples in turn. The first column of ``sums`` is infinite,
     and before the first call all of it.
@@ -31,7 +31,7 @@ def warp_along(products, squares, own_squares, first, sums, begins, rows, costs,
         now, one, two = (first + j) % 3, (first + j - 1) % 3, (first + j - 2) % 3
         here, before = rows[(first + j) % 2], rows[(first + j - 1) % 2, 1:]
         for i in range(m):
-            here[i] = np.sqrt(max(products[j, i] + squares[j] + own_squares[i], NOTHING))
+            here[i] = np.sqrt(max(products[j, i] + squares[j] + example_squares[i], NOTHING))
         next_one = here[1:]
         quick_sums, quick_begins = sums[one], begins[one]
         even_sums, even_begins = sums[one, 1:], begins[one, 1:]

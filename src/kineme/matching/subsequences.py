@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_floats, is_number
 from kineme.errors import ParameterError
-from kineme.matching._kernels import apart, warp_along
+from kineme.matching._kernels import apart, warp_columns
 
 Ints = NDArray[np.int64]
 Float32s = NDArray[np.float32]
@@ -127,12 +127,12 @@ def warped(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[
     costs, starts = np.empty(n, np.float32), np.empty(n, np.int32)
     sums = np.full((3, m + 1), np.inf, np.float32)
     begins, rows = np.zeros((3, m + 1), np.int32), np.zeros((2, m), np.float32)
-    twice, own_squares = -2 * short.T, _squares(short)
+    twice, example_squares = -2 * short.T, _squares(short)
     for first in range(0, n, BLOCK):
         part, span = long[first : first + BLOCK], slice(first, first + BLOCK)
         products = part @ twice
         found = costs[span], starts[span]
-        warp_along(products, _squares(part), own_squares, first, sums, begins, rows, *found)
+        warp_columns(products, _squares(part), example_squares, first, sums, begins, rows, *found)
     return costs, starts
 
 
@@ -154,8 +154,8 @@ def _in_proportion(
     lengths = ends - firsts
     means = (sums[ends] - sums[firsts]) / lengths[:, None]
     variances = (squared[ends] - squared[firsts]) / lengths - np.einsum("ij,ij->i", means, means)
-    own = float(np.einsum("ij,ij->", example - mean, example - mean)) / len(example)
-    smaller = np.maximum(np.minimum(variances, own), STILL)
+    variance = float(np.einsum("ij,ij->", example - mean, example - mean)) / len(example)
+    smaller = np.maximum(np.minimum(variances, variance), STILL)
     return np.asarray(costs / np.sqrt(2 * smaller), np.float32)
 
 

@@ -143,8 +143,8 @@ def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.f
 
 def _runs_of_rows(indptr: NDArray[np.int64]) -> list[tuple[int, int]]:
     """Rows in runs of about ENTRIES_AT_ONCE entries."""
-    marks = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
-    starts = np.unique(np.searchsorted(indptr, marks, side="right") - 1).tolist()
+    bounds = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
+    starts = np.unique(np.searchsorted(indptr, bounds, side="right") - 1).tolist()
     return list(zip(starts, [*starts[1:], len(indptr) - 1], strict=True))
 
 

@@ -45,8 +45,8 @@ def joints_among(signals: Signals) -> Indices | None:
     ]
     if not points:
         return None
-    seen = np.concatenate([signals.values[slice(*span)] for span in signals.spans()])
-    return np.array(points) if have_bones(seen[:, points]) else None
+    values = np.concatenate([signals.values[slice(*span)] for span in signals.spans()])
+    return np.array(points) if have_bones(values[:, points]) else None
 
 
 def by_distances(rows: Sequence[Floats], points: Indices, fps: float) -> list[Floats]:

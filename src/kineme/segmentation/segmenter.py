@@ -160,26 +160,28 @@ def segmented(
     if progress is not None:
         progress("features")
     given = options.features
-    seen = recording if given is None else as_channels(recording, given, options.feature_fps)
-    chosen = options.resolved(signals=isinstance(seen, Signals)).at_most(seen.fps)
-    if isinstance(seen, Signals):
+    segmented = recording if given is None else as_channels(recording, given, options.feature_fps)
+    chosen = options.resolved(signals=isinstance(segmented, Signals)).at_most(segmented.fps)
+    if isinstance(segmented, Signals):
         scaled = given is None if options.standardize is None else options.standardize
-        view = view_of_signals(seen, chosen, emg=options.emg, standardize=scaled, unit=options.unit)
+        view = view_of_signals(
+            segmented, chosen, emg=options.emg, standardize=scaled, unit=options.unit
+        )
     elif chosen.unit == "standard deviations":
         raise ParameterError(
             f"{chosen.name} is in standard deviations, for signals: a motion takes one in metres "
             f"or body sizes"
         )
     else:
-        view = view_of_motion(seen, chosen, options.effectors)
+        view = view_of_motion(segmented, chosen, options.effectors)
     if given is not None:
-        view = on_recording(view, recording, seen.fps)
+        view = on_recording(view, recording, segmented.fps)
     timings = {"features": time.perf_counter() - start}
-    told: dict[str, Any] = {} if view.carried is None else {"carried": view.carried}
+    facts: dict[str, Any] = {} if view.carried is None else {"carried": view.carried}
     if view.joints:
-        told["joints"] = True
+        facts["joints"] = True
     found = chosen.analyze(
-        np.concatenate(view.features), mirror=view.mirror, progress=progress, **told
+        np.concatenate(view.features), mirror=view.mirror, progress=progress, **facts
     )
     return _result(recording, chosen, view, found, timings), found
 
@@ -238,7 +240,7 @@ def _result(
 
     def placed(columns: Columns) -> Columns:
         near = AT_GAP * preset.working_fps
-        return in_frames(columns, view.seen, n_frames, fps / preset.working_fps, near=near)
+        return in_frames(columns, view.spans, n_frames, fps / preset.working_fps, near=near)
 
     samples = found.columns()
     columns = placed(samples)
@@ -252,7 +254,7 @@ def _result(
         "input": {"path": source.path, "format": source.format, "sha256": source.sha256},
         "notes": [*map(str, source.notes), *view.notes, *found.doubts(columns, fps)],
     }
-    if gaps := gaps_between(view.seen, n_frames):
+    if gaps := gaps_between(view.spans, n_frames):
         provenance["gaps"] = [list(gap) for gap in gaps]
     if source.clock is not None:
         provenance["clock"] = source.clock.to_json()

@@ -28,7 +28,7 @@ AT_GAP = 0.2
 
 
 @dataclass(frozen=True)
-class SeenSpan:
+class RecordedSpan:
     """A span of a recording that was seen.
 
     Attributes
@@ -45,7 +45,12 @@ class SeenSpan:
 
 
 def in_frames(
-    columns: Columns, seen: Sequence[SeenSpan], n_frames: int, ratio: float, *, near: float = 0.0
+    columns: Columns,
+    spans: Sequence[RecordedSpan],
+    n_frames: int,
+    ratio: float,
+    *,
+    near: float = 0.0,
 ) -> Columns:
     """The columns in frames, cut at the ends of what was seen, gaps filled with transitions.
 
@@ -55,7 +60,7 @@ def in_frames(
     ----------
     columns : dict of str to array
         Of a segment table, ``start_frame`` and ``stop_frame`` in samples.
-    seen : sequence of SeenSpan
+    spans : sequence of RecordedSpan
         In time order.
     n_frames : int
         Of the recording.
@@ -69,13 +74,13 @@ def in_frames(
     starts: list[NDArray[np.int64]] = []
     stops: list[NDArray[np.int64]] = []
     first = 0
-    for k, span in enumerate(seen):
+    for k, span in enumerate(spans):
         last = first + span.n_samples
         begin = np.maximum(columns["start_frame"], first)
         end = np.minimum(columns["stop_frame"], last)
         for borders in (begin, end):
             inner = (first < borders) & (borders < last)
-            if k + 1 < len(seen):
+            if k + 1 < len(spans):
                 borders[inner & (borders >= last - near)] = last
             if k > 0:
                 borders[inner & (borders <= first + near)] = first
@@ -93,15 +98,15 @@ def in_frames(
     taken = {name: column[row[full]] for name, column in columns.items()}
     taken |= {"start_frame": start[full], "stop_frame": stop[full]}
     if "border_confidence" in taken:  # what goes on after a gap does not start there
-        at_gap = np.isin(taken["start_frame"], [span.start for span in seen])
+        at_gap = np.isin(taken["start_frame"], [span.start for span in spans])
         taken["border_confidence"] = np.where(at_gap, np.nan, taken["border_confidence"])
-    return _with_gaps(taken, gaps_between(seen, n_frames))
+    return _with_gaps(taken, gaps_between(spans, n_frames))
 
 
-def gaps_between(seen: Sequence[SeenSpan], n_frames: int) -> Spans:
+def gaps_between(spans: Sequence[RecordedSpan], n_frames: int) -> Spans:
     """What was not seen of the recording: frames [start, stop)."""
-    starts = [0, *(span.stop for span in seen)]
-    stops = [*(span.start for span in seen), n_frames]
+    starts = [0, *(span.stop for span in spans)]
+    stops = [*(span.start for span in spans), n_frames]
     return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
 
 
@@ -119,8 +124,8 @@ def in_time(graph: NeighborGraph, gaps: Sequence[Sequence[int]], n_frames: int) 
     """
     from kineme.graph import NeighborGraph
 
-    known = n_frames - sum(stop - start for start, stop in gaps)
-    per_frame = len(graph) / max(known, 1)
+    n_present = n_frames - sum(stop - start for start, stop in gaps)
+    per_frame = len(graph) / max(n_present, 1)
     place = np.arange(len(graph))
     before = 0
     for start, stop in gaps:

@@ -175,7 +175,7 @@ def _joined(
     def placed(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
         motion = motions[span.source]
         rotations = np.array(motion.rotations)[start:stop]
-        return _laid(motion, rotations, shifts[span.source][start:stop], span.at)
+        return _placed_motion(motion, rotations, shifts[span.source][start:stop], span.at)
 
     placed_spans = [placed(span, span.start, span.stop) for span in spans]
     rotations, translations = (np.concatenate(each) for each in zip(*placed_spans, strict=True))
@@ -191,7 +191,7 @@ def _joined(
     return rotations, translations
 
 
-def _laid(
+def _placed_motion(
     motion: Motion, rotations: Floats, shifts: Floats, at: Placement
 ) -> tuple[Floats, Floats]:
     roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]

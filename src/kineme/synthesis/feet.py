@@ -138,8 +138,8 @@ def _holds(floor: Floats, contacts: Spans, gap: int) -> Spans:
     for start, stop in contacts:
         first = start
         while first < stop:
-            crept = np.linalg.norm(floor[first:stop] - floor[first], axis=1) > REACH
-            last = first + int(np.argmax(crept)) if crept.any() else stop
+            out_of_reach = np.linalg.norm(floor[first:stop] - floor[first], axis=1) > REACH
+            last = first + int(np.argmax(out_of_reach)) if out_of_reach.any() else stop
             holds.append((first, max(last - gap * (last < stop), first + 1)))
             first = last
     return holds
@@ -173,10 +173,10 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
         leg[2]: world[:, leg[2]],
     }
     rotations = np.array(motion.rotations)
-    for joint, own in turned.items():
+    for joint, turn in turned.items():
         parent = motion.skeleton.parents[joint]
         above = turned.get(parent, world[:, parent])
-        rotations[:, joint] = rot.multiply(rot.conjugate(above), own)
+        rotations[:, joint] = rot.multiply(rot.conjugate(above), turn)
     positions = forward_kinematics(
         motion.skeleton,
         rotations,

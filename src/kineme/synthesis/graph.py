@@ -161,8 +161,8 @@ class MotionGraph:
     def nodes_of(self, name: str) -> list[int]:
         """The nodes of a super-node; ParameterError if there is none of that name."""
         if name not in self.names:
-            known = ", ".join(f"{name} ({n})" for name, n in self.names.items())
-            raise ParameterError(f"no node is called {name!r}; there are {known or 'no names'}")
+            listing = ", ".join(f"{name} ({n})" for name, n in self.names.items())
+            raise ParameterError(f"no node is called {name!r}; there are {listing or 'no names'}")
         return [i for i, node in enumerate(self.nodes) if node.name == name]
 
     def core(self) -> Ints:

@@ -132,7 +132,7 @@ def line_route(
             f"of them, or a tolerance of {np.ceil(progress.worst * 10) / 10:g} m"
         )
     route = last.route()
-    return route, _laid(graph, floors, route[0], points)
+    return route, _placement(graph, floors, route[0], points)
 
 
 def _search(
@@ -141,7 +141,7 @@ def _search(
     """The cheapest candidate at the end of the line; None where all end before it."""
     heap: list[tuple[int, float, int, _Candidate]] = []
     done: list[tuple[_Candidate, _Progress]] = []
-    seen: set[tuple[int, int, int]] = set()
+    visited: set[tuple[int, int, int]] = set()
     taken: Counter[int] = Counter()
     number = count()  # of equal candidates the one found first goes first
 
@@ -150,14 +150,14 @@ def _search(
         heappush(heap, (bucket, candidate.progress.cost, next(number), candidate))
 
     for node in sorted(nodes):
-        at = _laid(graph, floors, node, points)
+        at = _placement(graph, floors, node, points)
         push(_Candidate(node, graph.nodes[node].start, at, _Progress()))
     while heap:
         bucket, _, _, candidate = heappop(heap)
         direction = round(candidate.at.angle / TURN) % round(2 * np.pi / TURN)
-        if taken[bucket] == WIDTH or (bucket, candidate.node, direction) in seen:
+        if taken[bucket] == WIDTH or (bucket, candidate.node, direction) in visited:
             continue
-        seen.add((bucket, candidate.node, direction))
+        visited.add((bucket, candidate.node, direction))
         taken[bucket] += 1
         reached, onward = _expanded(graph, floors, points, nodes, candidate)
         if reached.point == len(points) - 1:
@@ -186,8 +186,8 @@ def _expanded(
     onward = []
     for edge in edges:
         at = candidate.at.after(edge.angle, edge.shift) if edge.jump else candidate.at
-        went = reached[_steps(candidate.enter, edge.leave, step)]
-        onward.append(_Candidate(edge.head, edge.enter, at, went, candidate))
+        travel = reached[_steps(candidate.enter, edge.leave, step)]
+        onward.append(_Candidate(edge.head, edge.enter, at, travel, candidate))
     return reached[_steps(candidate.enter, node.stop, step)], onward
 
 
@@ -225,13 +225,15 @@ def _allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
     return named | {i for i, node in enumerate(graph.nodes) if not node.name}
 
 
-def _laid(graph: MotionGraph, floors: Sequence[Complex], node: int, points: Complex) -> Placement:
+def _placement(
+    graph: MotionGraph, floors: Sequence[Complex], node: int, points: Complex
+) -> Placement:
     """Where a node begins at the line's first point and heads down it."""
     span = graph.nodes[node]
     floor = floors[span.source]
-    went = floor[min(span.stop, len(floor) - 1)] - floor[span.start]
-    ahead = points[min(round(max(abs(went), FAR) / SPACING), len(points) - 1)] - points[0]
+    travel = floor[min(span.stop, len(floor) - 1)] - floor[span.start]
+    ahead = points[min(round(max(abs(travel), FAR) / SPACING), len(points) - 1)] - points[0]
     # Placements turn by exp(-i angle).
-    angle = float(np.angle(went) - np.angle(ahead)) if abs(went) > 0 else 0.0
+    angle = float(np.angle(travel) - np.angle(ahead)) if abs(travel) > 0 else 0.0
     turned = Placement(angle)
     return Placement(angle, complex(points[0]) - turned.of(complex(floor[span.start])))

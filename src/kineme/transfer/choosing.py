@@ -14,7 +14,7 @@ from kineme.transfer.matching import Floats, Primitives, label_costs
 
 REACH = 2.0
 """Thresholds up to which a match with the next label is looked for."""
-ALIKE = 0.6
+SIMILAR = 0.6
 """Cost up to which the repetitions of one person are the same movement."""
 
 
@@ -58,7 +58,7 @@ def another_movement(
     for label in set(labels.tolist()) - {""}:
         named = np.flatnonzero(labels == label)
         first = named[costs[named].argmin()]
-        other[named] = (movements[named] != movements[first]) & (costs[named] > ALIKE)
+        other[named] = (movements[named] != movements[first]) & (costs[named] > SIMILAR)
     return other
 
 

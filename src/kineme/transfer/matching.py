@@ -67,13 +67,13 @@ class Primitives:
 
 
 def label_costs(
-    unknown: Primitives, known: Primitives, codes: Ints, n_labels: int, *, radius: float
+    unknown: Primitives, examples: Primitives, codes: Ints, n_labels: int, *, radius: float
 ) -> Floats:
     """``costs[u, c]``: of the cheapest match of primitive u with one of label c; inf without.
 
     Parameters
     ----------
-    unknown, known : Primitives
+    unknown, examples : Primitives
         Features of both in the same unit.
     codes : (known primitives,) array of int
         The label of each, from 0, one for all of a run.
@@ -86,26 +86,26 @@ def label_costs(
     (unknown primitives, n_labels) array
     """
     costs = np.full((len(unknown), n_labels), np.inf)
-    of_run = np.empty(int(known.runs[-1]) + 1, np.int64)
-    of_run[known.runs] = codes
-    u, run, cost = mutual_matches(unknown, known, radius)
+    of_run = np.empty(int(examples.runs[-1]) + 1, np.int64)
+    of_run[examples.runs] = codes
+    u, run, cost = mutual_matches(unknown, examples, radius)
     np.minimum.at(costs, (u, of_run[run]), cost)
     return costs
 
 
-def mutual_matches(unknown: Primitives, known: Primitives, radius: float) -> Matches:
+def mutual_matches(unknown: Primitives, examples: Primitives, radius: float) -> Matches:
     """Every match of an unknown primitive with a run of known ones: number, run, cost."""
-    u, known_run, forward = _matches_within(unknown, known, np.arange(len(unknown)), radius)
-    reached = np.flatnonzero(np.isin(known.runs, known_run))
-    k, unknown_run, backward = _matches_within(known, unknown, reached, radius)
-    n = int(known.runs[-1]) + 1
-    most = np.bincount(known.runs)
-    pairs, medians = _medians(unknown_run * n + known.runs[k], backward, most)
-    wanted = unknown.runs[u] * n + known_run
+    u, example_run, forward = _matches_within(unknown, examples, np.arange(len(unknown)), radius)
+    reached = np.flatnonzero(np.isin(examples.runs, example_run))
+    k, unknown_run, backward = _matches_within(examples, unknown, reached, radius)
+    n = int(examples.runs[-1]) + 1
+    most = np.bincount(examples.runs)
+    pairs, medians = _medians(unknown_run * n + examples.runs[k], backward, most)
+    wanted = unknown.runs[u] * n + example_run
     at = np.searchsorted(pairs, wanted)
     both = at < len(pairs)
     both[both] = pairs[at[both]] == wanted[both]
-    return u[both], known_run[both], np.maximum(forward[both], medians[at[both]])
+    return u[both], example_run[both], np.maximum(forward[both], medians[at[both]])
 
 
 def same_movements(primitives: Primitives, radius: float) -> Ints:
@@ -158,5 +158,5 @@ def _medians(keys: Ints, costs: Floats, sizes: Ints) -> tuple[Ints, Floats]:
     order = np.lexsort((costs, keys))
     unique, first, counts = np.unique(keys[order], return_index=True, return_counts=True)
     middle = (sizes[unique % len(sizes)] - 1) // 2
-    known = middle < counts
-    return unique[known], costs[order][(first + middle)[known]]
+    matched = middle < counts
+    return unique[matched], costs[order][(first + middle)[matched]]

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
+from kineme.transfer.channel_samples import channel_samples
 from kineme.transfer.features import transfer_features
 from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.labels import transfer_labels
 from kineme.transfer.matching import THRESHOLD
-from kineme.transfer.moments import moments_of
-from kineme.transfer.vocabulary import share_by_moments
+from kineme.transfer.vocabulary import share_by_samples
 
 
 def share_clusters(
@@ -39,7 +39,7 @@ def share_clusters(
     than half find it; of two clusters of one recording only the one of more
     finds takes it. All others are numbered on.
 
-    Of signals each activity takes one of the clusters that the moments of all recordings
+    Of signals each activity takes one of the clusters that the samples of all recordings
     have together; repetitions have the cluster of their activity.
 
     Parameters
@@ -87,45 +87,45 @@ def share_clusters(
         return _numbered_on(motions, segmentations, threshold)
     if len(signals) < len(recordings):
         raise ParameterError("clusters are shared over motions or over signals, not over both")
-    moments = [moments_of(each) for each in signals]
-    return share_by_moments(moments, segmentations, n_clusters=n_clusters)
+    samples = [channel_samples(each) for each in signals]
+    return share_by_samples(samples, segmentations, n_clusters=n_clusters)
 
 
 def _numbered_on(
     motions: Sequence[Motion], segmentations: Sequence[Segmentation], threshold: float
 ) -> list[Segmentation]:
     """The clusters of motions by the numbers of those before, or by the next ones."""
-    known: KnowledgeBase | None = None
+    base: KnowledgeBase | None = None
     shared, following = [], 0
     for motion, found in zip(motions, segmentations, strict=True):
         old = sorted(set(found.table.cluster.tolist()) - {-1})
-        numbers = _met_before(motion, found, known, threshold) if known else {}
+        numbers = _met_before(motion, found, base, threshold) if base else {}
         for cluster in old:
             if cluster not in numbers:
-                numbers[cluster] = following if known else cluster
+                numbers[cluster] = following if base else cluster
                 following = max(following, numbers[cluster]) + 1
         renumbered = _renumbered(found, numbers)
         shared.append(renumbered)
         if old:
             named = _named_by_cluster(renumbered)
-            own = KnowledgeBase.from_recording(motion, named)
-            known = known + own if known else own
+            examples = KnowledgeBase.from_recording(motion, named)
+            base = base + examples if base else examples
     return shared
 
 
 def _met_before(
-    motion: Motion, found: Segmentation, known: KnowledgeBase, threshold: float
+    motion: Motion, found: Segmentation, base: KnowledgeBase, threshold: float
 ) -> dict[int, int]:
     """The numbers of the clusters that are found in the knowledge."""
     unnamed = found.table.with_columns(label=np.full(len(found), ""))
     bare = replace(found, table=unnamed, hierarchy=None)
-    named = transfer_labels(bare, transfer_features(motion), known, threshold=threshold)
+    named = transfer_labels(bare, transfer_features(motion), base, threshold=threshold)
     rows = named.primitives if len(named.primitives) else named.activities
     finds: list[tuple[int, int, int]] = []
     for cluster in sorted(set(rows.cluster.tolist()) - {-1}):
-        own = rows.label[rows.cluster == cluster].tolist()
-        name, count = Counter(own).most_common(1)[0]
-        if name and count > len(own) / 2:
+        cluster_labels = rows.label[rows.cluster == cluster].tolist()
+        name, count = Counter(cluster_labels).most_common(1)[0]
+        if name and count > len(cluster_labels) / 2:
             finds.append((-count, cluster, int(name)))
     numbers: dict[int, int] = {}
     for _, cluster, number in sorted(finds):

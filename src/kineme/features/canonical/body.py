@@ -121,10 +121,10 @@ def _facing_ahead(points: Floats, to_left: Floats) -> Floats:
     Where that stands upright the heading of the nearest frame that has one is taken.
     """
     length = np.hypot(to_left[:, 0], to_left[:, 2])
-    known = np.flatnonzero(length > _FLAT * np.linalg.norm(to_left, axis=1))
-    if len(known) == 0:
+    sideways = np.flatnonzero(length > _FLAT * np.linalg.norm(to_left, axis=1))
+    if len(sideways) == 0:
         return points
-    nearest = known[np.searchsorted((known[:-1] + known[1:]) / 2, np.arange(len(length)))]
+    nearest = sideways[np.searchsorted((sideways[:-1] + sideways[1:]) / 2, np.arange(len(length)))]
     cos, sin = (to_left[nearest, axis, None] / length[nearest, None] for axis in (0, 2))
     x, y, z = np.moveaxis(points, 2, 0)
     return np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=2)
