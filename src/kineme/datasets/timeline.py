@@ -36,6 +36,13 @@ class Action:
         0.5 moves half as far.
     side : str, optional
         "right" or "left", for kicks, punches and waves.
+
+    Examples
+    --------
+    >>> from kineme.datasets import Action, synthesize
+    >>> actions = Action("walk", 2), Action("jump", 3, amplitude=0.5)
+    >>> synthesize(actions, fps=30).truth.repetitions()
+    {0: 2, 1: 3}
     """
 
     name: str

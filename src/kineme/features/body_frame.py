@@ -55,6 +55,14 @@ def body_frame(
     References
     ----------
     Voegele et al. 2014, section 3.1; heading as in the authors' program.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features import body_frame
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> body_frame(motion).shape == motion.positions.shape
+    True
     """
     pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
     positions = motion.positions if joints is None else motion.positions[:, joints]
@@ -70,6 +78,15 @@ def heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[i
 
     Radians about the vertical, positive towards +x: what ``body_frame`` takes
     away. Arguments and errors are those of ``body_frame``.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features import heading
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> pelvis, angles = heading(motion)
+    >>> motion.skeleton.names[pelvis], angles.shape
+    ('Hips', (2898,))
     """
     pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
     return pelvis, np.arctan2(-sin, cos)[:, 0]

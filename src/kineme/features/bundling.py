@@ -66,6 +66,17 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
     References
     ----------
     Krueger et al. 2017, section III; constants as in the authors' program.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import kineme
+    >>> angle = np.arange(200) / 8
+    >>> noise = np.random.default_rng(0).normal(scale=0.1, size=(200, 2))
+    >>> circle = np.stack([np.cos(angle), np.sin(angle)], axis=1) + noise
+    >>> bundled = kineme.bundle(circle, neighbors=8)
+    >>> bool(np.hypot(*bundled.T).std() < np.hypot(*circle.T).std())
+    True
     """
     points = as_features(features, "features to bundle")
     if not (is_number(neighbors) and neighbors >= 1 and is_number(variance) and 0 < variance <= 1):

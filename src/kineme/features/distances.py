@@ -61,6 +61,15 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     Rows are in time order: what sticks out for one frame is left out. They are
     centred. Moving, turning and scaling the whole changes no distance between
     two of them, but what an axis stands for is arbitrary.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features import distance_features
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> features, points = distance_features(motion.positions)
+    >>> features.shape
+    (2898, 15)
     """
     held = np.asarray(positions, np.float64)
     if held.shape[1] < 2:

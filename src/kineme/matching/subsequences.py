@@ -38,7 +38,17 @@ BLOCK = 4096
 
 
 class Matches(NamedTuple):
-    """Spans [start, stop) of a recording in samples, apart from each other, the best first."""
+    """Spans [start, stop) of a recording in samples, apart from each other, the best first.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kineme.matching import search
+    >>> angle = np.arange(100) / 4
+    >>> recording = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    >>> search(recording[20:40], recording, top=1).starts.tolist()
+    [20]
+    """
 
     starts: Ints
     stops: Ints
@@ -111,6 +121,15 @@ def two_way_distance(one: ArrayLike, other: ArrayLike) -> float:
     Returns
     -------
     float
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kineme.matching import two_way_distance
+    >>> angle = np.arange(20) / 4
+    >>> turn = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    >>> two_way_distance(turn, turn) < 0.01
+    True
     """
     return max(float(warped(a, b)[0].min()) for a, b in ((one, other), (other, one)))
 

@@ -126,6 +126,14 @@ def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.f
     Returns
     -------
     (size, size) array
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.plot import similarity_image
+    >>> graph = kineme.neighbor_graph([[0.0], [0.5], [5.0]], radius=1.0)
+    >>> (similarity_image(graph) > 0).tolist()
+    [[True, True, False], [True, True, False], [False, False, True]]
     """
     n = max(len(graph), graph.n_columns)
     size = min(n, pixels)

@@ -55,6 +55,13 @@ def resample(motion: Motion, fps: float) -> Motion:
     -----
     [V14], section 5 works at 30 Hz; at whole ratios the spline of the authors' program
     amounts to taking every fourth frame as well.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> kineme.resample(motion, 30.0).n_frames, motion.n_frames
+    (1449, 2898)
     """
     check_motion(motion, "resample")
     if not (is_number(fps) and fps > 0):

@@ -95,7 +95,7 @@ def segment(
     >>> import kineme
     >>> motion = kineme.read(kineme.bundled_recording())
     >>> kineme.segment(motion).repetitions()
-    {0: 9, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4}
+    {0: 9, 1: 4, ...}
     """
     options = SegmentOptions(
         preset=preset,
@@ -128,6 +128,14 @@ def segment_and_found(
     -------
     segmentation : Segmentation
     found : Found
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> segments, found = kineme.segment_and_found(motion)
+    >>> segments == kineme.segment(motion)
+    True
     """
     return segmented(recording, SegmentOptions.of(**options), progress=progress)
 

@@ -132,6 +132,13 @@ def check_source(motion: Motion, first: Motion) -> None:
     ------
     ParameterError
         No rotations, or another skeleton or frame rate.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.synthesis import check_source
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> check_source(motion[:100], motion)
     """
     where = motion.provenance.path or "a motion"
     if motion.rotations is None:

@@ -37,6 +37,12 @@ class Source:
     n_frames : int
     options : mapping
         The keywords that it was read with.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Source
+    >>> Source("walk.bvh", None, n_frames=600).n_frames
+    600
     """
 
     path: str | None
@@ -58,6 +64,12 @@ class Node:
         Equal clusters are equal movements, whatever their source; -1 for none.
     label : str
         Empty for none.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Node
+    >>> Node(source=0, start=0, stop=30, cluster=2, label="walk").name
+    'walk'
     """
 
     source: int
@@ -93,6 +105,12 @@ class Edge:
         then moved by so many metres in x and z.
     jump : bool
         Whether the head is not the recording's own successor.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge
+    >>> Edge(0, 1, leave=30, enter=90, distance=0.05).jump
+    True
     """
 
     tail: int

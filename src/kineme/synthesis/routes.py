@@ -171,6 +171,15 @@ def following(graph: MotionGraph, name: str) -> list[str]:
     ------
     ParameterError
         No node has the name.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, following
+    >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
+    >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
+    >>> graph = MotionGraph((Source("walk.bvh", None, 60),), nodes, edges, 30.0, 0.08, 1 / 3)
+    >>> following(graph, "walk")
+    ['jump']
     """
     return _names(graph, np.isfinite(_cheapest_paths(graph)[0][graph.nodes_of(name)]).any(axis=0))
 

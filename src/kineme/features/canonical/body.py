@@ -80,7 +80,17 @@ def canonical_poses(joints: Joints, fps: float) -> Floats:
 
 
 def mirror_poses(poses: Floats) -> Floats:
-    """Poses (frames, 17) of the body in a mirror: left and right exchanged."""
+    """Poses (frames, 17) of the body in a mirror: left and right exchanged.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features.canonical import matching_poses, mirror_poses
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> poses = matching_poses(motion)
+    >>> bool((mirror_poses(mirror_poses(poses)) == poses).all())
+    True
+    """
     ends = poses[:, :15].reshape(len(poses), len(EXCHANGED), 3)[:, EXCHANGED] * FLIP
     return np.hstack([ends.reshape(len(poses), -1), poses[:, 15:]])
 

@@ -90,6 +90,14 @@ def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
     ------
     EndEffectorError, MotionError
         As `matching_features`.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features.canonical import matching_poses
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> matching_poses(motion).shape
+    (725, 17)
     """
     return poses_of(resample(motion, POSE_FPS), effectors=effectors)[::2]
 
