@@ -67,10 +67,10 @@ def check_type(
     """``error`` with advice where a public function was given something else."""
     if not isinstance(value, kind):
         kinds = kind if isinstance(kind, tuple) else (kind,)
-        wanted = " or ".join(kind.__name__ for kind in kinds)
-        if not wanted.endswith("s"):  # Signals are many
-            wanted = f"{'an' if wanted[0] in 'AEIOU' else 'a'} {wanted}"
-        raise error(f"{door} takes {wanted}, not {type(value).__name__}: {advice}")
+        expected = " or ".join(kind.__name__ for kind in kinds)
+        if not expected.endswith("s"):  # Signals are many
+            expected = f"{'an' if expected[0] in 'AEIOU' else 'a'} {expected}"
+        raise error(f"{door} takes {expected}, not {type(value).__name__}: {advice}")
 
 
 def check_path(path: object, door: str) -> None:

@@ -115,8 +115,8 @@ def fault_of(found: Any) -> str:
     level: list[Any] = [[found]]
     for _ in range(DEEPEST + 1):
         inner: list[Any] = []
-        for held in level:
-            for value in held:
+        for container in level:
+            for value in container:
                 kind = type(value)
                 if kind is dict:
                     inner.append(value.values())

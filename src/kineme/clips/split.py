@@ -103,7 +103,7 @@ def split(
 
 
 def write_clips(
-    wanted: Iterable[tuple[Motion | Signals, Sequence[Segment]]],
+    clips: Iterable[tuple[Motion | Signals, Sequence[Segment]]],
     folder: str | PathLike[str],
     *,
     loops: bool = False,
@@ -112,7 +112,7 @@ def write_clips(
 
     Parameters
     ----------
-    wanted : iterable of (Motion or Signals, sequence of Segment)
+    clips : iterable of (Motion or Signals, sequence of Segment)
         Gone through once, so that one recording at a time needs memory.
     folder : str or PathLike
         To be made; one that is there must be empty.
@@ -129,7 +129,7 @@ def write_clips(
     target = Path(folder)
     lines: list[list[object]] = []
     with atomic_folder(target) as draft:
-        for recording, rows in wanted:
+        for recording, rows in clips:
             shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
             suffix, write_clip = _writer(recording, shortest, loops=loops)
             path = str(recording.provenance.path or "")

@@ -76,13 +76,13 @@ def fetch(
         part.parent.mkdir(parents=True, exist_ok=True)
         download = _Download(part, check, progress, timeout_s)
         return Path(pooch.retrieve(url, None, fname=name, path=folder, downloader=download))
-    except _NotThereError:
+    except _MissingError:
         return None
     except OSError as error:
         raise WriteError(folder / name, f"cannot be written: {error.strerror or error}") from error
 
 
-class _NotThereError(Exception):
+class _MissingError(Exception):
     """The server answers 404."""
 
 
@@ -143,7 +143,7 @@ class _Download:
     def _accepted(self, url: str, answer: Response, size: int) -> int:
         """The byte that the answer begins with."""
         if answer.status_code == 404:
-            raise _NotThereError
+            raise _MissingError
         if answer.status_code in TRY_AGAIN:
             raise _BrokenOffError(f"the server answers {answer.status_code} {answer.reason}")
         if answer.status_code == 206:

@@ -44,7 +44,7 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
                 at[d] += across[k, d] / count
         for _ in range(MOST_STEPS):
             weights = distances = strength = 0.0
-            met = 0
+            coincident = 0
             for d in range(dims):
                 pull[d] = 0
             for k in range(count):
@@ -52,7 +52,7 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
                 for d in range(dims):
                     square += (across[k, d] - at[d]) ** 2
                 if square == 0:
-                    met += 1
+                    coincident += 1
                     continue
                 distance = np.sqrt(square)
                 distances += distance
@@ -62,9 +62,9 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
             for d in range(dims):
                 strength += pull[d] * pull[d]
             strength = np.sqrt(strength)
-            if strength <= met:
+            if strength <= coincident:
                 break
-            share = (1 - met / strength) / weights
+            share = (1 - coincident / strength) / weights
             for d in range(dims):
                 at[d] += share * pull[d]
             if share * strength <= PRECISION * distances / count:

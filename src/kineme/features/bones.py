@@ -44,14 +44,14 @@ def have_bones(positions: ArrayLike) -> bool:
     >>> have_bones(np.random.default_rng(0).standard_normal((400, 5, 3)))
     False
     """
-    held = np.asarray(positions, np.float64)
-    held = held[:: max(1, len(held) // _FRAMES)]
-    if held.shape[1] < POINTS:
+    array = np.asarray(positions, np.float64)
+    array = array[:: max(1, len(array) // _FRAMES)]
+    if array.shape[1] < POINTS:
         return False
-    moved = held.var(axis=0).sum(axis=1)
+    moved = array.var(axis=0).sum(axis=1)
     bent = False
-    for point in range(held.shape[1]):
-        distances = np.linalg.norm(held - held[:, point, None], axis=2)
+    for point in range(array.shape[1]):
+        distances = np.linalg.norm(array - array[:, point, None], axis=2)
         deviation = distances.std(axis=0)
         both = np.sqrt(moved + moved[point])
         tied = deviation < TIED * both

@@ -102,8 +102,8 @@ def _principal_axes(centered: Floats, variance: float) -> Floats:
     """(dims, components): the fewest orthonormal axes that hold this share of the variance."""
     spread, axes = np.linalg.eigh(centered.T @ centered)
     spread, axes = np.maximum(spread[::-1], 0), axes[:, ::-1]
-    held = np.cumsum(spread)
-    enough = int(np.searchsorted(held, variance * held[-1])) + 1
+    totals = np.cumsum(spread)
+    enough = int(np.searchsorted(totals, variance * totals[-1])) + 1
     return axes[:, : max(enough, FEWEST_COMPONENTS)]
 
 

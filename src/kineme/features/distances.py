@@ -71,17 +71,17 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     >>> features.shape
     (2898, 15)
     """
-    held = np.asarray(positions, np.float64)
-    if held.shape[1] < 2:
+    array = np.asarray(positions, np.float64)
+    if array.shape[1] < 2:
         raise MotionError("a single point is in no distance: segment its coordinates as signals")
-    points = spread_points(held)
-    features = _without_spikes(_distances(held[:, points]))
+    points = spread_points(array)
+    features = _without_spikes(_distances(array[:, points]))
     largest = float(features.mean(axis=0).max(initial=0))
     features -= features.mean(axis=0)
     deviation = features.std(axis=0)
     varies = deviation > _CONSTANT * largest
     if not varies.any():
-        return np.zeros((len(held), 1)), points
+        return np.zeros((len(array), 1)), points
     features, deviation = features[:, varies], deviation[varies]
     features *= VARIATION / np.sqrt(deviation * deviation.sum())
     if features.shape[1] > AXES:
@@ -101,8 +101,8 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     positions : ndarray of shape (frames, points, 3)
     """
     n = positions.shape[1]
-    taken = np.arange(min(n, CONSIDERED)) * n // min(n, CONSIDERED)
-    few = positions[:: max(1, len(positions) // _FRAMES), taken]
+    considered = np.arange(min(n, CONSIDERED)) * n // min(n, CONSIDERED)
+    few = positions[:: max(1, len(positions) // _FRAMES), considered]
     apart, varying = _mean_and_deviation(few)
     kept = np.flatnonzero(~_of_the_lab(few, varying))
     apart, varying = apart[np.ix_(kept, kept)], varying[np.ix_(kept, kept)]
@@ -111,7 +111,7 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     while len(chosen) < most and nearest.max() > _SAME * apart.max():
         chosen.append(int(nearest.argmax()))
         nearest = np.minimum(nearest, apart[chosen[-1]])
-    return np.sort(taken[kept[chosen]])
+    return np.sort(considered[kept[chosen]])
 
 
 def _of_the_lab(positions: Floats, varying: Floats) -> NDArray[np.bool_]:

@@ -88,14 +88,14 @@ def rides(values: ArrayLike, fps: float) -> list[Ride]:
     >>> round(ride.start / 50), round(ride.stop / 50), round(ride.speed)
     (10, 21, 1)
     """
-    held = np.asarray(values, np.float64)
-    largest = np.abs(held).max(initial=0.0)
-    if fps < RATE or len(held) < OVER * fps or largest == 0:
+    array = np.asarray(values, np.float64)
+    largest = np.abs(array).max(initial=0.0)
+    if fps < RATE or len(array) < OVER * fps or largest == 0:
         return []
-    acceleration = _shared_acceleration(*_sampled(held / largest, fps))
+    acceleration = _shared_acceleration(*_sampled(array / largest, fps))
     frames = fps / RATE
     return [
-        Ride(round(start * frames), min(round(stop * frames), len(held)), speed)
+        Ride(round(start * frames), min(round(stop * frames), len(array)), speed)
         for start, stop, speed in _rides(_pulses(acceleration))
     ]
 
@@ -148,10 +148,10 @@ def _shared_acceleration(means: Floats, variances: Floats) -> Floats:
         shaken = np.sqrt(variances[:, axes].sum(axis=1))
         shares.append(share - 1)
         carried.append((turned < TURNED * gravity) & (shaken < SHAKEN * gravity))
-    held, counted = np.array(shares), np.array(carried)
+    changes, counted = np.array(shares), np.array(carried)
     count = np.maximum(counted.sum(axis=0), 1)
-    mean = (held * counted).sum(axis=0) / count
-    spread = np.sqrt(((held - mean) ** 2 * counted).sum(axis=0) / count)
+    mean = (changes * counted).sum(axis=0) / count
+    spread = np.sqrt(((changes - mean) ** 2 * counted).sum(axis=0) / count)
     most = (counted.sum(axis=0) >= SENSORS) & (2 * counted.sum(axis=0) > len(sensors))
     return np.where(most & (spread < EQUAL * np.abs(mean)), GRAVITY * mean, 0.0)
 

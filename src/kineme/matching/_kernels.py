@@ -54,11 +54,11 @@ def warp_columns(products, squares, example_squares, first, sums, begins, rows, 
 
 
 @njit("int64(int64[::1], int32[::1], int64, boolean[::1], int64[::1])", **OPTIONS)
-def apart(ends, starts, most, taken, chosen):
+def apart(ends, starts, most, occupied, chosen):
     """Ends of matches that do not overlap, the first ones first; how many are ``chosen``.
 
     ``ends`` are in the order in which they are to be taken, ``starts[end]`` is where each begins.
-    ``taken`` is false for every sample before the call, and true after it for those in a match.
+    ``occupied`` is false for every sample before the call, and true after it for those in a match.
     """
     n = 0
     for end in ends:
@@ -66,11 +66,11 @@ def apart(ends, starts, most, taken, chosen):
             break
         free = True
         for j in range(starts[end], end + 1):
-            if taken[j]:
+            if occupied[j]:
                 free = False
                 break
         if free:
-            taken[starts[end] : end + 1] = True
+            occupied[starts[end] : end + 1] = True
             chosen[n] = end
             n += 1
     return n

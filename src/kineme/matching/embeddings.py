@@ -90,5 +90,5 @@ def course(features: Floats) -> Floats:
 @cache
 def axes_of_embeddings() -> tuple[Floats, Floats]:
     """The mean (68,) and the axes (68, 32)."""
-    with np.load(Path(__file__).with_name("axes.npz"), allow_pickle=False) as held:
-        return held["mean"].astype(np.float64), held["axes"].astype(np.float64)
+    with np.load(Path(__file__).with_name("axes.npz"), allow_pickle=False) as arrays:
+        return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)

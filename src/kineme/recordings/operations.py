@@ -214,10 +214,10 @@ def move(motion: Motion, offset: ArrayLike) -> Motion:
     )
 
 
-def _frames(motion: Motion, which: slice, fps: float, note: str) -> Motion:
-    rotations = None if motion.rotations is None else motion.rotations[which]
-    positions = motion.positions[which]
-    gaps = _gaps(motion, which.start, which.step or 1, len(positions))
+def _frames(motion: Motion, frames: slice, fps: float, note: str) -> Motion:
+    rotations = None if motion.rotations is None else motion.rotations[frames]
+    positions = motion.positions[frames]
+    gaps = _gaps(motion, frames.start, frames.step or 1, len(positions))
     return Motion(motion.skeleton, positions, fps, rotations, motion.provenance.noted(note), gaps)
 
 

@@ -118,14 +118,14 @@ def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> F
         The rate wanted is beyond all measure.
     """
     check_rates(fps, new)
-    held = np.asarray(values, np.float64)
-    middle: Floats = held.mean(axis=0)  # sums of what is left lose no digits to a large offset
-    sums = np.concatenate([np.zeros((1, held.shape[1])), np.cumsum(held - middle, axis=0)])
-    n = int((len(held) - 1) * new / fps + 1e-9) + 1
+    array = np.asarray(values, np.float64)
+    middle: Floats = array.mean(axis=0)  # sums of what is left lose no digits to a large offset
+    sums = np.concatenate([np.zeros((1, array.shape[1])), np.cumsum(array - middle, axis=0)])
+    n = int((len(array) - 1) * new / fps + 1e-9) + 1
     times = np.arange(n) / new
     half = max(smoothing, 1 / fps, 1 / new) / 2
-    starts = np.clip((times - half) * fps + 0.5, 0, len(held))
-    stops = np.clip((times + half) * fps + 0.5, 0, len(held))
+    starts = np.clip((times - half) * fps + 0.5, 0, len(array))
+    stops = np.clip((times + half) * fps + 0.5, 0, len(array))
     means = (at_frames(sums, stops) - at_frames(sums, starts)) / (stops - starts)[:, None]
     return np.asarray(means + middle, np.float64)
 

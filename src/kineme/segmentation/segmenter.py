@@ -252,7 +252,7 @@ def _result(
 
     samples = found.columns()
     columns = placed(samples)
-    spent = {**timings, **found.timings}
+    seconds = {**timings, **found.timings}
     source = recording.provenance
     provenance: dict[str, Any] = {
         "kineme": __version__,
@@ -268,9 +268,9 @@ def _result(
         provenance["clock"] = source.clock.to_json()
     table, hierarchy = segment_table(columns, fps), None
     if isinstance(found, Leveled):
-        with stopwatch(spent, None)("levels"):
+        with stopwatch(seconds, None)("levels"):
             tables = {DEFAULT_DETAIL: table}
             for detail, level in found.levels(samples).items():
                 tables[detail] = segment_table(placed(level), fps)
             hierarchy = Hierarchy.of(tables)
-    return Segmentation(table, int(n_frames), float(fps), provenance, spent, hierarchy)
+    return Segmentation(table, int(n_frames), float(fps), provenance, seconds, hierarchy)

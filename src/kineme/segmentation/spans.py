@@ -95,12 +95,12 @@ def in_frames(
     row, start, stop = map(np.concatenate, (rows, starts, stops))
     # At low frame rates two borders may fall on the same frame.
     full = start < stop
-    taken = {name: column[row[full]] for name, column in columns.items()}
-    taken |= {"start_frame": start[full], "stop_frame": stop[full]}
-    if "border_confidence" in taken:  # what goes on after a gap does not start there
-        at_gap = np.isin(taken["start_frame"], [span.start for span in spans])
-        taken["border_confidence"] = np.where(at_gap, np.nan, taken["border_confidence"])
-    return _with_gaps(taken, gaps_between(spans, n_frames))
+    cut = {name: column[row[full]] for name, column in columns.items()}
+    cut |= {"start_frame": start[full], "stop_frame": stop[full]}
+    if "border_confidence" in cut:  # what goes on after a gap does not start there
+        at_gap = np.isin(cut["start_frame"], [span.start for span in spans])
+        cut["border_confidence"] = np.where(at_gap, np.nan, cut["border_confidence"])
+    return _with_gaps(cut, gaps_between(spans, n_frames))
 
 
 def gaps_between(spans: Sequence[RecordedSpan], n_frames: int) -> Spans:

@@ -119,12 +119,12 @@ def _corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
     fade = round(FADE * fps)
     frames, values = [-fade], [np.zeros(2)]
     for start, stop in _holds(floor, contacts, round(SHORTEST * fps)):
-        wanted = np.median(floor[start:stop], axis=0) - floor[start:stop]
+        offset = np.median(floor[start:stop], axis=0) - floor[start:stop]
         if start - frames[-1] > 2 * fade:
             frames += [frames[-1] + fade, start - fade]
             values += [np.zeros(2), np.zeros(2)]
         frames += range(start, stop)
-        values += list(wanted)
+        values += list(offset)
     frames.append(frames[-1] + fade)
     values.append(np.zeros(2))
     at = np.arange(len(path))
@@ -158,11 +158,11 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
         return motion
     thigh, shin = knee - hip, ankle - knee
     a, b = np.linalg.norm(thigh, axis=1), np.linalg.norm(shin, axis=1)
-    wanted = np.linalg.norm(target - hip, axis=1)
-    wanted = np.clip(wanted, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
+    length = np.linalg.norm(target - hip, axis=1)
+    length = np.clip(length, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
     now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
-    then = np.arccos(np.clip((wanted**2 - a**2 - b**2) / (2 * a * b), -1, 1))
-    bend = _about(_hinge(thigh, shin, world[:, leg[0]]), then - now)
+    angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
+    bend = _about(_hinge(thigh, shin, world[:, leg[0]]), angle - now)
     reached = thigh + rot.rotate(bend, shin)
     swing = _arc(reached, target - hip)
     still = np.where(moved[:, None], 1.0, 0.0)

@@ -155,9 +155,9 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     for source in graph.sources:
         path = Path(source.path or "")
         with reading(path):
-            there = path.is_file()
-            digest = sha256(path.read_bytes()).hexdigest() if there else ""
-        if not there:
+            exists = path.is_file()
+            digest = sha256(path.read_bytes()).hexdigest() if exists else ""
+        if not exists:
             raise ReadError(path, "is not there, and the graph was built on it: put it back, "
                             "or build the graph anew")  # fmt: skip
         if digest != source.sha256:

@@ -142,7 +142,7 @@ def _search(
     heap: list[tuple[int, float, int, _Candidate]] = []
     done: list[tuple[_Candidate, _Progress]] = []
     visited: set[tuple[int, int, int]] = set()
-    taken: Counter[int] = Counter()
+    counts: Counter[int] = Counter()
     number = count()  # of equal candidates the one found first goes first
 
     def push(candidate: _Candidate) -> None:
@@ -155,10 +155,10 @@ def _search(
     while heap:
         bucket, _, _, candidate = heappop(heap)
         direction = round(candidate.at.angle / TURN) % round(2 * np.pi / TURN)
-        if taken[bucket] == WIDTH or (bucket, candidate.node, direction) in visited:
+        if counts[bucket] == WIDTH or (bucket, candidate.node, direction) in visited:
             continue
         visited.add((bucket, candidate.node, direction))
-        taken[bucket] += 1
+        counts[bucket] += 1
         reached, onward = _expanded(graph, floors, points, nodes, candidate)
         if reached.point == len(points) - 1:
             done.append((candidate, reached))

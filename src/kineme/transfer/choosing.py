@@ -63,15 +63,15 @@ def another_movement(
 
 
 def spread_in_clusters(
-    labels: NDArray[Any], margins: Floats, clusters: NDArray[np.int64], todo: NDArray[np.intp]
+    labels: NDArray[Any], margins: Floats, clusters: NDArray[np.int64], unnamed: NDArray[np.intp]
 ) -> None:
     """Give every cluster's members the label that most of them have; a person's label stays."""
-    for cluster in set(clusters[todo].tolist()) - {-1}:
+    for cluster in set(clusters[unnamed].tolist()) - {-1}:
         named = Counter(label for label in labels[clusters == cluster] if label)
         if not named:
             continue
         winner, votes = named.most_common(1)[0]
-        others = [row for row in todo if clusters[row] == cluster and labels[row] != winner]
+        others = [row for row in unnamed if clusters[row] == cluster and labels[row] != winner]
         labels[others] = winner
         margins[others] = votes / named.total()
 

@@ -107,16 +107,16 @@ def transfer_labels(
     rows = segmentation.level(level)
     labels = rows.label.astype(object)
     margins, costs = rows.confidence.copy(), np.full(len(rows), np.nan)
-    todo = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
-    if len(todo) and len(knowledge):
-        unknown = _primitives(rows.select(todo), features, segmentation.fps)
+    unnamed = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
+    if len(unnamed) and len(knowledge):
+        unknown = _primitives(rows.select(unnamed), features, segmentation.fps)
         found, names = costs_of(unknown, knowledge, REACH * threshold)
         named = cheapest(found, names, threshold)
         other = another_movement(named[0], named[2], same_movements(unknown, SIMILAR))
         named[0][other], named[1][other], named[2][other] = "", np.nan, np.nan
-        labels[todo], margins[todo], costs[todo] = named
+        labels[unnamed], margins[unnamed], costs[unnamed] = named
     if spread:
-        spread_in_clusters(labels, margins, rows.cluster, todo)
+        spread_in_clusters(labels, margins, rows.cluster, unnamed)
     of_level = table.level == level
     all_labels, all_margins = table.label.astype(object), table.confidence.copy()
     all_labels[of_level], all_margins[of_level] = labels, margins
@@ -127,7 +127,7 @@ def transfer_labels(
         table.with_columns(label=all_labels.astype(np.str_), confidence=all_margins),
         segmentation.n_frames,
         segmentation.fps,
-        _provenance(segmentation, labels[todo], costs, threshold, spread=spread),
+        _provenance(segmentation, labels[unnamed], costs, threshold, spread=spread),
         segmentation.timings,
         annotation=segmentation.annotation,
     )

@@ -101,10 +101,10 @@ def mutual_matches(unknown: Primitives, examples: Primitives, radius: float) -> 
     n = int(examples.runs[-1]) + 1
     most = np.bincount(examples.runs)
     pairs, medians = _medians(unknown_run * n + examples.runs[k], backward, most)
-    wanted = unknown.runs[u] * n + example_run
-    at = np.searchsorted(pairs, wanted)
+    keys = unknown.runs[u] * n + example_run
+    at = np.searchsorted(pairs, keys)
     both = at < len(pairs)
-    both[both] = pairs[at[both]] == wanted[both]
+    both[both] = pairs[at[both]] == keys[both]
     return u[both], example_run[both], np.maximum(forward[both], medians[at[both]])
 
 
@@ -119,34 +119,34 @@ def same_movements(primitives: Primitives, radius: float) -> Ints:
 
 
 def _matches_within(
-    examples: Primitives, others: Primitives, which: Ints, radius: float
+    examples: Primitives, others: Primitives, numbers: Ints, radius: float
 ) -> Matches:
     """Cheapest warping of each of some examples inside each run of others, within the radius."""
-    walled, first = _walled(others)
+    separated, first = _with_walls(others)
     starts = examples.starts
     features = np.asarray(examples.features, np.float32)
 
     def matches_of(p: np.int64) -> tuple[Ints, Floats]:
-        costs, _ = warped(features[starts[p] : starts[p + 1]], walled)
+        costs, _ = warped(features[starts[p] : starts[p + 1]], separated)
         cheapest = np.minimum.reduceat(costs, first)
         runs = np.flatnonzero(cheapest <= radius)
         return runs, cheapest[runs].astype(np.float64)
 
-    found = map_threads(matches_of, which)
+    found = map_threads(matches_of, numbers)
     if not found:
         return np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0)
     runs, costs = (np.concatenate(part) for part in zip(*found, strict=True))
-    return np.repeat(which, [len(part) for part, _ in found]), runs, costs
+    return np.repeat(numbers, [len(part) for part, _ in found]), runs, costs
 
 
-def _walled(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
+def _with_walls(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
     """The features with a wall after each run, and where each run begins among them."""
     frames = np.arange(len(primitives.frame_runs)) + primitives.frame_runs
     n_runs = int(primitives.runs[-1]) + 1
-    walled = np.full((len(frames) + n_runs, primitives.features.shape[1]), _WALL, np.float32)
-    walled[frames] = primitives.features
+    separated = np.full((len(frames) + n_runs, primitives.features.shape[1]), _WALL, np.float32)
+    separated[frames] = primitives.features
     first = np.searchsorted(primitives.frame_runs, np.arange(n_runs)) + np.arange(n_runs)
-    return walled, first
+    return separated, first
 
 
 def _medians(keys: Ints, costs: Floats, sizes: Ints) -> tuple[Ints, Floats]:

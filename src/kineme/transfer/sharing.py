@@ -99,7 +99,7 @@ def _numbered_on(
     shared, following = [], 0
     for motion, found in zip(motions, segmentations, strict=True):
         old = sorted(set(found.table.cluster.tolist()) - {-1})
-        numbers = _met_before(motion, found, base, threshold) if base else {}
+        numbers = _numbers_before(motion, found, base, threshold) if base else {}
         for cluster in old:
             if cluster not in numbers:
                 numbers[cluster] = following if base else cluster
@@ -113,7 +113,7 @@ def _numbered_on(
     return shared
 
 
-def _met_before(
+def _numbers_before(
     motion: Motion, found: Segmentation, base: KnowledgeBase, threshold: float
 ) -> dict[int, int]:
     """The numbers of the clusters that are found in the knowledge."""
@@ -121,14 +121,14 @@ def _met_before(
     bare = replace(found, table=unnamed, hierarchy=None)
     named = transfer_labels(bare, transfer_features(motion), base, threshold=threshold)
     rows = named.primitives if len(named.primitives) else named.activities
-    finds: list[tuple[int, int, int]] = []
+    matches: list[tuple[int, int, int]] = []
     for cluster in sorted(set(rows.cluster.tolist()) - {-1}):
         cluster_labels = rows.label[rows.cluster == cluster].tolist()
         name, count = Counter(cluster_labels).most_common(1)[0]
         if name and count > len(cluster_labels) / 2:
-            finds.append((-count, cluster, int(name)))
+            matches.append((-count, cluster, int(name)))
     numbers: dict[int, int] = {}
-    for _, cluster, number in sorted(finds):
+    for _, cluster, number in sorted(matches):
         if number not in numbers.values():
             numbers[cluster] = number
     return numbers

@@ -135,7 +135,7 @@ def _named_points(names: Sequence[str]) -> dict[str, Points]:
     for part, choices in _MARKERS.items():
         for side in ("left", "right"):
             for choice in choices:
-                wanted = [(word, side) for word in choice.split()]
-                if all(key in at for key in wanted):
-                    found.setdefault(f"{side}_{part}", tuple(at[key] for key in wanted))
+                keys = [(word, side) for word in choice.split()]
+                if all(key in at for key in keys):
+                    found.setdefault(f"{side}_{part}", tuple(at[key] for key in keys))
     return found

@@ -139,8 +139,8 @@ def directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float3
 @cache
 def basis() -> tuple[Floats, Floats]:
     """The mean (85,) and the axes (85, 40), each over its shrunk deviation."""
-    with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as held:
-        return held["mean"].astype(np.float64), held["axes"].astype(np.float64)
+    with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as arrays:
+        return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
 
 
 def _smoothed(positions: Floats) -> Floats:
