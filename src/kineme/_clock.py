@@ -1,9 +1,10 @@
 """The clock of a recording: what time it was at a second of it, and back.
 
-Seconds of a recording count its frames: frame i is at i / fps, whatever was paused between them.
-A clock is what the times in the file say of that: pieces that begin at a second of the recording
-and at a time, within which both go on alike. Where the clock goes back, a time that it shows
-twice is the first of the two; a time within a pause is where the recording goes on.
+Seconds of a recording count its frames: frame i is at i / fps, whatever was paused between them. A
+clock is what the times in the file say of that. It has spans, each with the second of the recording
+and the time at which it begins; within a span both go on together. Where the clock goes back, a
+time that it shows twice is the first of the two; a time within a pause is where the recording goes
+on.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """JSON that lies beside recordings, which people edit, copy and damage: the one way in.
 
-What comes out is no deeper than `DEEPEST`, has no number that is not finite or larger than
-a float can be, and is of the shape that was asked for; everything else is a ReadError. So what
-uses it need not expect that a number overflows or a walk through it recurses too far.
+What comes out is no deeper than `DEEPEST`, has finite numbers that a float can hold, and is of the
+shape that was asked for. Everything else is a ReadError. So what uses it need not expect that a
+number overflows or a walk through it recurses too far.
 """
 
 from __future__ import annotations

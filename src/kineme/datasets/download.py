@@ -1,11 +1,10 @@
 """Fetching public files into a folder, each whole and checked, or not at all.
 
-What breaks off or stalls is taken up where it stopped, in the same call and in
-a later one: until a file is complete it lies in the folder ``.partial``, dated
-as the server dates it, and the rest is asked for on the condition that this
-date still holds (RFC 9110, ``Range`` and ``If-Range``). A server that offers no
-ranges, or no date, sends the whole file again. Only a file that is complete and
-passes its check gets its name, by way of ``pooch``.
+What breaks off or stalls is taken up where it stopped, in the same call and in a later one. Until a
+file is complete it lies in the folder ``.partial``, dated as the server dates it. The rest is asked
+for if this date still holds (RFC 9110, ``Range`` and ``If-Range``). A server that offers no ranges,
+or no date, sends the whole file again. Only a file that is complete and passes its check gets its
+name, by way of ``pooch``.
 """
 
 from __future__ import annotations

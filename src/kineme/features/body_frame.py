@@ -4,15 +4,14 @@ Positions relative to the pelvis, turned about the vertical frame by frame so
 that the body always faces the same way. Height differences, pitch and roll
 stay; limbs are not scaled.
 
-The facing comes from one axis of the pelvis, the one that points from the right
-hip to the left at rest. The authors' program uses the root's +x, which is that
-axis in CMU's files; other exporters turn their root frames, so the axis is
-looked up in the skeleton and snapped to the nearest of +-x, +-y, +-z. A motion
-without rotations uses the line through the hips instead.
+The facing comes from one axis of the pelvis, the one that points from the right hip to the left at
+rest. The authors' program uses the root's +x, which is that axis in CMU's files. Other exporters
+turn their root frames. So the axis is looked up in the skeleton: the nearest of +-x, +-y, +-z. A
+motion without rotations uses the line through the hips instead.
 
-Where that axis stands upright (a body on its side, in a cartwheel) there is no
-facing: the frame takes the facing of the nearest frame that has one, the
-earlier of two equally near. A motion without any is left unturned.
+Where that axis stands upright (a body on its side, in a cartwheel) there is no facing. Then the
+frame takes that of the nearest frame that has one, the earlier of two equally near. A motion
+without any is left unturned.
 """
 
 from __future__ import annotations

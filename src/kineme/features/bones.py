@@ -1,8 +1,8 @@
 """Whether points are those of a body, told by its bones: of channels nobody said what they are.
 
-However a body moves, each of its points keeps its distance from some other
-one, as a wrist from its elbow, while both go elsewhere; and others come nearer
-and part, which those of a box do not. What sensors measure does neither.
+However a body moves, each of its points keeps its distance from some other one, as a wrist from its
+elbow, while both go elsewhere. Others come nearer and part, which the points of a box do not. What
+sensors measure does neither.
 """
 
 from __future__ import annotations

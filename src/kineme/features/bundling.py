@@ -1,11 +1,10 @@
 """Feature bundling: repetitions of a movement drawn together into one strand.
 
-Seen as a curve in the space of the features, somebody who repeats a movement
-draws strands side by side: each repetition differs a little. Bundling moves
-every frame towards the middle of the frames that look like it, but only at
-right angles to its own direction of movement, so that the strands close up and
-time along them stays as it is. Afterwards a smaller radius tells repetitions
-from other movements.
+Seen as a curve in the space of the features, somebody who repeats a movement draws strands side by
+side: each repetition differs a little. Bundling moves every frame towards the middle of similar
+frames, but only at right angles to its own direction of movement. So curves of the same movement
+close up, and their timing stays as it is. Afterwards a smaller radius tells repetitions from other
+movements.
 
 1. Principal components: the fewest that hold 98 % of the variance.
 2. Each frame's direction: a five-point derivative, smoothed by a binomial filter.

@@ -1,15 +1,14 @@
 """Poses without a body: the distances between their points.
 
-Where ankles, head and wrists cannot all be found, as among the markers of two
-legs or on a wheelchair, a pose is told by how far its points are from each
-other. That depends neither on where they are, nor on the direction they face,
-nor on which axis points up.
+Where ankles, head and wrists cannot all be found, a pose is described by how far its points are
+from each other: markers of two legs, say, or of a wheelchair. That depends neither on where they
+are, nor on the direction they face, nor on which axis points up.
 
-Of many points some that lie far apart stand for all. Each distance counts by
-the root of its deviation, halfway between metres, in which the largest movement
-hides all others, and standard deviations, in which noise counts as much as
-movement. What their fifteen main axes hold is scaled so that it varies as the
-fifteen numbers of a pose do, whose methods and constants then apply.
+Of many points some that lie far apart stand for all. Each distance counts by the root of its
+deviation. That is halfway between metres, in which the largest movement hides all others, and
+standard deviations, in which noise counts as much as movement. What their fifteen main axes hold is
+scaled so that it varies as the fifteen numbers of a pose do, whose methods and constants then
+apply.
 """
 
 from __future__ import annotations

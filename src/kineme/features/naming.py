@@ -1,10 +1,9 @@
 """Joint names, as the usual programs write them, taken apart.
 
-``mixamorig:LeftHand``, ``Bip01 L Hand``, ``hand_l``, ``hand.L``, ``lhand`` and
-``WristLeft`` all say a side and a part; what comes before them is a prefix.
-A joint is matched when its name, without side, numbers and prefix, ends in one
-of the words asked for; the shortest prefix wins (``foot_l`` before
-``ik_foot_l``), then the joint nearer to the root.
+``mixamorig:LeftHand``, ``Bip01 L Hand``, ``hand_l``, ``hand.L``, ``lhand`` and ``WristLeft`` all
+say a side and a part; what comes before them is a prefix. A joint is matched when its name, without
+side, numbers and prefix, ends in one of the words asked for. The shortest prefix wins (``foot_l``
+before ``ik_foot_l``), then the joint nearer to the root.
 """
 
 from __future__ import annotations

@@ -1,10 +1,9 @@
 """Rides: what carries a person who stands still, such as a lift, told by accelerometers alone.
 
-A lift changes neither how a sensor hangs nor how it is shaken, so posture and
-energy do not show it. But at rest an accelerometer reads gravity, whose length
-is the same however it hangs; and while a lift gathers speed, all of them read
-more or less than that by the same share, without being turned. The sum of these
-pulses is the speed of the lift: it rises, stays, and comes back to nothing.
+A lift changes neither how a sensor hangs nor how it is shaken, so posture and energy do not show
+it. But at rest an accelerometer reads gravity, whose length is the same however it hangs. While a
+lift gathers speed, all of them read more or less than that by the same share, without being turned.
+The sum of these pulses is the speed of the lift: it rises, stays, and comes back to nothing.
 
 Three things make this safe where nobody rides. Only channels are taken whose
 length at rest is one, which no gyroscope and no place in a room has. There must

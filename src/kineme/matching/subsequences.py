@@ -1,9 +1,9 @@
 """Where a recording is like an example: subsequence search by warping.
 
-A match is a warping of the whole example onto successive samples of the recording, at half to
-twice its speed: from one pair of samples to the next both go on by one, or one of them by two.
-Its cost is the mean over the samples of the example of the distance to the one, or the mean
-of the two, of the recording that it is laid on. Every place is looked at; nothing is thinned out.
+A match is a warping of the whole example onto successive samples of the recording, at half to twice
+its speed. From one pair of samples to the next both go on by one, or one of them by two. Its cost
+is the mean over the samples of the example of the distance to the one, or the mean of the two, of
+the recording that it is laid on. Every place is looked at; nothing is thinned out.
 
 The distance of a match is its cost in proportion to how far the smaller of both movements goes,
 

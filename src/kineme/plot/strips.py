@@ -1,7 +1,7 @@
 """A span of a recording as a strip: a body in a few poses, channels as their lines.
 
-A body is seen from the side from which it moves most, and its poses stand beside each other as
-those of a flip book would; heights are as they were.
+A body is drawn from the side from which it moves most. Its poses stand beside each other; heights
+are kept.
 """
 
 from __future__ import annotations

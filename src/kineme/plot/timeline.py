@@ -59,9 +59,9 @@ def compare(
 ) -> Axes:
     """Timelines of several results below each other, so that their borders can be compared.
 
-    Numbers of clusters mean nothing from one result to another: those of the second
-    and the following take the colours of the clusters of the first with which they
-    share most of their time, one each.
+    Numbers of clusters mean nothing from one result to another. So each cluster of later results
+    takes the colour of the one in the first result with which it shares most of its time, one to
+    one.
 
     Parameters
     ----------

@@ -93,10 +93,9 @@ def view_of_signals(
 def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
     """The channels at the times 0, 1/new, 2/new, … up to their last frame.
 
-    Each value is the mean over `smoothing` seconds around its time, over a
-    frame of the old or new rate where that is longer: nothing folds back from
-    above the new rate, and a lower rate is interpolated in a line. At the ends
-    the mean is over what is there.
+    Each value is the mean over `smoothing` seconds around its time, or over a frame of the old or
+    new rate where that is longer. So nothing folds back from above the new rate. A lower rate is
+    interpolated in a line. At the ends the mean is over what is there.
 
     Parameters
     ----------

@@ -67,8 +67,7 @@ def in_frames(
     ratio : float
         Frames in one sample.
     near : float
-        Borders so many samples from a gap at most are at the gap: who goes on there does so
-        after it, and what is left of the segment before it is less than can be told.
+        Borders so many samples from a gap at most are moved to the gap.
     """
     rows: list[NDArray[np.intp]] = []
     starts: list[NDArray[np.int64]] = []

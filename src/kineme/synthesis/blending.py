@@ -1,11 +1,10 @@
 """From a route through the graph to a motion.
 
-Spans of the sources are laid end to end, each turned about the vertical
-and moved on the floor as its jump says. Around a jump both recordings go on
-for half a window, and the motion goes over from the one to the other: joint
-rotations along the sphere, translations in a line, with the smooth weight
-3w² - 2w³ (Kovar, Gleicher and Pighin 2002, section 3.2). Last, feet that
-stand are kept from sliding (see `kineme.synthesis.feet`).
+Spans of the sources are laid end to end, each turned about the vertical and moved on the floor as
+its jump says. Around a jump both recordings go on for half a window, and the motion goes over from
+the one to the other. Joint rotations go along the sphere, translations in a line, with the smooth
+weight 3w² - 2w³ (Kovar, Gleicher and Pighin 2002, section 3.2). Last, feet that stand are kept from
+sliding (see `kineme.synthesis.feet`).
 """
 
 from __future__ import annotations

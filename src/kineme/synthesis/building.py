@@ -1,10 +1,9 @@
 """From recordings and their primitives to a motion graph.
 
-Jumps are looked for between the end of one node and the start of another:
-frames no farther from its border than a quarter of the node, and no
-farther than the window. Candidates are neighbours in feature space, found by
-one sparse search; of each pair of nodes the few nearest are measured as point
-clouds, and the best becomes an edge if it is below the threshold.
+Jumps are looked for between the end of one node and the start of another: frames no farther from
+its border than a quarter of the node, and no farther than the window. Candidates are neighbours in
+feature space, found by one sparse search. Of each pair of nodes the few nearest are measured as
+point clouds. The best becomes an edge if it is below the threshold.
 
 Frames are those of the ``kineme`` preset's working rate, 30 Hz; leaving and
 entering frames are given at the sources' own rate.

@@ -1,9 +1,8 @@
 """Feet that stand do not slide (after Kovar, Schreiner and Gleicher 2002, Footskate cleanup).
 
-A foot stands while its ankle is low and slow. It is then held at one place of
-the floor, and hip, knee and ankle bend to bring it there: a two-bone inverse
-kinematics in closed form, which keeps the direction of the foot and the
-height of the ankle. Before and after, the correction fades.
+A foot stands while its ankle is low and slow. It is then held at one place of the floor, and hip,
+knee and ankle bend to bring it there. This is a two-bone inverse kinematics in closed form. It
+keeps the direction of the foot and the height of the ankle. Before and after, the correction fades.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Jumps between the nodes of a motion graph: where one may be left for another.
 
-Candidates are neighbours in feature space, found by one sparse search; of each pair of
-nodes the few nearest are measured as point clouds, and the best becomes an edge if it is
-below the threshold.
+Candidates are neighbours in feature space, found by one sparse search. Of each pair of nodes the
+few nearest are measured as point clouds. The best becomes an edge if it is below the threshold.
 """
 
 from __future__ import annotations

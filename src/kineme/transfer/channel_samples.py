@@ -1,7 +1,7 @@
 """What channels are like, sample by sample, so that recordings of one collection can be compared.
 
 Five times a second and per channel: the mean over a second, and the logarithm of the deviation
-within it. A recording alone is divided by its own deviations; here all of a collection are divided
+within it. A recording alone is divided by its own deviations. Here all of a collection are divided
 by those of the collection: what lies still in one must not look like what runs in another.
 """
 

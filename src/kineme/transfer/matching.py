@@ -5,7 +5,7 @@ of L, at half to twice its speed (subsequence warping), and all of a primitive o
 of u. The match costs the dearer of the two. With one of them alone, a part of a movement would
 pass for the whole.
 
-A *run* is of primitives that touch and are of one kind: cyclic movements may be cut at another
+A *run* is of primitives that touch and are of one kind. Cyclic movements may be cut at another
 phase, so a warping may lead from one primitive to the next of its run, but never into another.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1; the way back is our own, the warping that of

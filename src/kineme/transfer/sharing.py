@@ -34,10 +34,9 @@ def share_clusters(
 ) -> list[Segmentation]:
     """The same segments, in which equal cluster numbers are equal movements everywhere.
 
-    Of motions the clusters of the first keep their numbers. A later cluster takes
-    the number that most of its members find in the recordings before, if more
-    than half find it; of two clusters of one recording only the one of more
-    finds takes it. All others are numbered on.
+    Of motions the clusters of the first keep their numbers. A later cluster takes the number that
+    most of its members match in the recordings before, if more than half match it. Of two clusters
+    of one recording only the one with more matches takes it. All others are numbered on.
 
     Of signals each activity takes one of the clusters that the samples of all recordings
     have together; repetitions have the cluster of their activity.

@@ -1,10 +1,10 @@
 """Which points of any body are its hips, knees, ankles, shoulders, elbows, wrists and head.
 
 Ankles, wrists and head are found as everywhere (see `kineme.features.effectors`). The joints
-between come from the skeleton, where it has limbs: of the joints from the pelvis to an ankle,
-and from where the arms part to a wrist, the two that begin the longest and most equal pair of
-bones are hip and knee, or shoulder and elbow. Markers and keypoints, which hang on nothing, are
-found by their usual names.
+between come from the skeleton, where it has limbs. A leg goes from the pelvis to an ankle, an arm
+from where the arms part to a wrist. In each, the longest and most equal pair of bones begins at hip
+and knee, or at shoulder and elbow. Markers and keypoints, which hang on nothing, are found by their
+usual names.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """Features in which the movements of different people match: directions on a sphere.
 
-Poses of the canonical body (see `kineme.features.canonical.body`) at 30 Hz, each stacked with
-those 0.1 and 0.2 s before and after it, less a fixed mean, along fixed main axes of many people's
-movements, each divided by a shrunk deviation, and made a unit vector: what counts is how a pose
-departs from the mean one, not how far. The distance of two is the chord between them: 0 is equal,
-1.41 has nothing in common, 2 is opposite.
+Poses of the canonical body (see `kineme.features.canonical.body`) are taken at 30 Hz, each stacked
+with those 0.1 and 0.2 s before and after it. A fixed mean is subtracted. What is left is projected
+on fixed main axes of many people's movements, divided by a shrunk deviation of each, and made a
+unit vector. So it counts how a pose departs from the mean one, not how far. The distance of two is
+the chord between them: 0 is equal, 1.41 has nothing in common, 2 is opposite.
 
 Mean and axes are in ``basis.npz``, which ``benchmarks/truth/canonical_basis.py`` makes.
 """
