@@ -35,6 +35,7 @@ TABLE = {
     "sure": "confidence",
     "sureness": "confidence",
     "judged": "truth",
+    "door": "caller, reader",
 }
 """Words of the table's last column, and the word for each.
 
@@ -64,7 +65,7 @@ NOT_DONE = {
     "evaluation": 10,
     "formats": 99,
     "labels": 25,
-    "library": 131,
+    "library": 132,
     "methods": 87,
     "reproduction": 4,
     "segments": 14,

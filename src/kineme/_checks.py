@@ -59,7 +59,7 @@ def check_one_of(value: object, choices: Collection[str], what: str) -> None:
 def check_type(
     value: object,
     kind: type | tuple[type, ...],
-    door: str,
+    caller: str,
     advice: str,
     *,
     error: type[ParameterError | MotionError] = ParameterError,
@@ -70,12 +70,12 @@ def check_type(
         expected = " or ".join(kind.__name__ for kind in kinds)
         if not expected.endswith("s"):  # Signals are many
             expected = f"{'an' if expected[0] in 'AEIOU' else 'a'} {expected}"
-        raise error(f"{door} takes {expected}, not {type(value).__name__}: {advice}")
+        raise error(f"{caller} takes {expected}, not {type(value).__name__}: {advice}")
 
 
-def check_path(path: object, door: str) -> None:
+def check_path(path: object, caller: str) -> None:
     """ParameterError where a public function was given no path."""
-    check_type(path, (str, PathLike), door, "give the path of a file")
+    check_type(path, (str, PathLike), caller, "give the path of a file")
 
 
 def check_suffixes(suffixes: object, name: str) -> None:

@@ -24,7 +24,7 @@ from kineme.errors import ParameterError
 Floats = NDArray[np.float64]
 
 CLOSE_S = 0.05
-"""Seconds by which times may miss those of a piece: closer than people can say when it was."""
+"""Seconds by which times may miss those of a span: closer than people can say when it was."""
 
 _DATES = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
 
@@ -36,7 +36,7 @@ class Clock:
     Parameters
     ----------
     seconds : sequence of float
-        Of the recording, rising from 0: where the pieces begin.
+        Of the recording, rising from 0: where the spans begin.
     times : sequence of float
         What the clock shows there, in seconds: from any beginning, of the day, or since 1970.
 

@@ -1,4 +1,4 @@
-"""What every reader does at its door: any surprise inside is one ReadError with its cause."""
+"""What every reader shares: any surprise inside is one ReadError with its cause."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""JSON that lies beside recordings, which people edit, copy and damage: the one way in.
+"""JSON that lies beside recordings, which people edit, copy and damage: the one reader of it.
 
 What comes out is no deeper than `DEEPEST`, has finite numbers that a float can hold, and is of the
 shape that was asked for. Everything else is a ReadError. So what uses it need not expect that a

@@ -1,4 +1,4 @@
-"""Whether points are those of a body, told by its bones: of channels nobody said what they are.
+"""Whether points are those of a body, by its bones: for channels without a skeleton.
 
 However a body moves, each of its points keeps its distance from some other one, as a wrist from its
 elbow, while both go elsewhere. Others come nearer and part, which the points of a box do not. What

@@ -1,4 +1,4 @@
-"""Rides: what carries a person who stands still, such as a lift, told by accelerometers alone.
+"""Rides: what carries a person who stands still, such as a lift, from accelerometers alone.
 
 A lift changes neither how a sensor hangs nor how it is shaken, so posture and energy do not show
 it. But at rest an accelerometer reads gravity, whose length is the same however it hangs. While a
@@ -131,7 +131,7 @@ def _accelerometers(means: Floats, variances: Floats) -> tuple[int, ...]:
 
 
 def _shared_acceleration(means: Floats, variances: Floats) -> Floats:
-    """What most sensors feel alike along gravity while they are not turned, m/s²; 0 elsewhere."""
+    """Acceleration along gravity that most sensors share while not turned, m/s²; else 0."""
     from scipy.ndimage import median_filter
 
     sensors = _accelerometers(means, variances)

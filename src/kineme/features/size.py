@@ -1,4 +1,4 @@
-"""How large a body is, so that distances can be told in bodies and not in metres."""
+"""How large a body is, so that distances can be given in body sizes and not in metres."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Neighbour graph: for every frame, the frames that look like it.
+"""Neighbour graph: for every frame, the frames that are similar to it.
 
 A sparse self-similarity matrix. Search is exact: blocks of one float32 matrix
 product estimate all distances, and every pair that may lie within the radius

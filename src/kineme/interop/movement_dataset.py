@@ -41,7 +41,7 @@ DIMS = ("time", "space", "keypoints", "individuals")
 def to_movement(
     motion: Motion, segmentation: Segmentation | None = None, *, individual: str = "id_0"
 ) -> xr.Dataset:
-    """The motion as a poses dataset, confidence 1 where the body was seen.
+    """The motion as a poses dataset, confidence 1 where the body was recorded.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def from_movement(
     up : str, optional
         See `fps`.
     confidence : float, optional
-        Points less sure than this were not seen.
+        Points with less confidence than this count as missing.
 
     Raises
     ------

@@ -220,11 +220,11 @@ def _legend(segmentation: Segmentation) -> list[Patch]:
     return handles
 
 
-def graph_of(graph: Any, door: str) -> NeighborGraph:
+def graph_of(graph: Any, caller: str) -> NeighborGraph:
     """The neighbour graph given, or that of what a method found; else ParameterError."""
     from kineme.graph import NeighborGraph  # compiled code
 
     given = getattr(graph, "graph", graph)
-    check_type(given, NeighborGraph, door, "kineme.neighbor_graph gives one")
+    check_type(given, NeighborGraph, caller, "kineme.neighbor_graph gives one")
     found: NeighborGraph = given
     return found

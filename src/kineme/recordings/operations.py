@@ -224,7 +224,7 @@ def _frames(motion: Motion, frames: slice, fps: float, note: str) -> Motion:
 def _gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
     """The gaps among n frames taken from ``first`` on, each ``ratio`` frames after the one before.
 
-    A frame between one that was seen and one that was not counts as not seen.
+    A frame between a recorded one and one in a gap counts as in the gap.
     """
     spans: list[tuple[int, int]] = []
     for start, stop in motion.gaps:

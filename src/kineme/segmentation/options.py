@@ -1,4 +1,4 @@
-"""What is asked of a segmentation, beside the recording: one object from the door to the method."""
+"""What is asked of a segmentation, beside the recording: one object for all options."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Recordings with gaps: the spans that were seen are analysed as one, and put back in place.
+"""Recordings with gaps: the spans between them are analysed as one, and put back in place.
 
 Samples, the frames of the analysis, count through the spans as if there were
 nothing between them, so that what repeats itself is found wherever it is. Frames
@@ -29,7 +29,7 @@ AT_GAP = 0.2
 
 @dataclass(frozen=True)
 class RecordedSpan:
-    """A span of a recording that was seen.
+    """A span of a recording without a gap.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ def in_frames(
     *,
     near: float = 0.0,
 ) -> Columns:
-    """The columns in frames, cut at the ends of what was seen, gaps filled with transitions.
+    """The columns in frames, cut at the ends of the spans, gaps filled with transitions.
 
     Rows that vanish at the rate of the recording are left out.
 
@@ -103,7 +103,7 @@ def in_frames(
 
 
 def gaps_between(spans: Sequence[RecordedSpan], n_frames: int) -> Spans:
-    """What was not seen of the recording: frames [start, stop)."""
+    """What lies between the spans of the recording: frames [start, stop)."""
     starts = [0, *(span.stop for span in spans)]
     stops = [*(span.start for span in spans), n_frames]
     return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
@@ -115,7 +115,7 @@ def in_time(graph: NeighborGraph, gaps: Sequence[Sequence[int]], n_frames: int) 
     Parameters
     ----------
     graph : NeighborGraph
-        Of the spans that were seen, at any rate.
+        Of the spans without gaps, at any rate.
     gaps : sequence of pairs of int
         Frames [start, stop).
     n_frames : int

@@ -21,7 +21,7 @@ class View:
     Attributes
     ----------
     features : sequence of (samples, dims) arrays
-        One of each span that was seen.
+        One of each span without a gap.
     spans : sequence of RecordedSpan
     notes : sequence of str
         What is to be known of them.

@@ -1,9 +1,9 @@
 """A route through a motion graph that follows a line on the floor.
 
 The cost of a route is the integral over time of the squared distance of the root from the line,
-plus a little for the time itself, so that nobody dawdles. The cheapest is looked for by a beam
-search. Of the candidates that have come equally far down the line, to a quarter of a metre, the
-cheapest go on: one for each node and direction, and only so many. It is deterministic.
+plus a little for the time itself, so that a route takes no longer than it must. The cheapest is
+found by a beam search. Of the candidates that have come equally far down the line, to a quarter of
+a metre, the cheapest go on: one for each node and direction, and only so many. It is deterministic.
 
 Source: Kovar, Gleicher and Pighin 2002, section 5, who compare with the point of
 the line at equal arc length; the nearest point farther on forgives swaying.

@@ -1,4 +1,4 @@
-"""Which label each segment takes, of those that its matches have, and how sure that is."""
+"""Which label each segment takes, of those that its matches have, and with what confidence."""
 
 from __future__ import annotations
 

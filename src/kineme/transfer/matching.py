@@ -8,8 +8,8 @@ pass for the whole.
 A *run* is of primitives that touch and are of one kind. Cyclic movements may be cut at another
 phase, so a warping may lead from one primitive to the next of its run, but never into another.
 
-Source: Vögele, Krüger and Klein 2014, section 6.1; the way back is our own, the warping that of
-`kineme.matching`.
+Source: Vögele, Krüger and Klein 2014, section 6.1; the backward match is our own, the warping that
+of `kineme.matching`.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ def share_by_samples(
     *,
     n_clusters: int | None = None,
 ) -> list[Segmentation]:
-    """The same segments, in which equal cluster numbers are alike everywhere.
+    """The same segments, in which equal cluster numbers are equal movements everywhere.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The poses of anybody, told by a body of the same size and shape for all.
+"""Poses of any person as those of one canonical body of fixed size and shape.
 
 The canonical body has the directions of the person's limbs and lengths of its own: what is left
 is how somebody moves, whoever it is. Its ankles, head and wrists are told in its own frame: from
