@@ -84,6 +84,16 @@ def split(
         No segment is of that level and cluster, or loops of signals.
     WriteError
         The folder is not empty, or cannot be written.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.clips.split import split
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> [path.name for path in split(motion, truth, "clips")[:2]]
+    ['exercises_0000_walk.bvh', 'exercises_0001_transition.bvh']
     """
     if segmentation.n_frames != recording.n_frames:
         raise MotionError(

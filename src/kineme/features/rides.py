@@ -55,7 +55,14 @@ the end belongs to it."""
 
 
 class Ride(NamedTuple):
-    """Frames ``[start, stop)`` in which all is carried at a speed of m/s, upwards above 0."""
+    """Frames ``[start, stop)`` in which all is carried at a speed of m/s, upwards above 0.
+
+    Examples
+    --------
+    >>> from kineme.features.rides import Ride
+    >>> Ride(start=100, stop=400, speed=-1.5).speed < 0  # downwards
+    True
+    """
 
     start: int
     stop: int

@@ -57,6 +57,14 @@ def to_movement(
         The segmentation is of another length.
     MissingDependencyError
         xarray is not installed.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.interop.movement_dataset import to_movement
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> dict(to_movement(motion).sizes)
+    {'time': 2898, 'space': 3, 'keypoints': 26, 'individuals': 1}
     """
     try:
         import xarray as xr
@@ -125,6 +133,14 @@ def from_movement(
         Another layout, no such individual, or several and none named.
     ReadError
         Points that make no motion, or nothing that tells the frame rate.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.interop.movement_dataset import from_movement, to_movement
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> from_movement(to_movement(motion)).n_frames == motion.n_frames
+    True
     """
     person = _individual(dataset, individual)
     position = person["position"].transpose("time", "keypoints", "space")

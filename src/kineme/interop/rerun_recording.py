@@ -53,6 +53,13 @@ def write_rerun(
         The file cannot be written.
     MissingDependencyError
         Rerun-sdk is not installed.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.interop.rerun_recording import write_rerun
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> write_rerun(motion, kineme.segment(motion), "walk.rrd")  # doctest: +SKIP
     """
     try:
         import rerun as rr

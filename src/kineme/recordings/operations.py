@@ -106,6 +106,14 @@ def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
     ------
     ParameterError
         Unless 0 <= start < stop <= n_frames.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.recordings.operations import cut
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cut(motion, 60, 180).duration
+    2.0
     """
     if not 0 <= start < stop <= recording.n_frames:
         raise ParameterError(
@@ -130,6 +138,14 @@ def split_at_gaps(recording: AnyRecording) -> list[tuple[int, AnyRecording]]:
     ------
     MotionError
         The whole motion is a gap.
+
+    Examples
+    --------
+    >>> from kineme import Signals
+    >>> from kineme.recordings.operations import split_at_gaps
+    >>> signals = Signals([[0.0]] * 9, fps=3, gaps=[(3, 5)])
+    >>> [(start, span.n_frames) for start, span in split_at_gaps(signals)]
+    [(0, 3), (5, 4)]
     """
     if not recording.gaps:
         return [(0, recording)]
@@ -151,6 +167,14 @@ def scale(motion: Motion, factor: float) -> Motion:
     Returns
     -------
     Motion
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.recordings.operations import scale
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> bool((scale(motion, 2.0).positions == 2 * motion.positions).all())
+    True
     """
     if not (is_number(factor) and factor > 0):
         raise ParameterError(f"factor is {factor!r:.60}: give a number above 0")
@@ -174,6 +198,16 @@ def turn(motion: Motion, angle: float) -> Motion:
     Returns
     -------
     Motion
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import kineme
+    >>> from kineme.recordings.operations import turn
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> half = turn(motion, np.pi)
+    >>> bool(np.allclose(half.positions[..., 0], -motion.positions[..., 0]))
+    True
     """
     if not is_number(angle):
         raise ParameterError(f"angle is {angle!r:.60}: give radians")
@@ -203,6 +237,14 @@ def move(motion: Motion, offset: ArrayLike) -> Motion:
     Returns
     -------
     Motion
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.recordings.operations import move
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> move(motion, [1.0, 0.0, 0.0]).provenance.notes[-1].text
+    'moved by [1.0, 0.0, 0.0] m'
     """
     step = np.asarray(offset, float)
     if step.shape != (3,) or not np.isfinite(step).all():
