@@ -108,7 +108,6 @@ ROOMS = {
 }
 # Helpers beside the rooms: what each may import; any room may import them.
 HELPERS = {
-    "_cache": set(),
     "_checks": {"errors"},
     "_clock": {"_checks", "errors"},
     "_colors": set(),
@@ -119,7 +118,6 @@ HELPERS = {
     "_interpolation": set(),
     "_json": {"_files", "errors"},
     "_processes": {"_threads"},
-    "_rank_kernels": {"_compiled"},
     "_registry": {"_checks", "errors"},
     "_rotations": set(),
     "_threads": set(),

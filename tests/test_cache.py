@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from kineme import _cache
+from kineme import _compiled
 
 NOBODY_WRITES = "import os; os.access = lambda *_, **__: False\n"
 NO_HOME = {"HOME": os.devnull, "XDG_CACHE_HOME": os.devnull}
 
 
 def run(code: str, tmp_path: Path, **environment: str) -> str:
-    kept = {name: value for name, value in os.environ.items() if name != _cache.VARIABLE}
+    kept = {name: value for name, value in os.environ.items() if name != _compiled.VARIABLE}
     done = subprocess.run(
         [sys.executable, "-c", code],
         env={**kept, **NO_HOME, "TMPDIR": str(tmp_path), **environment},

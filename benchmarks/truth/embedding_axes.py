@@ -23,7 +23,7 @@ from _corpora import corpora
 from _options import command_line, few
 from kineme._interpolation import at_frames
 from kineme.features.canonical import MATCHING_FPS, matching_poses, mirror_poses
-from kineme.matching.whole_segments import DIMS, course
+from kineme.matching.embeddings import DIMS, course
 
 Floats = NDArray[np.float64]
 

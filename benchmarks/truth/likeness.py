@@ -33,8 +33,8 @@ from _options import command_line
 from kineme.features.canonical import MATCHING_FPS, matching_features, matching_poses
 from kineme.features.canonical.matching import OFFSETS_S, basis, directions
 from kineme.matching import search
+from kineme.matching.embeddings import axes_of_embeddings, embedded
 from kineme.matching.subsequences import warped
-from kineme.matching.whole_segments import axes_of_embeddings, embedded
 from kineme.transfer import THRESHOLD
 
 Floats = NDArray[np.float64]

@@ -45,21 +45,21 @@ def check_flag(value: object, name: str) -> None:
         raise ParameterError(f"{name} must be True or False, not {value!r:.60}")
 
 
-def is_one_of(value: object, known: Collection[str]) -> bool:
+def is_one_of(value: object, choices: Collection[str]) -> bool:
     """Whether it is one of the known texts; anything at all may be asked about."""
-    return isinstance(value, str) and value in known
+    return isinstance(value, str) and value in choices
 
 
-def check_one_of(value: object, known: Collection[str], what: str) -> None:
+def check_one_of(value: object, choices: Collection[str], what: str) -> None:
     """ParameterError unless it is one of the known texts."""
-    if not is_one_of(value, known):
-        raise ParameterError(f"{what} must be one of {', '.join(known)}, not {value!r:.60}")
+    if not is_one_of(value, choices):
+        raise ParameterError(f"{what} must be one of {', '.join(choices)}, not {value!r:.60}")
 
 
 def check_type(
     value: object,
     kind: type | tuple[type, ...],
-    door: str,
+    caller: str,
     advice: str,
     *,
     error: type[ParameterError | MotionError] = ParameterError,
@@ -67,15 +67,15 @@ def check_type(
     """``error`` with advice where a public function was given something else."""
     if not isinstance(value, kind):
         kinds = kind if isinstance(kind, tuple) else (kind,)
-        wanted = " or ".join(known.__name__ for known in kinds)
-        if not wanted.endswith("s"):  # Signals are many
-            wanted = f"{'an' if wanted[0] in 'AEIOU' else 'a'} {wanted}"
-        raise error(f"{door} takes {wanted}, not {type(value).__name__}: {advice}")
+        expected = " or ".join(kind.__name__ for kind in kinds)
+        if not expected.endswith("s"):  # Signals are many
+            expected = f"{'an' if expected[0] in 'AEIOU' else 'a'} {expected}"
+        raise error(f"{caller} takes {expected}, not {type(value).__name__}: {advice}")
 
 
-def check_path(path: object, door: str) -> None:
+def check_path(path: object, caller: str) -> None:
     """ParameterError where a public function was given no path."""
-    check_type(path, (str, PathLike), door, "give the path of a file")
+    check_type(path, (str, PathLike), caller, "give the path of a file")
 
 
 def check_suffixes(suffixes: object, name: str) -> None:

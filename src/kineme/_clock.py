@@ -1,9 +1,10 @@
 """The clock of a recording: what time it was at a second of it, and back.
 
-Seconds of a recording count its frames: frame i is at i / fps, whatever was paused between them.
-A clock is what the times in the file say of that: pieces that begin at a second of the recording
-and at a time, within which both go on alike. Where the clock goes back, a time that it shows
-twice is the first of the two; a time within a pause is where the recording goes on.
+Seconds of a recording count its frames: frame i is at i / fps, whatever was paused between them. A
+clock is what the times in the file say of that. It has spans, each with the second of the recording
+and the time at which it begins; within a span both go on together. Where the clock goes back, a
+time that it shows twice is the first of the two; a time within a pause is where the recording goes
+on.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from kineme.errors import ParameterError
 Floats = NDArray[np.float64]
 
 CLOSE_S = 0.05
-"""Seconds by which times may miss those of a piece: closer than people can say when it was."""
+"""Seconds by which times may miss those of a span: closer than people can say when it was."""
 
 _DATES = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
 
@@ -35,7 +36,7 @@ class Clock:
     Parameters
     ----------
     seconds : sequence of float
-        Of the recording, rising from 0: where the pieces begin.
+        Of the recording, rising from 0: where the spans begin.
     times : sequence of float
         What the clock shows there, in seconds: from any beginning, of the day, or since 1970.
 
@@ -94,11 +95,11 @@ class Clock:
         return cls(seconds[starts].tolist(), shown[starts].tolist())
 
     @classmethod
-    def from_json(cls, said: Any) -> Clock:
+    def from_json(cls, data: Any) -> Clock:
         """The clock that `to_json` gave; ParameterError where that is none."""
-        if not isinstance(said, Mapping) or not {"seconds", "times"} <= said.keys():
-            raise ParameterError(f"a clock has seconds and times, not {said!r:.60}")
-        return cls(said["seconds"], said["times"])
+        if not isinstance(data, Mapping) or not {"seconds", "times"} <= data.keys():
+            raise ParameterError(f"a clock has seconds and times, not {data!r:.60}")
+        return cls(data["seconds"], data["times"])
 
     def to_json(self) -> dict[str, list[float]]:
         """Seconds and times, as JSON holds them."""
@@ -112,8 +113,8 @@ class Clock:
     def time(self, seconds: ArrayLike) -> Floats:
         """What it shows at seconds of the recording."""
         at = np.asarray(seconds, np.float64)
-        piece = np.maximum(np.searchsorted(self.seconds, at, side="right") - 1, 0)
-        shown: Floats = np.asarray(self.times)[piece] + at - np.asarray(self.seconds)[piece]
+        k = np.maximum(np.searchsorted(self.seconds, at, side="right") - 1, 0)
+        shown: Floats = np.asarray(self.times)[k] + at - np.asarray(self.seconds)[k]
         return shown
 
     def second(self, times: ArrayLike) -> Floats:
@@ -124,9 +125,9 @@ class Clock:
         at = np.asarray(times, np.float64)
         begin, shown = np.asarray(self.seconds), np.asarray(self.times)
         end = np.append(begin[1:], np.inf)
-        piece = np.searchsorted(np.maximum.accumulate(shown + end - begin), at, side="right")
-        since = at - shown[piece]
-        found: Floats = begin[piece] + np.where(piece > 0, np.maximum(since, 0.0), since)
+        k = np.searchsorted(np.maximum.accumulate(shown + end - begin), at, side="right")
+        since = at - shown[k]
+        found: Floats = begin[k] + np.where(k > 0, np.maximum(since, 0.0), since)
         return found
 
     def since_first(self) -> Clock:

@@ -57,22 +57,22 @@ def label_colors(rows: Iterable[Row]) -> dict[str, str]:
     dict of str
     """
     most: dict[str, Counter[int]] = {}
-    taken = set()
+    used = set()
     for row in rows:
-        taken.add(cluster_color(row.cluster))
+        used.add(cluster_color(row.cluster))
         if row.label:
             seconds = most.setdefault(row.label, Counter())
             if row.cluster >= 0:
                 seconds[row.cluster] += row.stop_s - row.start_s  # type: ignore[assignment]
     colors: dict[str, str] = {}
     for label in sorted(most, key=lambda text: text.encode("utf-16-be", "surrogatepass")):
-        known = most[label].most_common(1)
-        colors[label] = cluster_color(known[0][0]) if known else _free_color(label, taken)
-        taken.add(colors[label])
+        clusters = most[label].most_common(1)
+        colors[label] = cluster_color(clusters[0][0]) if clusters else _free_color(label, used)
+        used.add(colors[label])
     return colors
 
 
-def _free_color(text: str, taken: set[str]) -> str:
+def _free_color(text: str, used: set[str]) -> str:
     """A colour for a text, the same on every day; another one where that is taken."""
     hashed = 2166136261  # FNV-1a, over what a page takes for letters
     units = text.encode("utf-16-le", "surrogatepass")
@@ -80,7 +80,7 @@ def _free_color(text: str, taken: set[str]) -> str:
         hashed = ((hashed ^ (low | high << 8)) * 16777619) % 2**32
     number = len(PALETTE) * len(_MIXES)
     choices = [cluster_color((hashed + i) % number) for i in range(number)]
-    return next((color for color in choices if color not in taken), choices[0])
+    return next((color for color in choices if color not in used), choices[0])
 
 
 def cluster_color(cluster: int) -> str:

@@ -1,11 +1,66 @@
-"""How every kernel is compiled: kept on disk, without the interpreter's lock.
+"""How every kernel is compiled, without the interpreter's lock, and where it is kept on disk.
 
 Kernels copy, add and sort with loops: an array assigned to a slice, an array added to another
 or `numpy.sort` in one of them makes the first run ever a second longer.
+
+numba keeps compiled functions beside the sources, else in the user's cache folder. It refuses to
+load a function that it can keep in neither: in a container, say, whose packages belong to another
+user and where nobody is at home. A folder among the temporary ones will do then.
 """
 
 from __future__ import annotations
 
+import os
+import sys
+from pathlib import Path
 from typing import Any
 
 OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
+VARIABLE = "NUMBA_CACHE_DIR"
+
+
+def find_cache() -> None:
+    """Name a folder for compiled functions where numba would find none."""
+    beside = Path(__file__).parent / "__pycache__"
+    if VARIABLE in os.environ or os.access(beside, os.W_OK) or _is_writable(_of_user() / "numba"):
+        return
+    os.environ[VARIABLE] = folder = _temporary()
+    loaded: Any = sys.modules.get("numba")
+    if loaded is not None:  # it has looked already
+        loaded.config.CACHE_DIR = folder
+
+
+def _is_writable(folder: Path) -> bool:
+    """Whether a file can be left in a folder, which is made if it is not there."""
+    probe = folder / f".kineme-{os.getpid()}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        probe.touch()
+        probe.unlink()
+    except OSError:
+        return False
+    return True
+
+
+def _of_user() -> Path:
+    """The folder in which applications keep what they can make again."""
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", "~")).expanduser()
+    if sys.platform == "darwin":
+        return Path("~/Library/Caches").expanduser()
+    return Path(os.environ.get("XDG_CACHE_HOME", "~/.cache")).expanduser()
+
+
+def _temporary() -> str:
+    """A folder of this user alone: what lies there is run."""
+    import stat
+    import tempfile
+
+    user = os.getuid() if hasattr(os, "getuid") else 0
+    folder = Path(tempfile.gettempdir(), f"kineme-{user}")
+    folder.mkdir(mode=0o700, exist_ok=True)
+    found = folder.lstat()
+    private = stat.S_ISDIR(found.st_mode) and found.st_uid == user
+    if private and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        return str(folder)
+    return tempfile.mkdtemp(prefix="kineme-")

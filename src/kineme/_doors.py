@@ -1,4 +1,4 @@
-"""What every reader does at its door: any surprise inside is one ReadError with its cause."""
+"""What every reader shares: any surprise inside is one ReadError with its cause."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ def reading(path: str | os.PathLike[str]) -> Iterator[None]:
     except RecursionError as error:
         raise ReadError(path, "holds too much inside one another: it is damaged") from error
     except Exception as error:
-        said = _short(error)
-        reason = f"{type(error).__name__}: {said}" if said else type(error).__name__
+        message = _short(error)
+        reason = f"{type(error).__name__}: {message}" if message else type(error).__name__
         raise ReadError(path, f"cannot be understood, it is damaged ({reason})") from error
 
 

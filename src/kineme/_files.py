@@ -47,9 +47,9 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
         The folder is missing, the file cannot be written, or is a link to elsewhere.
     """
     final, draft = _places(path)
-    held = None
+    descriptor = None
     try:
-        held = _hold(draft)
+        descriptor = _hold(draft)
         yield draft
         _synchronise(draft)
         draft.replace(final)
@@ -57,8 +57,8 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     except OSError as error:
         raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
     finally:
-        if held is not None:
-            os.close(held)
+        if descriptor is not None:
+            os.close(descriptor)
         with suppress(OSError):  # a place that may not be written any more
             draft.unlink(missing_ok=True)
 
@@ -84,9 +84,9 @@ def atomic_folder(target: Path) -> Iterator[Path]:
     except OSError as error:
         reason = f"cannot be made: {target.parent}: {error.strerror or error}"
         raise WriteError(target, reason) from error
-    held = None
+    descriptor = None
     try:
-        held = _hold(draft)
+        descriptor = _hold(draft)
         yield draft
         if target.is_dir():
             target.rmdir()
@@ -95,8 +95,8 @@ def atomic_folder(target: Path) -> Iterator[Path]:
     except OSError as error:
         raise WriteError(target, f"cannot be written: {error.strerror or error}") from error
     finally:
-        if held is not None:
-            os.close(held)
+        if descriptor is not None:
+            os.close(descriptor)
         shutil.rmtree(draft, ignore_errors=True)
 
 
@@ -167,9 +167,9 @@ def _hold(draft: Path) -> int | None:
     """Make the draft, unless it is a folder, and lock it as long as it is written."""
     if sys.platform == "win32":
         return None
-    held = _opened(draft)
-    hold(held)
-    return held
+    descriptor = _opened(draft)
+    hold(descriptor)
+    return descriptor
 
 
 def hold(file: int) -> None:

@@ -38,7 +38,7 @@ def at_frames(values: ArrayLike, at: ArrayLike) -> Floats:
 def bridge_line(track: Floats, hidden: NDArray[np.bool_]) -> None:
     """Fill the hidden frames of one coordinate, in place, from the frames around them.
 
-    Before the first and after the last that is seen its value is held.
+    Before the first and after the last frame that is not hidden its value is kept.
 
     Parameters
     ----------
@@ -46,5 +46,5 @@ def bridge_line(track: Floats, hidden: NDArray[np.bool_]) -> None:
     hidden : ndarray of bool, shape (frames,)
         At least one frame is not.
     """
-    seen = np.flatnonzero(~hidden)
-    track[hidden] = np.interp(np.flatnonzero(hidden), seen, track[seen])
+    present = np.flatnonzero(~hidden)
+    track[hidden] = np.interp(np.flatnonzero(hidden), present, track[present])

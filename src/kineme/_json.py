@@ -1,8 +1,8 @@
-"""JSON that lies beside recordings, which people edit, copy and damage: the one way in.
+"""JSON that lies beside recordings, which people edit, copy and damage: the one reader of it.
 
-What comes out is no deeper than `DEEPEST`, has no number that is not finite or larger than
-a float can be, and is of the shape that was asked for; everything else is a ReadError. So what
-uses it need not expect that a number overflows or a walk through it recurses too far.
+What comes out is no deeper than `DEEPEST`, has finite numbers that a float can hold, and is of the
+shape that was asked for. Everything else is a ReadError. So what uses it need not expect that a
+number overflows or a walk through it recurses too far.
 """
 
 from __future__ import annotations
@@ -97,10 +97,10 @@ def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
         raise ReadError(path, "is not as it was written: a name is no text") from error
 
 
-def sentence(problem: str, whole: str = "the whole of it") -> str:
+def sentence(problem: str, everything: str = "the whole of it") -> str:
     """What msgspec says of a shape, with the place first and no signs of its own."""
     what, _, place = problem.partition(" - at ")
-    where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or whole
+    where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or everything
     return f"{where}: {what[:1].lower()}{what[1:].replace('`', '')}"
 
 
@@ -115,8 +115,8 @@ def fault_of(found: Any) -> str:
     level: list[Any] = [[found]]
     for _ in range(DEEPEST + 1):
         inner: list[Any] = []
-        for held in level:
-            for value in held:
+        for container in level:
+            for value in container:
                 kind = type(value)
                 if kind is dict:
                     inner.append(value.values())

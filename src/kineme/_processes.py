@@ -57,13 +57,13 @@ def interrupted_later() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():  # it is not told of any
         yield
         return
-    came: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _: came.append(number))
+    signals: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: signals.append(number))
     try:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
-    if came:
+    if signals:
         signal.raise_signal(signal.SIGINT)
 
 

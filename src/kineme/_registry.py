@@ -83,7 +83,7 @@ class Registry(Mapping[str, T]):
         self._newest_first = newest_first
         self._objects: dict[str, T] = {}
         self._lock = RLock()
-        self._begun = self._loaded = False
+        self._loading = self._loaded = False
 
     def register(self, new: T, *, replace: bool = False) -> None:
         """Add an object under its name.
@@ -147,9 +147,9 @@ class Registry(Mapping[str, T]):
         if self._loaded:
             return
         with self._lock:
-            if self._begun:  # further up by this thread, or by another that is done by now
+            if self._loading:  # further up by this thread, or by another that is done by now
                 return
-            self._begun = True
+            self._loading = True
             try:
                 builtins = [new for path in self._builtins for new in _objects_at(path, self._home)]
                 for new in reversed(builtins) if self._newest_first else builtins:
@@ -157,7 +157,7 @@ class Registry(Mapping[str, T]):
                 self._add_plugins()
                 self._loaded = True
             except BaseException:
-                self._objects, self._begun = {}, False
+                self._objects, self._loading = {}, False
                 raise
 
     def _add_plugins(self) -> None:

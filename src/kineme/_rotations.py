@@ -80,8 +80,8 @@ def from_euler(angles: Floats, axes: str) -> Floats:
 def to_euler_zyx(q: Floats) -> Floats:
     """Angles (z, y, x) in radians with Rz Ry Rx equal to the rotation, (..., 3).
 
-    Each angle is taken from what the ones before it leave over, so that the
-    product is exact at y = 90 degrees too, where z and x are not unique.
+    Each angle is taken from what the ones before it leave over. So the product is exact at y = 90
+    degrees, too, where z and x are not unique.
     """
     w, x, y, z = components(q)
     cz_cy, sz_cy = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)

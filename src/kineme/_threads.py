@@ -40,9 +40,9 @@ def even_slices(n: int, short: int = SHORT) -> list[slice]:
 @cache
 def n_threads() -> int:
     """Cores this process may use; ``KINEME_THREADS`` sets another number."""
-    wanted = os.environ.get("KINEME_THREADS", "")
-    if wanted.isdigit() and int(wanted):
-        return int(wanted)
+    setting = os.environ.get("KINEME_THREADS", "")
+    if setting.isdigit() and int(setting):
+        return int(setting)
     affinity = getattr(os, "sched_getaffinity", None)  # not on every system
     return len(affinity(0)) if affinity else os.cpu_count() or 1
 

@@ -25,14 +25,31 @@ from typing import Any
 
 
 class KinemeError(Exception):
-    """Base of every error raised on purpose; all of them get from one process to another."""
+    """Base of every error raised on purpose; all of them get from one process to another.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> try:
+    ...     kineme.read("nothing.bvh")
+    ... except kineme.KinemeError as error:
+    ...     print(type(error).__name__)
+    ReadError
+    """
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _as_it_was, (type(self), self.args, vars(self))
 
 
 class FileError(KinemeError):
-    """What is wrong with a file: ``PATH, line N: reason``."""
+    """What is wrong with a file: ``PATH, line N: reason``.
+
+    Examples
+    --------
+    >>> from kineme.errors import FileError
+    >>> print(FileError("walk.bvh", "no joints", line=2))
+    walk.bvh, line 2: no joints
+    """
 
     def __init__(self, path: str | PathLike[str], reason: str, *, line: int | None = None):
         try:
@@ -46,7 +63,17 @@ class FileError(KinemeError):
 
 
 class ReadError(FileError):
-    """The file cannot be read, or what it holds cannot be understood."""
+    """The file cannot be read, or what it holds cannot be understood.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> try:
+    ...     kineme.read("nothing.bvh")
+    ... except kineme.ReadError as error:
+    ...     error.path
+    'nothing.bvh'
+    """
 
 
 class SeveralPeopleError(ReadError):
@@ -58,15 +85,46 @@ class SeveralPeopleError(ReadError):
 
 
 class WriteError(FileError):
-    """The file cannot be written; nothing was left behind."""
+    """The file cannot be written; nothing was left behind.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> try:
+    ...     kineme.write(kineme.read(kineme.bundled_recording()), "walk.doc")
+    ... except kineme.WriteError as error:
+    ...     error.path
+    'walk.doc'
+    """
 
 
 class MotionError(KinemeError, ValueError):
-    """A motion or skeleton whose parts contradict each other."""
+    """A motion or skeleton whose parts contradict each other.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> try:
+    ...     kineme.Skeleton(["hip"], [3], [[0, 0, 0]])
+    ... except kineme.MotionError as error:
+    ...     print(error)
+    joint 'hip' (index 0) has parent 3: parents come before their children, and a root has -1
+    """
 
 
 class EndEffectorError(MotionError):
-    """Head, hands or feet were not found in the skeleton; ``reason`` is why, without advice."""
+    """Head, hands or feet were not found in the skeleton; ``reason`` is why, without advice.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> skeleton = kineme.Skeleton(["ball"], [-1], [[0, 0, 0]])
+    >>> try:
+    ...     kineme.end_effectors(skeleton)
+    ... except kineme.EndEffectorError as error:
+    ...     print(error.reason)
+    no left ankle, right ankle, head, left wrist and right wrist among the joints
+    """
 
     def __init__(self, message: str, *, reason: str | None = None):
         self.reason = reason or message
@@ -74,11 +132,28 @@ class EndEffectorError(MotionError):
 
 
 class ParameterError(KinemeError, ValueError):
-    """A parameter outside the values a function accepts."""
+    """A parameter outside the values a function accepts.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> try:
+    ...     kineme.resample(kineme.read(kineme.bundled_recording()), -1)
+    ... except kineme.ParameterError as error:
+    ...     print(error)
+    fps is -1: give frames per second, above 0
+    """
 
 
 class MissingDependencyError(KinemeError, ImportError):
-    """An optional package is needed: ``pip install 'kineme[extra]'``."""
+    """An optional package is needed: ``pip install 'kineme[extra]'``.
+
+    Examples
+    --------
+    >>> from kineme.errors import MissingDependencyError
+    >>> print(MissingDependencyError("pandas", "tables"))
+    this needs pandas, which is not installed: pip install 'kineme[tables]'
+    """
 
     def __init__(self, package: str, extra: str):
         self.package = package
@@ -89,11 +164,20 @@ class MissingDependencyError(KinemeError, ImportError):
 
 
 class KinemeWarning(UserWarning):
-    """Something unusual was accepted; the message says what was made of it."""
+    """Something unusual was accepted; the message says what was made of it.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import kineme
+    >>> warnings.simplefilter("error", kineme.KinemeWarning)  # stop where something unusual is read
+    """
 
 
-def _as_it_was(kind: type[KinemeError], args: tuple[Any, ...], told: dict[str, Any]) -> KinemeError:
+def _as_it_was(
+    kind: type[KinemeError], args: tuple[Any, ...], state: dict[str, Any]
+) -> KinemeError:
     """An error that was pickled: those that are made of other things than ``args`` as well."""
     error = kind.__new__(kind, *args)
-    vars(error).update(told)
+    vars(error).update(state)
     return error

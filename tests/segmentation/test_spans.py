@@ -14,17 +14,17 @@ from kineme.datasets import bundled_recording
 from kineme.graph import neighbor_graph
 from kineme.methods.kineme.preset import KINEME
 from kineme.segmentation.segmenter import segment_and_found
-from kineme.segmentation.spans import SeenSpan, gaps_between, in_frames, in_time
+from kineme.segmentation.spans import RecordedSpan, gaps_between, in_frames, in_time
 
 
 @st.composite
-def recordings(draw: st.DrawFn) -> tuple[list[SeenSpan], dict[str, np.ndarray], int, int]:
+def recordings(draw: st.DrawFn) -> tuple[list[RecordedSpan], dict[str, np.ndarray], int, int]:
     """Parts, a table over their working frames, source frames, and how many make a working one."""
     ratio = draw(st.integers(1, 4))
     parts, at = [], draw(st.integers(0, 5))
     for _ in range(draw(st.integers(1, 4))):
         n = draw(st.integers(1, 12))
-        parts.append(SeenSpan(at, at + n * ratio - draw(st.integers(0, ratio - 1)), n))
+        parts.append(RecordedSpan(at, at + n * ratio - draw(st.integers(0, ratio - 1)), n))
         at = parts[-1].stop + draw(st.integers(1, 9))
     n_frames = parts[-1].stop + draw(st.integers(0, 5))
     working = sum(part.n_samples for part in parts)

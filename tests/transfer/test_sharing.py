@@ -13,8 +13,8 @@ from kineme.datasets import bundled_recording
 from kineme.errors import ParameterError
 from kineme.recordings.operations import cut, scale, turn
 from kineme.transfer import share_clusters
-from kineme.transfer.moments import moments_of
-from kineme.transfer.vocabulary import share_by_moments
+from kineme.transfer.channel_samples import channel_samples
+from kineme.transfer.vocabulary import share_by_samples
 
 
 def shuffled(found: kineme.Segmentation) -> kineme.Segmentation:
@@ -119,8 +119,8 @@ def test_clusters_of_signals_do_not_depend_on_the_order_of_recordings() -> None:
         values = np.concatenate([size * wave[:, [k]] for k, size in enumerate(kinds)])
         recordings.append(kineme.Signals(values + 0.05 * random.normal(size=values.shape), 30.0))
     found = [kineme.segment(recording, preset="uniform") for recording in recordings]
-    moments = [moments_of(recording) for recording in recordings]
-    shared = share_by_moments(moments, found)
+    moments = [channel_samples(recording) for recording in recordings]
+    shared = share_by_samples(moments, found)
     for order in ([5, 4, 3, 2, 1, 0], [3, 0, 4, 1, 5, 2]):
-        again = share_by_moments([moments[i] for i in order], [found[i] for i in order])
+        again = share_by_samples([moments[i] for i in order], [found[i] for i in order])
         assert [shared[i] for i in order] == again

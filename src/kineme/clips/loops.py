@@ -1,12 +1,10 @@
 """A clip as a cycle: its end blended into its beginning.
 
-Played in a circle, the frame after the last is the first again, but further
-on and turned: moved by a `Carry`, a turn about the vertical and a shift on the
-floor, as a player with root motion does. What remains between the two (joints
-that are bent differently, another height) is spread evenly over the clip:
-frame f of n gets the share f/n - 1/2 of it. So the ends move least, no joint
-changes its speed by more than a constant, and the frame rate and the number of
-frames stay.
+Played in a circle, the frame after the last is the first again, but further on and turned. A
+`Carry` says how: a turn about the vertical and a shift on the floor, as in a player with root
+motion. What remains between the two (joints that are bent differently, another height) is spread
+evenly over the clip: frame f of n gets the share f/n - 1/2 of it. So the ends move least, no joint
+changes its speed by more than a constant, and the frame rate and the number of frames stay.
 
 1. Where the recording goes on after the last frame is estimated from the steps
    on both sides of the seam: half the last step of the clip, half its first.

@@ -84,6 +84,16 @@ def split(
         No segment is of that level and cluster, or loops of signals.
     WriteError
         The folder is not empty, or cannot be written.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.clips.split import split
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> [path.name for path in split(motion, truth, "clips")[:2]]
+    ['exercises_0000_walk.bvh', 'exercises_0001_transition.bvh']
     """
     if segmentation.n_frames != recording.n_frames:
         raise MotionError(
@@ -103,7 +113,7 @@ def split(
 
 
 def write_clips(
-    wanted: Iterable[tuple[Motion | Signals, Sequence[Segment]]],
+    clips: Iterable[tuple[Motion | Signals, Sequence[Segment]]],
     folder: str | PathLike[str],
     *,
     loops: bool = False,
@@ -112,7 +122,7 @@ def write_clips(
 
     Parameters
     ----------
-    wanted : iterable of (Motion or Signals, sequence of Segment)
+    clips : iterable of (Motion or Signals, sequence of Segment)
         Gone through once, so that one recording at a time needs memory.
     folder : str or PathLike
         To be made; one that is there must be empty.
@@ -129,7 +139,7 @@ def write_clips(
     target = Path(folder)
     lines: list[list[object]] = []
     with atomic_folder(target) as draft:
-        for recording, rows in wanted:
+        for recording, rows in clips:
             shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
             suffix, write_clip = _writer(recording, shortest, loops=loops)
             path = str(recording.provenance.path or "")
@@ -148,13 +158,13 @@ def _writer(recording: Motion | Signals, shortest: int | None, *, loops: bool) -
     if isinstance(recording, Signals):
         if loops:
             raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
-        own = rows_of(recording, shortest=shortest)
+        file_rows = rows_of(recording, shortest=shortest)
 
         def write_rows(row: Segment, path: Path) -> tuple[float, ...]:
-            own.write(path, row.start_frame, row.stop_frame)
+            file_rows.write(path, row.start_frame, row.stop_frame)
             return ()
 
-        return own.suffix, write_rows
+        return file_rows.suffix, write_rows
 
     def write_motion(row: Segment, path: Path) -> tuple[float, ...]:
         clip = cut(recording, row.start_frame, row.stop_frame)

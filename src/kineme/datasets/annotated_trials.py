@@ -21,7 +21,7 @@ from msgspec import Meta, Struct
 from kineme._json import decoded
 from kineme.errors import KinemeWarning, ReadError
 
-MARKS_FPS = 120.0
+TRIAL_FPS = 120.0
 
 # As first published, trial 86_04, row 5 ends before it begins; the authors' correction.
 CORRECTIONS = {("86_04", 5, (4060, 5050, 5090)): (5052, 5052, 5092)}
@@ -115,8 +115,8 @@ def _text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
 def _mended(trial: str, rows: list[Action]) -> list[Action]:
     mended = []
     for number, row in enumerate(rows, 1):
-        marks = CORRECTIONS.get((trial, number, row[1:]), row[1:])
-        fixed = Action(row.label, min(marks), marks[1], max(marks))
+        frames = CORRECTIONS.get((trial, number, row[1:]), row[1:])
+        fixed = Action(row.label, min(frames), frames[1], max(frames))
         if fixed != row:
             warnings.warn(
                 f"trial {trial}, row {number} ({row.label}): marks {row[1:]} mended to {fixed[1:]}",

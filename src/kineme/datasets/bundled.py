@@ -12,10 +12,25 @@ _FOLDER = Path(__file__).parent / "recordings"
 
 
 def bundled_recording() -> Path:
-    """The BVH file that comes with the package: 48 s of exercises at 60 Hz."""
+    """The BVH file that comes with the package: 48 s of exercises at 60 Hz.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> kineme.read(kineme.bundled_recording()).n_frames
+    2898
+    """
     return _FOLDER / "exercises.bvh"
 
 
 def bundled_truth() -> Path:
-    """Its true segments: a table that `kineme.read_segments` reads."""
+    """Its true segments: a table that `kineme.read_segments` reads.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> kineme.read_segments(bundled_truth(), fps=60).activities[0].label
+    'walk'
+    """
     return _FOLDER / "exercises.json"

@@ -64,12 +64,12 @@ class Cycle:
         found = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}
         for name, values in self.angles.items():
             curve = _cyclic(self.at, values)
-            for whole in _whole_names(name):
-                late = 0.5 if self.gait and whole.startswith("right") else 0.0
+            for full_name in _full_names(name):
+                late = 0.5 if self.gait and full_name.startswith("right") else 0.0
                 angle = curve(phase - late)
                 turns = values[0] != values[-1]
-                rest = STANDING[whole]
-                found[whole] = angle if turns else rest + amplitude * (angle - rest)
+                rest = STANDING[full_name]
+                found[full_name] = angle if turns else rest + amplitude * (angle - rest)
         return found
 
 
@@ -85,7 +85,7 @@ def mirrored(angles: Mapping[str, Floats]) -> dict[str, Floats]:
     return found
 
 
-def _whole_names(name: str) -> list[str]:
+def _full_names(name: str) -> list[str]:
     return [f"{side} {name}" for side in SIDES] if name in LIMBS else [name]
 
 
@@ -99,7 +99,7 @@ def _cyclic(at: Sequence[float], values: Sequence[float]) -> Callable[[Floats], 
     )
 
     def at_phase(phase: Floats) -> Floats:
-        whole = np.floor(phase)
-        return np.asarray(curve(phase - whole) + whole * gain)
+        cycle = np.floor(phase)
+        return np.asarray(curve(phase - cycle) + cycle * gain)
 
     return at_phase

@@ -1,11 +1,10 @@
 """Fetching public files into a folder, each whole and checked, or not at all.
 
-What breaks off or stalls is taken up where it stopped, in the same call and in
-a later one: until a file is complete it lies in the folder ``.partial``, dated
-as the server dates it, and the rest is asked for on the condition that this
-date still holds (RFC 9110, ``Range`` and ``If-Range``). A server that offers no
-ranges, or no date, sends the whole file again. Only a file that is complete and
-passes its check gets its name, by way of ``pooch``.
+What breaks off or stalls is taken up where it stopped, in the same call and in a later one. Until a
+file is complete it lies in the folder ``.partial``, dated as the server dates it. The rest is asked
+for if this date still holds (RFC 9110, ``Range`` and ``If-Range``). A server that offers no ranges,
+or no date, sends the whole file again. Only a file that is complete and passes its check gets its
+name, by way of ``pooch``.
 """
 
 from __future__ import annotations
@@ -76,13 +75,13 @@ def fetch(
         part.parent.mkdir(parents=True, exist_ok=True)
         download = _Download(part, check, progress, timeout_s)
         return Path(pooch.retrieve(url, None, fname=name, path=folder, downloader=download))
-    except _NotThereError:
+    except _MissingError:
         return None
     except OSError as error:
         raise WriteError(folder / name, f"cannot be written: {error.strerror or error}") from error
 
 
-class _NotThereError(Exception):
+class _MissingError(Exception):
     """The server answers 404."""
 
 
@@ -143,7 +142,7 @@ class _Download:
     def _accepted(self, url: str, answer: Response, size: int) -> int:
         """The byte that the answer begins with."""
         if answer.status_code == 404:
-            raise _NotThereError
+            raise _MissingError
         if answer.status_code in TRY_AGAIN:
             raise _BrokenOffError(f"the server answers {answer.status_code} {answer.reason}")
         if answer.status_code == 206:

@@ -70,8 +70,8 @@ def figure(size: float = _HEIGHT) -> Skeleton:
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
         name = side.capitalize()
         for joint, parent, (x, y, z) in _LIMBS:
-            whose = parent if parent in {"Hips", "Spine1"} else name + parent
-            rows.append((name + joint, whose, (sign * x, y, z)))
+            parent_name = parent if parent in {"Hips", "Spine1"} else name + parent
+            rows.append((name + joint, parent_name, (sign * x, y, z)))
     names = [name for name, _, _ in rows]
     return Skeleton(
         tuple(names),

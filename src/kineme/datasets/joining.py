@@ -1,9 +1,9 @@
 """Motions of one person joined end to end into one: placed after each other, and blended.
 
-At a join the second motion is turned about the vertical and moved along the floor to where
-the first one ended. What differs then is made up on both sides: over the join, every
-rotation goes from the one to the other along the sphere while both movements go on, so that
-no frame is lost and nobody stops.
+At a join the second motion is turned about the vertical and moved along the floor to where the
+first one ended. What differs then is made up on both sides. Over the join every rotation goes from
+the one to the other along the sphere while both movements go on: no frame is lost, and nobody
+stops.
 """
 
 from __future__ import annotations

@@ -37,6 +37,13 @@ class Exercise:
         With rotations.
     repetitions : int, optional
         How often it holds the exercise.
+
+    Examples
+    --------
+    >>> from kineme.datasets import Action, Exercise, synthesize
+    >>> motion = synthesize([Action("squat", 2)], fps=30).motion
+    >>> Exercise("squat", motion, repetitions=2).name
+    'squat'
     """
 
     name: str
@@ -79,6 +86,14 @@ def exercise_sequence(
     ------
     ParameterError
         Fewer than two actions, exercises that do not fit together, or one without rotations.
+
+    Examples
+    --------
+    >>> from kineme.datasets import Action, Exercise, exercise_sequence, synthesize
+    >>> motions = {name: synthesize([Action(name, 1)], fps=30).motion for name in ("squat", "jump")}
+    >>> exercises = [Exercise(name, motion) for name, motion in motions.items()]
+    >>> exercise_sequence(exercises, 1, runs=3).truth.activities.label.tolist()
+    ['jump', '', 'squat', '', 'jump']
     """
     of_name: dict[str, list[Exercise]] = {}
     for exercise in exercises:
@@ -120,10 +135,18 @@ def join_exercises(
     ------
     ParameterError
         Exercises that do not fit together, or one without rotations.
+
+    Examples
+    --------
+    >>> from kineme.datasets import Action, Exercise, join_exercises, synthesize
+    >>> motions = {name: synthesize([Action(name, 1)], fps=30).motion for name in ("squat", "jump")}
+    >>> parts = [Exercise(name, motion) for name, motion in motions.items()]
+    >>> join_exercises(parts).truth.activities.label.tolist()
+    ['squat', '', 'jump']
     """
     motion, starts, halves = joined([part.motion for part in parts], join)
-    said = note or f"{len(parts)} exercises joined"
-    provenance = Provenance(format="sequence").noted(said)
+    sentence = note or f"{len(parts)} exercises joined"
+    provenance = Provenance(format="sequence").noted(sentence)
     truth = _truth(list(parts), starts, halves, motion.fps)
     return SyntheticRecording(replace(motion, provenance=provenance), truth)
 

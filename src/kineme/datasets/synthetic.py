@@ -29,7 +29,15 @@ from kineme.segments.segmentation import Segmentation
 
 @dataclass(frozen=True)
 class SyntheticRecording:
-    """A motion and its true segments."""
+    """A motion and its true segments.
+
+    Examples
+    --------
+    >>> from kineme.datasets import random_recording
+    >>> made = random_recording(1, activities=3, fps=30)
+    >>> made.motion.n_frames == made.truth.n_frames
+    True
+    """
 
     motion: Motion
     truth: Segmentation
@@ -63,6 +71,12 @@ def synthesize(
     ------
     ParameterError
         No actions, or a value that makes no recording.
+
+    Examples
+    --------
+    >>> from kineme.datasets import Action, synthesize
+    >>> synthesize([Action("walk", 2), Action("squat", 3)], fps=30).motion.n_frames
+    289
     """
     sequence = tuple(actions)
     if not sequence:
@@ -103,6 +117,12 @@ def random_recording(
     ------
     ParameterError
         More activities than there are different exercises for.
+
+    Examples
+    --------
+    >>> from kineme.datasets import random_recording
+    >>> random_recording(1, activities=3, fps=30).truth.activities.label.tolist()
+    ['punch', '', 'walk', '', 'run']
     """
     rng = np.random.default_rng(seed)
     exercises = [name for name in ACTIONS if name not in ("walk", "stand")]

@@ -36,6 +36,13 @@ class Action:
         0.5 moves half as far.
     side : str, optional
         "right" or "left", for kicks, punches and waves.
+
+    Examples
+    --------
+    >>> from kineme.datasets import Action, synthesize
+    >>> actions = Action("walk", 2), Action("jump", 3, amplitude=0.5)
+    >>> synthesize(actions, fps=30).truth.repetitions()
+    {0: 2, 1: 3}
     """
 
     name: str
@@ -136,15 +143,15 @@ def weight_of(part: Part) -> Floats:
     """1 during the action, rising and falling smoothly over the fades."""
     rise = np.linspace(0, 1, part.fade_in, endpoint=False)
     fall = np.linspace(1, 0, part.fade_out, endpoint=False)
-    whole = np.concatenate([rise, np.ones(part.frames[-1] - part.frames[0]), fall])
-    return np.asarray(whole * whole * (3 - 2 * whole))
+    weight = np.concatenate([rise, np.ones(part.frames[-1] - part.frames[0]), fall])
+    return np.asarray(weight * weight * (3 - 2 * weight))
 
 
 def _run_down(fade: int, period: float) -> Floats:
     """Cycles gone while the pace falls evenly to nothing within half of the fade."""
     ramp = max(fade / 2, 1.0)
-    gone = np.minimum(np.arange(fade), ramp)
-    return np.asarray((gone - gone**2 / (2 * ramp)) / period)
+    elapsed = np.minimum(np.arange(fade), ramp)
+    return np.asarray((elapsed - elapsed**2 / (2 * ramp)) / period)
 
 
 def _kind(part: Part) -> tuple[str, str]:

@@ -26,7 +26,7 @@ from kineme.labels.collections import LabelSource
 from kineme.recordings.motion import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer.sharing import share_clusters
-from kineme.transfer.vocabulary import share_by_moments
+from kineme.transfer.vocabulary import share_by_samples
 
 Mapped = Literal["recording", "folder"]
 Progress = Callable[[str], None]
@@ -274,7 +274,7 @@ def _of_one_kind(
     segmentations = [one.found for one in sides]
     moments = [one.moments for one in sides if one.moments is not None]
     if moments:
-        return share_by_moments(moments, segmentations, n_clusters=n_clusters)
+        return share_by_samples(moments, segmentations, n_clusters=n_clusters)
     motions = [motion for job in jobs if isinstance(motion := job.reading.read(job.path), Motion)]
     try:
         return share_clusters(motions, segmentations)

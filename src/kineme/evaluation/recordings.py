@@ -24,7 +24,7 @@ from kineme.methods.presets import PRESETS
 from kineme.recordings.motion import Motion
 from kineme.recordings.signals import Signals
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.moments import Moments, moments_of
+from kineme.transfer.channel_samples import ChannelSamples, channel_samples
 
 UNMET = "has no column like"
 """How a note on a pattern begins that no column of a recording fits, such as a mistyped one."""
@@ -199,7 +199,7 @@ class Sides:
 
     truth: Segmentation
     found: Segmentation
-    moments: Moments | None
+    moments: ChannelSamples | None
     """Of signals; motions are read again."""
 
 
@@ -284,7 +284,7 @@ def sides_of(recording: Motion | Signals, truth: Segmentation, found: Segmentati
     -------
     Sides
     """
-    moments = moments_of(recording) if isinstance(recording, Signals) else None
+    moments = channel_samples(recording) if isinstance(recording, Signals) else None
     return Sides(truth, replace(found, hierarchy=None), moments)
 
 

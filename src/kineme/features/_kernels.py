@@ -29,30 +29,30 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
     dims = points.shape[1]
     count = neighbors.shape[1]
     across = np.empty((count, dims))
-    along = np.empty(count)
+    projections = np.empty(count)
     at, pull = np.empty(dims), np.empty(dims)
     for i in range(start, stop):
         for d in range(dims):
             at[d] = 0
         for k in range(count):
-            along[k] = 0
+            projections[k] = 0
             for d in range(dims):
                 across[k, d] = points[neighbors[i, k], d] - points[i, d]
-                along[k] += across[k, d] * directions[i, d]
+                projections[k] += across[k, d] * directions[i, d]
             for d in range(dims):
-                across[k, d] -= along[k] * directions[i, d]
+                across[k, d] -= projections[k] * directions[i, d]
                 at[d] += across[k, d] / count
         for _ in range(MOST_STEPS):
             weights = distances = strength = 0.0
-            met = 0
+            coincident = 0
             for d in range(dims):
                 pull[d] = 0
             for k in range(count):
-                square = along[k] * along[k]
+                square = projections[k] * projections[k]
                 for d in range(dims):
                     square += (across[k, d] - at[d]) ** 2
                 if square == 0:
-                    met += 1
+                    coincident += 1
                     continue
                 distance = np.sqrt(square)
                 distances += distance
@@ -62,9 +62,9 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
             for d in range(dims):
                 strength += pull[d] * pull[d]
             strength = np.sqrt(strength)
-            if strength <= met:
+            if strength <= coincident:
                 break
-            share = (1 - met / strength) / weights
+            share = (1 - coincident / strength) / weights
             for d in range(dims):
                 at[d] += share * pull[d]
             if share * strength <= PRECISION * distances / count:

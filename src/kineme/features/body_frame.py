@@ -4,15 +4,14 @@ Positions relative to the pelvis, turned about the vertical frame by frame so
 that the body always faces the same way. Height differences, pitch and roll
 stay; limbs are not scaled.
 
-The facing comes from one axis of the pelvis, the one that points from the right
-hip to the left at rest. The authors' program uses the root's +x, which is that
-axis in CMU's files; other exporters turn their root frames, so the axis is
-looked up in the skeleton and snapped to the nearest of +-x, +-y, +-z. A motion
-without rotations uses the line through the hips instead.
+The facing comes from one axis of the pelvis, the one that points from the right hip to the left at
+rest. The authors' program uses the root's +x, which is that axis in CMU's files. Other exporters
+turn their root frames. So the axis is looked up in the skeleton: the nearest of +-x, +-y, +-z. A
+motion without rotations uses the line through the hips instead.
 
-Where that axis stands upright (a body on its side, in a cartwheel) there is no
-facing: the frame takes the facing of the nearest frame that has one, the
-earlier of two equally near. A motion without any is left unturned.
+Where that axis stands upright (a body on its side, in a cartwheel) there is no facing. Then the
+frame takes that of the nearest frame that has one, the earlier of two equally near. A motion
+without any is left unturned.
 """
 
 from __future__ import annotations
@@ -55,6 +54,14 @@ def body_frame(
     References
     ----------
     Voegele et al. 2014, section 3.1; heading as in the authors' program.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features import body_frame
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> body_frame(motion).shape == motion.positions.shape
+    True
     """
     pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
     positions = motion.positions if joints is None else motion.positions[:, joints]
@@ -70,6 +77,15 @@ def heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[i
 
     Radians about the vertical, positive towards +x: what ``body_frame`` takes
     away. Arguments and errors are those of ``body_frame``.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features import heading
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> pelvis, angles = heading(motion)
+    >>> motion.skeleton.names[pelvis], angles.shape
+    ('Hips', (2898,))
     """
     pelvis, cos, sin = _turns(motion, effectors or end_effectors(motion))
     return pelvis, np.arctan2(-sin, cos)[:, 0]
@@ -135,11 +151,11 @@ def _turned_axis(
 def _facing(to_left: Floats) -> tuple[Floats, Floats]:
     """Cosine and sine, (frames, 1) each, of the turn that brings the axis to +x."""
     length = np.hypot(to_left[:, 0], to_left[:, 2])
-    known = np.flatnonzero(length > _UPRIGHT)
-    if len(known) == 0:
+    upright = np.flatnonzero(length > _UPRIGHT)
+    if len(upright) == 0:
         return np.ones((len(length), 1)), np.zeros((len(length), 1))
-    if len(known) < len(length):
-        middles = (known[:-1] + known[1:]) / 2
-        nearest = known[np.searchsorted(middles, np.arange(len(length)))]
+    if len(upright) < len(length):
+        middles = (upright[:-1] + upright[1:]) / 2
+        nearest = upright[np.searchsorted(middles, np.arange(len(length)))]
         to_left, length = to_left[nearest], length[nearest]
     return (to_left[:, 0] / length)[:, None], (to_left[:, 2] / length)[:, None]

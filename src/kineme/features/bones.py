@@ -1,8 +1,8 @@
-"""Whether points are those of a body, told by its bones: of channels nobody said what they are.
+"""Whether points are those of a body, by its bones: for channels without a skeleton.
 
-However a body moves, each of its points keeps its distance from some other
-one, as a wrist from its elbow, while both go elsewhere; and others come nearer
-and part, which those of a box do not. What sensors measure does neither.
+However a body moves, each of its points keeps its distance from some other one, as a wrist from its
+elbow, while both go elsewhere. Others come nearer and part, which the points of a box do not. What
+sensors measure does neither.
 """
 
 from __future__ import annotations
@@ -44,14 +44,14 @@ def have_bones(positions: ArrayLike) -> bool:
     >>> have_bones(np.random.default_rng(0).standard_normal((400, 5, 3)))
     False
     """
-    held = np.asarray(positions, np.float64)
-    held = held[:: max(1, len(held) // _FRAMES)]
-    if held.shape[1] < POINTS:
+    array = np.asarray(positions, np.float64)
+    array = array[:: max(1, len(array) // _FRAMES)]
+    if array.shape[1] < POINTS:
         return False
-    moved = held.var(axis=0).sum(axis=1)
+    moved = array.var(axis=0).sum(axis=1)
     bent = False
-    for point in range(held.shape[1]):
-        distances = np.linalg.norm(held - held[:, point, None], axis=2)
+    for point in range(array.shape[1]):
+        distances = np.linalg.norm(array - array[:, point, None], axis=2)
         deviation = distances.std(axis=0)
         both = np.sqrt(moved + moved[point])
         tied = deviation < TIED * both

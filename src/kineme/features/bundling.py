@@ -1,11 +1,10 @@
 """Feature bundling: repetitions of a movement drawn together into one strand.
 
-Seen as a curve in the space of the features, somebody who repeats a movement
-draws strands side by side: each repetition differs a little. Bundling moves
-every frame towards the middle of the frames that look like it, but only at
-right angles to its own direction of movement, so that the strands close up and
-time along them stays as it is. Afterwards a smaller radius tells repetitions
-from other movements.
+Seen as a curve in the space of the features, somebody who repeats a movement draws strands side by
+side: each repetition differs a little. Bundling moves every frame towards the middle of similar
+frames, but only at right angles to its own direction of movement. So curves of the same movement
+close up, and their timing stays as it is. Afterwards a smaller radius tells repetitions from other
+movements.
 
 1. Principal components: the fewest that hold 98 % of the variance.
 2. Each frame's direction: a five-point derivative, smoothed by a binomial filter.
@@ -42,7 +41,7 @@ BINOMIAL = np.array([comb(10, k) for k in range(11)]) / 2**10
 
 
 def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) -> Floats:
-    """The features (frames, dims) with every frame moved towards those that look like it.
+    """The features (frames, dims) with every frame moved towards similar ones.
 
     What the principal components leave out is lost: the result lies in their
     space. Turning, moving or scaling the features does the same to the result.
@@ -50,7 +49,7 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
     Parameters
     ----------
     features : array_like of shape (frames, dims)
-        Search vectors in the order of time, finite, in any unit.
+        Stacked features in the order of time, finite, in any unit.
     neighbors : int
         Frames that each frame moves towards: its nearest, without itself. At
         least as many are taken as there are components.
@@ -66,6 +65,17 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
     References
     ----------
     Krueger et al. 2017, section III; constants as in the authors' program.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import kineme
+    >>> angle = np.arange(200) / 8
+    >>> noise = np.random.default_rng(0).normal(scale=0.1, size=(200, 2))
+    >>> circle = np.stack([np.cos(angle), np.sin(angle)], axis=1) + noise
+    >>> bundled = kineme.bundle(circle, neighbors=8)
+    >>> bool(np.hypot(*bundled.T).std() < np.hypot(*circle.T).std())
+    True
     """
     points = as_features(features, "features to bundle")
     if not (is_number(neighbors) and neighbors >= 1 and is_number(variance) and 0 < variance <= 1):
@@ -91,8 +101,8 @@ def _principal_axes(centered: Floats, variance: float) -> Floats:
     """(dims, components): the fewest orthonormal axes that hold this share of the variance."""
     spread, axes = np.linalg.eigh(centered.T @ centered)
     spread, axes = np.maximum(spread[::-1], 0), axes[:, ::-1]
-    held = np.cumsum(spread)
-    enough = int(np.searchsorted(held, variance * held[-1])) + 1
+    totals = np.cumsum(spread)
+    enough = int(np.searchsorted(totals, variance * totals[-1])) + 1
     return axes[:, : max(enough, FEWEST_COMPONENTS)]
 
 

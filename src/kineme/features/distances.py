@@ -1,15 +1,14 @@
 """Poses without a body: the distances between their points.
 
-Where ankles, head and wrists cannot all be found, as among the markers of two
-legs or on a wheelchair, a pose is told by how far its points are from each
-other. That depends neither on where they are, nor on the direction they face,
-nor on which axis points up.
+Where ankles, head and wrists cannot all be found, a pose is described by how far its points are
+from each other: markers of two legs, say, or of a wheelchair. That depends neither on where they
+are, nor on the direction they face, nor on which axis points up.
 
-Of many points some that lie far apart stand for all. Each distance counts by
-the root of its deviation, halfway between metres, in which the largest movement
-hides all others, and standard deviations, in which noise counts as much as
-movement. What their fifteen main axes hold is scaled so that it varies as the
-fifteen numbers of a pose do, whose methods and constants then apply.
+Of many points some that lie far apart stand for all. Each distance counts by the root of its
+deviation. That is halfway between metres, in which the largest movement hides all others, and
+standard deviations, in which noise counts as much as movement. What their fifteen main axes hold is
+scaled so that it varies as the fifteen numbers of a pose do, whose methods and constants then
+apply.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ MOST_POINTS = 16
 CONSIDERED = 1000
 """Points of which some are taken; of more, so many: there are as many distances squared."""
 _FRAMES = 200  # enough to tell how points lie and move
-_ALIKE = 0.01  # of the largest distance: two points nearer than this are one
+_SAME = 0.01  # of the largest distance: two points nearer than this are one
 _CONSTANT = 0.001  # of the largest distance: by less than this, a distance does not vary
 _STILL = 0.01  # of the largest movement: less than this is none
 _APART = 0.5  # of its movement: a point's distance from what it is fixed to varies less
@@ -61,18 +60,27 @@ def distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     Rows are in time order: what sticks out for one frame is left out. They are
     centred. Moving, turning and scaling the whole changes no distance between
     two of them, but what an axis stands for is arbitrary.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features import distance_features
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> features, points = distance_features(motion.positions)
+    >>> features.shape
+    (2898, 15)
     """
-    held = np.asarray(positions, np.float64)
-    if held.shape[1] < 2:
+    array = np.asarray(positions, np.float64)
+    if array.shape[1] < 2:
         raise MotionError("a single point is in no distance: segment its coordinates as signals")
-    points = spread_points(held)
-    features = _without_spikes(_distances(held[:, points]))
+    points = spread_points(array)
+    features = _without_spikes(_distances(array[:, points]))
     largest = float(features.mean(axis=0).max(initial=0))
     features -= features.mean(axis=0)
     deviation = features.std(axis=0)
     varies = deviation > _CONSTANT * largest
     if not varies.any():
-        return np.zeros((len(held), 1)), points
+        return np.zeros((len(array), 1)), points
     features, deviation = features[:, varies], deviation[varies]
     features *= VARIATION / np.sqrt(deviation * deviation.sum())
     if features.shape[1] > AXES:
@@ -92,17 +100,17 @@ def spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
     positions : ndarray of shape (frames, points, 3)
     """
     n = positions.shape[1]
-    taken = np.arange(min(n, CONSIDERED)) * n // min(n, CONSIDERED)
-    few = positions[:: max(1, len(positions) // _FRAMES), taken]
+    considered = np.arange(min(n, CONSIDERED)) * n // min(n, CONSIDERED)
+    few = positions[:: max(1, len(positions) // _FRAMES), considered]
     apart, varying = _mean_and_deviation(few)
     kept = np.flatnonzero(~_of_the_lab(few, varying))
     apart, varying = apart[np.ix_(kept, kept)], varying[np.ix_(kept, kept)]
     chosen = [int(varying.sum(axis=1).argmax())]
     nearest = apart[chosen[0]]
-    while len(chosen) < most and nearest.max() > _ALIKE * apart.max():
+    while len(chosen) < most and nearest.max() > _SAME * apart.max():
         chosen.append(int(nearest.argmax()))
         nearest = np.minimum(nearest, apart[chosen[-1]])
-    return np.sort(taken[kept[chosen]])
+    return np.sort(considered[kept[chosen]])
 
 
 def _of_the_lab(positions: Floats, varying: Floats) -> NDArray[np.bool_]:
@@ -130,7 +138,7 @@ def _mean_and_deviation(positions: Floats) -> tuple[Floats, Floats]:
 def _without_spikes(values: Floats) -> Floats:
     """Each value the median of itself and its two neighbours in time.
 
-    A marker that is taken for another for a moment would outweigh all movement.
+    A marker that is taken for another for a frame or two would outweigh all movement.
     """
     before, here, after = values[:-2], values[1:-1], values[2:]
     middle = np.maximum(np.minimum(before, here), np.minimum(np.maximum(before, here), after))

@@ -43,6 +43,13 @@ class EndEffectors:
 
     ``how`` has one entry per part in the order of ``indices``: "as named",
     "by ASF name", "by name" or "by shape".
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> kineme.end_effectors(motion).how
+    ('by name', 'by name', 'by name', 'by name', 'by name')
     """
 
     left_ankle: int
@@ -86,6 +93,14 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     ----------
     Voegele et al. 2014, section 3.1; the choice of tips as in the authors'
     program.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> effectors = kineme.end_effectors(motion)
+    >>> motion.skeleton.names[effectors.head]
+    'Head_end'
     """
     check_type(source, (Motion, Skeleton), "end_effectors", "kineme.read(path) gives a motion")
     skeleton = source.skeleton if isinstance(source, Motion) else source

@@ -40,6 +40,15 @@ def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> ND
     ------
     ParameterError
         A cutoff that the sampling rate does not reach.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import kineme
+    >>> burst = np.sin(np.arange(2000.0)) * (np.arange(2000) > 1000)
+    >>> envelope = kineme.emg_envelope(burst, 1000.0)
+    >>> bool(envelope[1500] > 10 * envelope[500])
+    True
     """
     from scipy.signal import butter, sosfiltfilt
 

@@ -44,6 +44,13 @@ def mirror(motion: Motion) -> Motion:
     ------
     MotionError
         No joint has a counterpart on the other side by name, or a limb has no equal there.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> bool(kineme.mirror(motion).positions[0, 0, 0] == -motion.positions[0, 0, 0])
+    True
     """
     check_motion(motion, "mirror")
     partners = _partners(motion.skeleton)
@@ -70,6 +77,15 @@ def mirror_features(features: ArrayLike) -> Floats:
     ------
     ParameterError
         No such features.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> features = kineme.pose_features(motion)
+    >>> mirrored = kineme.mirror_features(features)
+    >>> bool((kineme.mirror_features(mirrored) == features).all())
+    True
     """
     values = as_floats(features, "features")
     block = 3 * len(PARTS)

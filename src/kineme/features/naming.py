@@ -1,10 +1,9 @@
 """Joint names, as the usual programs write them, taken apart.
 
-``mixamorig:LeftHand``, ``Bip01 L Hand``, ``hand_l``, ``hand.L``, ``lhand`` and
-``WristLeft`` all say a side and a part; what comes before them is a prefix.
-A joint is matched when its name, without side, numbers and prefix, ends in one
-of the words asked for; the shortest prefix wins (``foot_l`` before
-``ik_foot_l``), then the joint nearer to the root.
+``mixamorig:LeftHand``, ``Bip01 L Hand``, ``hand_l``, ``hand.L``, ``lhand`` and ``WristLeft`` all
+say a side and a part; what comes before them is a prefix. A joint is matched when its name, without
+side, numbers and prefix, ends in one of the words asked for. The shortest prefix wins (``foot_l``
+before ``ik_foot_l``), then the joint nearer to the root.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from functools import lru_cache
 _SIDES = {"l": "left", "left": "left", "r": "right", "right": "right"}
 _NOT_THE_JOINT = frozenset({"ik", "pole", "target", "twist", "roll", "ctrl", "prop", "goal"})
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
-_GLUED_SIDE = re.compile(r"(left|right|l|r)([a-z]+)")
+_SIDE_PREFIX = re.compile(r"(left|right|l|r)([a-z]+)")
 
 
 def find_by_name(names: Sequence[str], words: Sequence[str], side: str | None) -> int | None:
@@ -56,8 +55,8 @@ def part_and_side(name: str) -> tuple[str, str]:
         if word in _SIDES:
             del words[place]
             return "".join(words), _SIDES[word]
-    glued = _GLUED_SIDE.fullmatch(words[-1]) if words else None
-    return (glued[2], _SIDES[glued[1]]) if glued else ("".join(words), "")
+    side_prefix = _SIDE_PREFIX.fullmatch(words[-1]) if words else None
+    return (side_prefix[2], _SIDES[side_prefix[1]]) if side_prefix else ("".join(words), "")
 
 
 @lru_cache(maxsize=4096)
@@ -70,9 +69,9 @@ def _words_before(name: str, word: str, side: str | None) -> int | None:
             found_side = _SIDES[candidate]
             del words[place]
             break
-    glued = _GLUED_SIDE.fullmatch(words[-1]) if found_side is None and words else None
-    if glued and glued[2] == word:
-        found_side, words[-1] = _SIDES[glued[1]], word
+    side_prefix = _SIDE_PREFIX.fullmatch(words[-1]) if found_side is None and words else None
+    if side_prefix and side_prefix[2] == word:
+        found_side, words[-1] = _SIDES[side_prefix[1]], word
     if not words or words[-1] != word or found_side != side:
         return None
     prefix = words[:-1]

@@ -36,10 +36,10 @@ def cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -
     """
     floor_a, height_a, _ = _clouds(points, np.arange(rows.start, rows.stop), half)
     floor_b, height_b, _ = _clouds(points, np.arange(columns.start, columns.stop), half)
-    own_a = (np.abs(floor_a) ** 2).sum(1) + (height_a**2).sum(1)
-    own_b = (np.abs(floor_b) ** 2).sum(1) + (height_b**2).sum(1)
+    squares_a = (np.abs(floor_a) ** 2).sum(1) + (height_a**2).sum(1)
+    squares_b = (np.abs(floor_b) ** 2).sum(1) + (height_b**2).sum(1)
     shared = np.abs(floor_a.conj() @ floor_b.T) + height_a @ height_b.T
-    squares = own_a[:, None] + own_b - 2 * shared
+    squares = squares_a[:, None] + squares_b - 2 * shared
     distances: Floats = np.sqrt(np.maximum(squares, 0) / floor_a.shape[1])
     return distances
 

@@ -40,6 +40,13 @@ def pose_features(motion: Motion, *, effectors: EndEffectors | Names | None = No
     References
     ----------
     Voegele et al. 2014, section 3.1 (feature set of 15 values).
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> kineme.pose_features(motion).shape
+    (2898, 15)
     """
     check_motion(motion, "pose_features")
     if not isinstance(effectors, EndEffectors):
@@ -68,6 +75,12 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
     ------
     ParameterError
         Features are not two-dimensional or empty, or there are no offsets or equal ones.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> kineme.stack([[0.0], [1.0], [2.0]], [-1, 0]).tolist()
+    [[-1.0, 0.0], [0.0, 1.0], [1.0, 2.0]]
     """
     features = as_floats(features, "features")
     offsets = as_indices(offsets, "offsets")
@@ -91,6 +104,12 @@ def offsets_in_frames(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]
     ------
     ParameterError
         An offset is not a number, or two become the same frame.
+
+    Examples
+    --------
+    >>> from kineme.features import offsets_in_frames
+    >>> offsets_in_frames([-0.1, 0.0, 0.1], 30.0)
+    (-3, 0, 3)
     """
     if not (fps > 0 and np.isfinite(fps)):
         raise ParameterError(f"fps must be a positive number, not {fps!r}")

@@ -1,17 +1,16 @@
-"""Rides: what carries a person who stands still, such as a lift, told by accelerometers alone.
+"""Rides: what carries a person who stands still, such as a lift, from accelerometers alone.
 
-A lift changes neither how a sensor hangs nor how it is shaken, so posture and
-energy do not show it. But at rest an accelerometer reads gravity, whose length
-is the same however it hangs; and while a lift gathers speed, all of them read
-more or less than that by the same share, without being turned. The sum of these
-pulses is the speed of the lift: it rises, stays, and comes back to nothing.
+A lift changes neither how a sensor hangs nor how it is shaken, so posture and energy do not show
+it. But at rest an accelerometer reads gravity, whose length is the same however it hangs. While a
+lift gathers speed, all of them read more or less than that by the same share, without being turned.
+The sum of these pulses is the speed of the lift: it rises, stays, and comes back to nothing.
 
 Three things make this safe where nobody rides. Only channels are taken whose
 length at rest is one, which no gyroscope and no place in a room has. There must
 be two such sensors at least, which feel the same: who sits down moves as a
 whole, too. And a pulse must be taken back by another.
 
-Source: speed by integrating acceleration between moments at rest is that of
+Source: speed by integrating acceleration between frames at rest is that of
 inertial navigation (zero velocity updates); the rest is ours.
 """
 
@@ -40,7 +39,7 @@ OVER = 15.0
 """Seconds whose median tells how a sensor hangs."""
 SHAKEN, TURNED = 0.1, 0.15
 """Shares of gravity: who is shaken or turned by more is on the move."""
-ALIKE = 0.3
+EQUAL = 0.3
 """Shares that differ by less of their mean, from sensor to sensor, are the same."""
 LEAST = 0.06
 """Least acceleration of a pulse, m/s²."""
@@ -56,7 +55,14 @@ the end belongs to it."""
 
 
 class Ride(NamedTuple):
-    """Frames ``[start, stop)`` in which all is carried at a speed of m/s, upwards above 0."""
+    """Frames ``[start, stop)`` in which all is carried at a speed of m/s, upwards above 0.
+
+    Examples
+    --------
+    >>> from kineme.features.rides import Ride
+    >>> Ride(start=100, stop=400, speed=-1.5).speed < 0  # downwards
+    True
+    """
 
     start: int
     stop: int
@@ -88,14 +94,14 @@ def rides(values: ArrayLike, fps: float) -> list[Ride]:
     >>> round(ride.start / 50), round(ride.stop / 50), round(ride.speed)
     (10, 21, 1)
     """
-    held = np.asarray(values, np.float64)
-    largest = np.abs(held).max(initial=0.0)
-    if fps < RATE or len(held) < OVER * fps or largest == 0:
+    array = np.asarray(values, np.float64)
+    largest = np.abs(array).max(initial=0.0)
+    if fps < RATE or len(array) < OVER * fps or largest == 0:
         return []
-    acceleration = _shared_acceleration(*_sampled(held / largest, fps))
+    acceleration = _shared_acceleration(*_sampled(array / largest, fps))
     frames = fps / RATE
     return [
-        Ride(round(start * frames), min(round(stop * frames), len(held)), speed)
+        Ride(round(start * frames), min(round(stop * frames), len(array)), speed)
         for start, stop, speed in _rides(_pulses(acceleration))
     ]
 
@@ -132,7 +138,7 @@ def _accelerometers(means: Floats, variances: Floats) -> tuple[int, ...]:
 
 
 def _shared_acceleration(means: Floats, variances: Floats) -> Floats:
-    """What most sensors feel alike along gravity while they are not turned, m/s²; 0 elsewhere."""
+    """Acceleration along gravity that most sensors share while not turned, m/s²; else 0."""
     from scipy.ndimage import median_filter
 
     sensors = _accelerometers(means, variances)
@@ -148,12 +154,12 @@ def _shared_acceleration(means: Floats, variances: Floats) -> Floats:
         shaken = np.sqrt(variances[:, axes].sum(axis=1))
         shares.append(share - 1)
         carried.append((turned < TURNED * gravity) & (shaken < SHAKEN * gravity))
-    held, counted = np.array(shares), np.array(carried)
+    changes, counted = np.array(shares), np.array(carried)
     count = np.maximum(counted.sum(axis=0), 1)
-    mean = (held * counted).sum(axis=0) / count
-    spread = np.sqrt(((held - mean) ** 2 * counted).sum(axis=0) / count)
+    mean = (changes * counted).sum(axis=0) / count
+    spread = np.sqrt(((changes - mean) ** 2 * counted).sum(axis=0) / count)
     most = (counted.sum(axis=0) >= SENSORS) & (2 * counted.sum(axis=0) > len(sensors))
-    return np.where(most & (spread < ALIKE * np.abs(mean)), GRAVITY * mean, 0.0)
+    return np.where(most & (spread < EQUAL * np.abs(mean)), GRAVITY * mean, 0.0)
 
 
 def _pulses(acceleration: Floats) -> list[Ride]:

@@ -1,9 +1,8 @@
 """How the joints of a body are turned: what the baselines see of a pose.
 
-Barbič et al. (2004) chose 14 joints and left the root out; Zhou et al. (2013)
-took them over. Their program maps the raw Euler angles of AMC files;
-``Motion.rotations`` are the same rotations seen in other axes, constant per
-joint, which turns each log map as a whole and so changes no distance.
+Barbič et al. (2004) chose 14 joints and left the root out; Zhou et al. (2013) took them over. Their
+program maps the raw Euler angles of AMC files. ``Motion.rotations`` are the same rotations in other
+axes, constant per joint: each log map is turned as a whole, and no distance changes.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How large a body is, so that distances can be told in bodies and not in metres."""
+"""How large a body is, so that distances can be given in body sizes and not in metres."""
 
 from __future__ import annotations
 
@@ -20,6 +20,14 @@ def body_size(motion: Motion, effectors: EndEffectors) -> float:
     ------
     MotionError
         The bones have no length.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features import body_size
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> round(body_size(motion, kineme.end_effectors(motion)), 2)
+    1.72
     """
     legs = [_chain(motion, joint) for joint in (effectors.left_ankle, effectors.right_ankle)]
     size = float(np.mean(legs)) + _chain(motion, effectors.head)

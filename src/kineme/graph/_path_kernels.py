@@ -60,7 +60,7 @@ def empty_ring(steps, width):
     " int64[:, ::1], int64)",
     **OPTIONS,
 )
-def enter_row(ring, line, looks, r, indices, first, node, steps, offset):
+def enter_row(ring, line, slots, r, indices, first, node, steps, offset):
     """Put row r into the ring in place of the row that falls out of reach.
 
     Afterwards the node one step s before column j of row r is
@@ -76,7 +76,7 @@ def enter_row(ring, line, looks, r, indices, first, node, steps, offset):
     for v in range(node[r], node[r + 1]):
         ring[here + indices[v + shift]] = v
     for s in range(len(steps)):
-        looks[s] = ((r - steps[s, 0]) % depth) * line + offset - steps[s, 1]
+        slots[s] = ((r - steps[s, 0]) % depth) * line + offset - steps[s, 1]
 
 
 @njit("int32[::1](int32[::1], int64[::1], int64[::1], int64[:, ::1], int64, int64)", **OPTIONS)
@@ -85,15 +85,15 @@ def component_roots(indices, first, node, steps, column_start, width):
     n = node[-1]
     parents = np.empty(n, np.int32)
     ring, line, reach = empty_ring(steps, width)
-    looks = np.empty(len(steps), np.int64)
+    slots = np.empty(len(steps), np.int64)
     for r in range(len(first)):
-        enter_row(ring, line, looks, r, indices, first, node, steps, reach - column_start)
+        enter_row(ring, line, slots, r, indices, first, node, steps, reach - column_start)
         shift = first[r] - node[r]
         for v in range(node[r], node[r + 1]):
             j = indices[v + shift]
             root = np.int32(v)
-            for look in looks:
-                u = ring[look + j]
+            for slot in slots:
+                u = ring[slot + j]
                 if u < 0 or u >= v:
                     continue
                 up = parents[u]
@@ -121,33 +121,33 @@ def component_roots(indices, first, node, steps, column_start, width):
     **OPTIONS,
 )
 def cheapest_arrivals(
-    indices, distances, first, node, steps, penalties, column_start, width, roots, wanted, zero_cost
+    indices, distances, first, node, steps, penalties, column_start, width, roots, valid, zero_cost
 ):
     """Cost, predecessor and first column of the cheapest path to every node.
 
     Paths begin at any node of the first row of their component. A node costs
     its distance, ``zero_cost`` where that is zero, and the penalty of the step
-    that led there. Nodes of components that are not ``wanted`` are skipped.
+    that led there. Nodes of components that are not ``valid`` are skipped.
     """
     n = node[-1]
     costs = np.full(n, np.inf)
     before = np.full(n, -1, np.int32)
     origins = np.full(n, -1, np.int32)
     ring, line, reach = empty_ring(steps, width)
-    looks = np.empty(len(steps), np.int64)
+    slots = np.empty(len(steps), np.int64)
     for r in range(len(first)):
-        enter_row(ring, line, looks, r, indices, first, node, steps, reach - column_start)
+        enter_row(ring, line, slots, r, indices, first, node, steps, reach - column_start)
         shift = first[r] - node[r]
         for v in range(node[r], node[r + 1]):
-            if not wanted[roots[v]]:
+            if not valid[roots[v]]:
                 continue
             j = indices[v + shift]
             best = np.inf
             if roots[v] >= node[r]:
                 best = 0.0
                 origins[v] = j
-            for s in range(len(looks)):
-                u = ring[looks[s] + j]
+            for s in range(len(slots)):
+                u = ring[slots[s] + j]
                 if u >= 0 and costs[u] + penalties[s] < best:
                     best = costs[u] + penalties[s]
                     before[v] = u
@@ -164,21 +164,21 @@ def survey_components(roots, node, min_nodes):
     n = node[-1]
     counts = np.zeros(n, np.int64)
     last_rows = np.zeros(n, np.int64)
-    wanted = np.zeros(n, np.bool_)
+    valid = np.zeros(n, np.bool_)
     for r in range(len(node) - 1):
         for v in range(node[r], node[r + 1]):
             root = roots[v]
             counts[root] += 1
             last_rows[root] = r
-            wanted[root] = root < node[r] and counts[root] >= min_nodes
-    return wanted, last_rows
+            valid[root] = root < node[r] and counts[root] >= min_nodes
+    return valid, last_rows
 
 
 @njit(
     "int32[::1](int32[::1], boolean[::1], int64[::1], float64[::1], int32[::1], int64[::1], int64)",
     **OPTIONS,
 )
-def choose_ends(roots, wanted, last_rows, costs, origins, node, separation):
+def choose_ends(roots, valid, last_rows, costs, origins, node, separation):
     """Nodes of the last row of each component at which a path ends, cheapest first.
 
     Of two ends whose paths begin less than ``separation`` columns apart the
@@ -189,7 +189,7 @@ def choose_ends(roots, wanted, last_rows, costs, origins, node, separation):
         rest = [
             v
             for v in range(node[r], node[r + 1])
-            if wanted[roots[v]] and last_rows[roots[v]] == r and costs[v] < np.inf
+            if valid[roots[v]] and last_rows[roots[v]] == r and costs[v] < np.inf
         ]
         while len(rest) > 0:
             end = rest[0]
@@ -220,12 +220,12 @@ def paths_in_box(
     first, node = box_rows(indptr, indices, row_start, row_stop, column_start, column_stop)
     column_start, width = used_columns(indices, first, node)
     roots = component_roots(indices, first, node, steps, column_start, width)
-    wanted, last_rows = survey_components(roots, node, min_nodes)
+    valid, last_rows = survey_components(roots, node, min_nodes)
     costs, before, origins = cheapest_arrivals(
-        indices, distances, first, node, steps, penalties, column_start, width, roots, wanted,
+        indices, distances, first, node, steps, penalties, column_start, width, roots, valid,
         zero_cost,
     )  # fmt: skip
-    ends = choose_ends(roots, wanted, last_rows, costs, origins, node, separation)
+    ends = choose_ends(roots, valid, last_rows, costs, origins, node, separation)
     ptr = np.zeros(len(ends) + 1, np.int64)
     for p in range(len(ends)):
         v = ends[p]

@@ -1,4 +1,4 @@
-"""Neighbour graph: for every frame, the frames that look like it.
+"""Neighbour graph: for every frame, the frames that are similar to it.
 
 A sparse self-similarity matrix. Search is exact: blocks of one float32 matrix
 product estimate all distances, and every pair that may lie within the radius
@@ -44,6 +44,14 @@ class NeighborGraph:
         Frames that could be neighbours.
     radius : float
         The radius searched.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> graph = kineme.neighbor_graph([[0.0], [0.1], [5.0]], radius=1.0)
+    >>> frames, distances = graph[0]
+    >>> frames.tolist()
+    [0, 1]
     """
 
     indptr: NDArray[np.int64]
@@ -156,6 +164,13 @@ def neighbor_graph(
     ------
     ParameterError
         Shapes disagree, values are not finite, or a parameter is out of range.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> graph = kineme.neighbor_graph([[0.0], [0.1], [5.0]], radius=1.0)
+    >>> len(graph), graph.counts.tolist()
+    (3, [2, 2, 1])
     """
     rows = as_features(features)
     columns = rows if others is None else as_features(others, "others")

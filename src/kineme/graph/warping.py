@@ -35,6 +35,14 @@ class WarpingPaths:
 
     Held flat: path p is ``rows[ptr[p]:ptr[p + 1]]`` and the same of
     ``columns``; ``costs[p]`` is the sum over its nodes.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> graph = kineme.neighbor_graph([[0.0], [1.0], [0.0], [1.0]], radius=0.1)
+    >>> paths = kineme.warping_paths(graph, (0, 2), (2, 4))
+    >>> len(paths), paths.costs.tolist()
+    (1, [2e-06])
     """
 
     ptr: NDArray[np.int64]
@@ -123,6 +131,14 @@ def warping_paths(
         least this far apart; by default only the cheapest is kept.
     max_slope : float, optional
         Paths steeper than this, or flatter than its inverse, are dropped.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> graph = kineme.neighbor_graph([[0.0], [1.0], [0.0], [1.0]], radius=0.1)
+    >>> rows, columns = kineme.warping_paths(graph, (0, 2), (2, 4))[0]
+    >>> rows.tolist(), columns.tolist()
+    ([0, 1], [2, 3])
     """
     check_type(graph, NeighborGraph, "warping_paths", "kineme.neighbor_graph(...) gives one")
     rows, columns = _box(rows, "rows"), _box(columns, "columns")
@@ -160,6 +176,14 @@ def component_labels(
 
     The label is the position of the first stored pair of the component, so
     pairs that share the label of pair (0, 0) lie on the main diagonal's.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.graph import component_labels
+    >>> graph = kineme.neighbor_graph([[0.0], [1.0], [0.0], [1.0]], radius=0.1)
+    >>> component_labels(graph).tolist()
+    [0, 1, 0, 1, 4, 0, 4, 0]
     """
     indptr = graph.indptr
     labels: NDArray[np.int32] = _path_kernels.component_roots(
@@ -180,8 +204,8 @@ def _as_steps(steps: Sequence[Step]) -> NDArray[np.int64]:
         given = np.array(steps)
     except ValueError:  # of different lengths
         given = np.empty(0)
-    whole = given.dtype.kind in "iu" and given.ndim == 2 and given.shape[1] == 2
-    moves = given.astype(np.int64) if whole else np.empty((0, 2), np.int64)
+    integral = given.dtype.kind in "iu" and given.ndim == 2 and given.shape[1] == 2
+    moves = given.astype(np.int64) if integral else np.empty((0, 2), np.int64)
     if not len(moves) or moves.min() < 0 or (moves.sum(axis=1) == 0).any():
         raise ParameterError(
             f"warping steps are pairs (a, b) from 0, not both 0; got {steps!r:.60}"

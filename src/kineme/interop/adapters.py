@@ -32,13 +32,30 @@ if TYPE_CHECKING:
 
 
 def to_ruptures(segmentation: Segmentation, *, level: Level = "activity") -> list[int]:
-    """The ends of all segments, ``n_frames`` the last, as ruptures' ``predict`` gives them."""
+    """The ends of all segments, ``n_frames`` the last, as ruptures' ``predict`` gives them.
+
+    Examples
+    --------
+    >>> from kineme import read_segments
+    >>> from kineme.datasets import bundled_truth
+    >>> from kineme.interop.adapters import to_ruptures
+    >>> truth = read_segments(bundled_truth(), fps=60)
+    >>> to_ruptures(truth)[:3]
+    [326, 380, 928]
+    """
     stops: list[int] = segmentation.level(level).stop_frame.tolist()
     return stops
 
 
 def from_ruptures(breakpoints: Sequence[int], *, fps: float) -> Segmentation:
-    """Activities that end at the breakpoints; the last of them is the number of frames."""
+    """Activities that end at the breakpoints; the last of them is the number of frames.
+
+    Examples
+    --------
+    >>> from kineme.interop.adapters import from_ruptures
+    >>> from_ruptures([40, 100], fps=10).activities.stop_s.tolist()
+    [4.0, 10.0]
+    """
     ends = _frames(breakpoints, "breakpoints")
     if not len(ends):
         raise ParameterError("breakpoints must hold at least the number of frames")
@@ -50,12 +67,28 @@ def to_aeon(segmentation: Segmentation, *, level: Level = "activity") -> NDArray
 
     aeon's other convention, a label for each frame, is
     `kineme.Segmentation.per_frame`.
+
+    Examples
+    --------
+    >>> from kineme import read_segments
+    >>> from kineme.datasets import bundled_truth
+    >>> from kineme.interop.adapters import to_aeon
+    >>> truth = read_segments(bundled_truth(), fps=60)
+    >>> to_aeon(truth)[:3].tolist()
+    [326, 380, 928]
     """
     return segmentation.cuts(level)
 
 
 def from_aeon(change_points: ArrayLike, *, n_frames: int, fps: float) -> Segmentation:
-    """Activities that meet at the change points; claspy's, too, leave out both ends."""
+    """Activities that meet at the change points; claspy's, too, leave out both ends.
+
+    Examples
+    --------
+    >>> from kineme.interop.adapters import from_aeon
+    >>> from_aeon([40], n_frames=100, fps=10).activities.stop_s.tolist()
+    [4.0, 10.0]
+    """
     cuts = _frames(change_points, "change_points")
     return _activities([0, *cuts, n_frames], [""] * (len(cuts) + 1), fps)
 
@@ -67,6 +100,15 @@ def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.Da
     ------
     MissingDependencyError
         pandas is not installed.
+
+    Examples
+    --------
+    >>> from kineme import read_segments
+    >>> from kineme.datasets import bundled_truth
+    >>> from kineme.interop.adapters import to_sktime
+    >>> truth = read_segments(bundled_truth(), fps=60)
+    >>> to_sktime(truth)["labels"][0]
+    'walk'
     """
     try:
         import pandas as pd
@@ -78,7 +120,17 @@ def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.Da
 
 
 def from_sktime(segments: pd.DataFrame, *, fps: float) -> Segmentation:
-    """Activities from intervals that touch; texts from ``labels`` where there are any."""
+    """Activities from intervals that touch; texts from ``labels`` where there are any.
+
+    Examples
+    --------
+    >>> from kineme import read_segments
+    >>> from kineme.datasets import bundled_truth
+    >>> from kineme.interop.adapters import from_sktime, to_sktime
+    >>> truth = read_segments(bundled_truth(), fps=60)
+    >>> from_sktime(to_sktime(truth), fps=60).activities[0].label
+    'walk'
+    """
     spans = segments["ilocs"].array
     if getattr(spans, "closed", None) != "left":
         raise ParameterError("ilocs must be intervals closed on the left")
@@ -90,13 +142,31 @@ def from_sktime(segments: pd.DataFrame, *, fps: float) -> Segmentation:
 def to_mir_eval(
     segmentation: Segmentation, *, level: Level = "activity"
 ) -> tuple[NDArray[np.float64], list[str]]:
-    """Intervals ``(n, 2)`` in seconds and a text for each, as ``mir_eval.segment`` takes them."""
+    """Intervals ``(n, 2)`` in seconds and a text for each, as ``mir_eval.segment`` takes them.
+
+    Examples
+    --------
+    >>> from kineme import read_segments
+    >>> from kineme.datasets import bundled_truth
+    >>> from kineme.interop.adapters import to_mir_eval
+    >>> truth = read_segments(bundled_truth(), fps=60)
+    >>> intervals, labels = to_mir_eval(truth)
+    >>> intervals.shape[0] == len(labels)
+    True
+    """
     rows = segmentation.level(level)
     return np.column_stack([rows.start_s, rows.stop_s]), list(map(text_of, rows))
 
 
 def from_mir_eval(intervals: ArrayLike, labels: Sequence[str], *, fps: float) -> Segmentation:
-    """Activities from intervals in seconds that start at 0 and touch; at the nearest frames."""
+    """Activities from intervals in seconds that start at 0 and touch; at the nearest frames.
+
+    Examples
+    --------
+    >>> from kineme.interop.adapters import from_mir_eval
+    >>> from_mir_eval([[0, 4], [4, 10]], ["walk", "jump"], fps=10).activities.label.tolist()
+    ['walk', 'jump']
+    """
     times = np.asarray(intervals, float)
     if times.ndim != 2 or times.shape[1] != 2 or not np.isfinite(times).all():
         raise ParameterError(f"intervals must be finite, (n, 2), not of shape {times.shape}")

@@ -41,7 +41,7 @@ DIMS = ("time", "space", "keypoints", "individuals")
 def to_movement(
     motion: Motion, segmentation: Segmentation | None = None, *, individual: str = "id_0"
 ) -> xr.Dataset:
-    """The motion as a poses dataset, confidence 1 where the body was seen.
+    """The motion as a poses dataset, confidence 1 where the body was recorded.
 
     Parameters
     ----------
@@ -57,16 +57,24 @@ def to_movement(
         The segmentation is of another length.
     MissingDependencyError
         xarray is not installed.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.interop.movement_dataset import to_movement
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> dict(to_movement(motion).sizes)
+    {'time': 2898, 'space': 3, 'keypoints': 26, 'individuals': 1}
     """
     try:
         import xarray as xr
     except ImportError as error:
         raise MissingDependencyError("xarray", "xarray") from error
-    seen = np.ones(motion.n_frames)
+    present = np.ones(motion.n_frames)
     for start, stop in motion.gaps:
-        seen[start:stop] = 0.0
-    positions = np.where(seen[:, None, None] > 0, motion.positions, np.nan)
-    confidence = np.repeat(seen[:, None], motion.skeleton.n_joints, axis=1)
+        present[start:stop] = 0.0
+    positions = np.where(present[:, None, None] > 0, motion.positions, np.nan)
+    confidence = np.repeat(present[:, None], motion.skeleton.n_joints, axis=1)
     variables: dict[str, Any] = {
         "position": (DIMS, positions.transpose(0, 2, 1)[..., None]),
         "confidence": (("time", "keypoints", "individuals"), confidence[..., None]),
@@ -117,7 +125,7 @@ def from_movement(
     up : str, optional
         See `fps`.
     confidence : float, optional
-        Points less sure than this were not seen.
+        Points with less confidence than this count as missing.
 
     Raises
     ------
@@ -125,6 +133,14 @@ def from_movement(
         Another layout, no such individual, or several and none named.
     ReadError
         Points that make no motion, or nothing that tells the frame rate.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.interop.movement_dataset import from_movement, to_movement
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> from_movement(to_movement(motion)).n_frames == motion.n_frames
+    True
     """
     person = _individual(dataset, individual)
     position = person["position"].transpose("time", "keypoints", "space")
@@ -136,8 +152,8 @@ def from_movement(
         places[..., "xyz".index(axis)] = position.sel(space=axis)
     notes = [] if "z" in axes else ["two-dimensional: z is 0, and image rows count downwards"]
     if "confidence" in person:
-        sure = np.asarray(person["confidence"].transpose("time", "keypoints"), np.float64)
-        places[sure < confidence] = np.nan
+        likelihood = np.asarray(person["confidence"].transpose("time", "keypoints"), np.float64)
+        places[likelihood < confidence] = np.nan
     attributes = dataset.attrs
     source = FileContent(Path(str(attributes.get("source_file") or "dataset")), b"")
     timing = _timed(source, dataset, fps)
@@ -150,10 +166,10 @@ def from_movement(
         up or attributes.get("up") or ("-y" if flat else None),
     )
     name = f"movement dataset ({attributes.get('source_software') or 'unknown software'})"
-    said = Provenance(str(source.path), name, clock=timing.clock).noted(*timing.notes, *notes)
-    motion = split_at(to_motion(points, said), timing.gaps)
+    provenance = Provenance(str(source.path), name, clock=timing.clock).noted(*timing.notes, *notes)
+    motion = split_at(to_motion(points, provenance), timing.gaps)
     if remarks := motion.provenance.warnings:
-        warn(f"{said.path or 'dataset'}: {'; '.join(remarks)}")
+        warn(f"{provenance.path or 'dataset'}: {'; '.join(remarks)}")
     return motion
 
 
@@ -165,12 +181,12 @@ def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
         raise ParameterError("the dataset has no position (time, space, keypoints, individuals)")
     if "individuals" not in dataset.dims:
         return dataset
-    known = [str(one) for one in dataset["individuals"].values]
-    if name is None and len(known) > 1:
-        raise ParameterError(f"the dataset has several individuals: name one of {', '.join(known)}")
-    if name is not None and name not in known:
-        raise ParameterError(f"no individual {name!r}; there are {', '.join(known)}")
-    return dataset.isel(individuals=0 if name is None else known.index(name))
+    names = [str(one) for one in dataset["individuals"].values]
+    if name is None and len(names) > 1:
+        raise ParameterError(f"the dataset has several individuals: name one of {', '.join(names)}")
+    if name is not None and name not in names:
+        raise ParameterError(f"no individual {name!r}; there are {', '.join(names)}")
+    return dataset.isel(individuals=0 if name is None else names.index(name))
 
 
 def _timed(source: FileContent, dataset: xr.Dataset, fps: float | None) -> Timing:

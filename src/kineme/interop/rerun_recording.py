@@ -53,6 +53,13 @@ def write_rerun(
         The file cannot be written.
     MissingDependencyError
         Rerun-sdk is not installed.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.interop.rerun_recording import write_rerun
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> write_rerun(motion, kineme.segment(motion), "walk.rrd")  # doctest: +SKIP
     """
     try:
         import rerun as rr
@@ -83,10 +90,10 @@ def _send_body(recording: Any, motion: Motion) -> None:
     )
     recording.log("body/joints", names, static=True)
     recording.log("body/bones", rr.LineStrips3D.from_fields(radii=BONE_RADIUS), static=True)
-    seen = np.ones(motion.n_frames, np.bool_)
+    present = np.ones(motion.n_frames, np.bool_)
     for start, stop in motion.gaps:
-        seen[start:stop] = False
-    frames = np.flatnonzero(seen)
+        present[start:stop] = False
+    frames = np.flatnonzero(present)
     positions = motion.positions[frames].astype(np.float32)
     joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
     times = _times(frames, motion.fps)

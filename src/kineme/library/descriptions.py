@@ -22,7 +22,7 @@ from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
 from kineme.library.storage.layout import BODIES, EMBEDDED
-from kineme.matching.whole_segments import course, embedding
+from kineme.matching.embeddings import course, embedding
 from kineme.methods.kineme.preset import SENSORS
 from kineme.methods.kineme.statistics import channel_statistics
 from kineme.recordings import Motion, Signals

@@ -11,7 +11,7 @@ from kineme.library.storage.layout import EMBEDDED
 from kineme.library.storage.pieces import LARGEST_MOMENT, Piece
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.segmenter import segment
-from kineme.transfer.moments import moments_of
+from kineme.transfer.channel_samples import channel_samples
 
 
 def make_piece(
@@ -60,7 +60,7 @@ def make_piece(
 
 
 def _moments(signals: Signals) -> NDArray[np.float32]:
-    found = moments_of(signals)
+    found = channel_samples(signals)
     columns = np.column_stack([found.frames / signals.fps, found.means, found.deviations])
     held: NDArray[np.float32] = np.clip(columns, -LARGEST_MOMENT, LARGEST_MOMENT).astype(np.float32)
     return held

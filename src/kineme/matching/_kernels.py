@@ -15,13 +15,13 @@ HALF, NOTHING = np.float32(0.5), np.float32(0)
     "float32[:, ::1], float32[::1], int32[::1])",
     **OPTIONS,
 )
-def warp_along(products, squares, own_squares, first, sums, begins, rows, costs, starts):
+def warp_columns(products, squares, example_squares, first, sums, begins, rows, costs, starts):
     """Cost and start of the cheapest warping of an example that ends at each sample.
 
     ``products[j, i]`` is -2 times that of sample first + j of a recording and sample i of an
-    example of m, ``squares`` those of the recording and ``own_squares`` of the example: the sum of
-    the three is the square of their distance. ``sums``, ``begins`` (3, m + 1) and ``rows`` (2, m)
-    are what goes on from one call to the next: sums of distances up to each sample of the example,
+    example of m, ``squares`` those of the recording, ``example_squares`` of the example: the sum
+    of the three is the square of their distance. ``sums``, ``begins`` (3, m + 1) and ``rows``
+    (2, m) go on from one call to the next: sums of distances up to each sample of the example,
     for the last three samples of the recording in turn, where their warpings begin, and the
     distances from the last two of its samples in turn. The first column of ``sums`` is infinite,
     and before the first call all of it.
@@ -31,7 +31,7 @@ def warp_along(products, squares, own_squares, first, sums, begins, rows, costs,
         now, one, two = (first + j) % 3, (first + j - 1) % 3, (first + j - 2) % 3
         here, before = rows[(first + j) % 2], rows[(first + j - 1) % 2, 1:]
         for i in range(m):
-            here[i] = np.sqrt(max(products[j, i] + squares[j] + own_squares[i], NOTHING))
+            here[i] = np.sqrt(max(products[j, i] + squares[j] + example_squares[i], NOTHING))
         next_one = here[1:]
         quick_sums, quick_begins = sums[one], begins[one]
         even_sums, even_begins = sums[one, 1:], begins[one, 1:]
@@ -54,11 +54,11 @@ def warp_along(products, squares, own_squares, first, sums, begins, rows, costs,
 
 
 @njit("int64(int64[::1], int32[::1], int64, boolean[::1], int64[::1])", **OPTIONS)
-def apart(ends, starts, most, taken, chosen):
+def apart(ends, starts, most, occupied, chosen):
     """Ends of matches that do not overlap, the first ones first; how many are ``chosen``.
 
     ``ends`` are in the order in which they are to be taken, ``starts[end]`` is where each begins.
-    ``taken`` is false for every sample before the call, and true after it for those in a match.
+    ``occupied`` is false for every sample before the call, and true after it for those in a match.
     """
     n = 0
     for end in ends:
@@ -66,11 +66,11 @@ def apart(ends, starts, most, taken, chosen):
             break
         free = True
         for j in range(starts[end], end + 1):
-            if taken[j]:
+            if occupied[j]:
                 free = False
                 break
         if free:
-            taken[starts[end] : end + 1] = True
+            occupied[starts[end] : end + 1] = True
             chosen[n] = end
             n += 1
     return n

@@ -1,9 +1,9 @@
 """Where a recording is like an example: subsequence search by warping.
 
-A match is a warping of the whole example onto successive samples of the recording, at half to
-twice its speed: from one pair of samples to the next both go on by one, or one of them by two.
-Its cost is the mean over the samples of the example of the distance to the one, or the mean
-of the two, of the recording that it is laid on. Every place is looked at; nothing is thinned out.
+A match is a warping of the whole example onto successive samples of the recording, at half to twice
+its speed. From one pair of samples to the next both go on by one, or one of them by two. Its cost
+is the mean over the samples of the example of the distance to the one, or the mean of the two, of
+the recording that it is laid on. Every place is looked at; nothing is thinned out.
 
 The distance of a match is its cost in proportion to how far the smaller of both movements goes,
 
@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._checks import as_floats, is_number
 from kineme.errors import ParameterError
-from kineme.matching._kernels import apart, warp_along
+from kineme.matching._kernels import apart, warp_columns
 
 Ints = NDArray[np.int64]
 Float32s = NDArray[np.float32]
@@ -38,7 +38,17 @@ BLOCK = 4096
 
 
 class Matches(NamedTuple):
-    """Spans [start, stop) of a recording in samples, apart from each other, the best first."""
+    """Spans [start, stop) of a recording in samples, apart from each other, the best first.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kineme.matching import search
+    >>> angle = np.arange(100) / 4
+    >>> recording = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    >>> search(recording[20:40], recording, top=1).starts.tolist()
+    [20]
+    """
 
     starts: Ints
     stops: Ints
@@ -111,6 +121,15 @@ def two_way_distance(one: ArrayLike, other: ArrayLike) -> float:
     Returns
     -------
     float
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kineme.matching import two_way_distance
+    >>> angle = np.arange(20) / 4
+    >>> turn = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    >>> two_way_distance(turn, turn) < 0.01
+    True
     """
     return max(float(warped(a, b)[0].min()) for a, b in ((one, other), (other, one)))
 
@@ -127,12 +146,12 @@ def warped(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[
     costs, starts = np.empty(n, np.float32), np.empty(n, np.int32)
     sums = np.full((3, m + 1), np.inf, np.float32)
     begins, rows = np.zeros((3, m + 1), np.int32), np.zeros((2, m), np.float32)
-    twice, own_squares = -2 * short.T, _squares(short)
+    twice, example_squares = -2 * short.T, _squares(short)
     for first in range(0, n, BLOCK):
         part, span = long[first : first + BLOCK], slice(first, first + BLOCK)
         products = part @ twice
         found = costs[span], starts[span]
-        warp_along(products, _squares(part), own_squares, first, sums, begins, rows, *found)
+        warp_columns(products, _squares(part), example_squares, first, sums, begins, rows, *found)
     return costs, starts
 
 
@@ -154,8 +173,8 @@ def _in_proportion(
     lengths = ends - firsts
     means = (sums[ends] - sums[firsts]) / lengths[:, None]
     variances = (squared[ends] - squared[firsts]) / lengths - np.einsum("ij,ij->i", means, means)
-    own = float(np.einsum("ij,ij->", example - mean, example - mean)) / len(example)
-    smaller = np.maximum(np.minimum(variances, own), STILL)
+    variance = float(np.einsum("ij,ij->", example - mean, example - mean)) / len(example)
+    smaller = np.maximum(np.minimum(variances, variance), STILL)
     return np.asarray(costs / np.sqrt(2 * smaller), np.float32)
 
 

@@ -126,6 +126,14 @@ def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.f
     Returns
     -------
     (size, size) array
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.plot import similarity_image
+    >>> graph = kineme.neighbor_graph([[0.0], [0.5], [5.0]], radius=1.0)
+    >>> (similarity_image(graph) > 0).tolist()
+    [[True, True, False], [True, True, False], [False, False, True]]
     """
     n = max(len(graph), graph.n_columns)
     size = min(n, pixels)
@@ -143,8 +151,8 @@ def similarity_image(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.f
 
 def _runs_of_rows(indptr: NDArray[np.int64]) -> list[tuple[int, int]]:
     """Rows in runs of about ENTRIES_AT_ONCE entries."""
-    marks = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
-    starts = np.unique(np.searchsorted(indptr, marks, side="right") - 1).tolist()
+    bounds = np.arange(0, indptr[-1], ENTRIES_AT_ONCE)
+    starts = np.unique(np.searchsorted(indptr, bounds, side="right") - 1).tolist()
     return list(zip(starts, [*starts[1:], len(indptr) - 1], strict=True))
 
 
@@ -212,11 +220,11 @@ def _legend(segmentation: Segmentation) -> list[Patch]:
     return handles
 
 
-def graph_of(graph: Any, door: str) -> NeighborGraph:
+def graph_of(graph: Any, caller: str) -> NeighborGraph:
     """The neighbour graph given, or that of what a method found; else ParameterError."""
     from kineme.graph import NeighborGraph  # compiled code
 
     given = getattr(graph, "graph", graph)
-    check_type(given, NeighborGraph, door, "kineme.neighbor_graph gives one")
+    check_type(given, NeighborGraph, caller, "kineme.neighbor_graph gives one")
     found: NeighborGraph = given
     return found

@@ -47,6 +47,13 @@ def plot_segmentation(
         Something else than a segmentation, its graph and a path.
     WriteError
         Another suffix, or the file cannot be written.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> segments, found = kineme.segment_and_found(motion)
+    >>> kineme.plot_segmentation(segments, found, "segments.png")
     """
     check_type(segmentation, Segmentation, "plot_segmentation", "kineme.segment gives one")
     graph = graph_of(graph, "plot_segmentation")

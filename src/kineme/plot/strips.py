@@ -1,7 +1,7 @@
 """A span of a recording as a strip: a body in a few poses, channels as their lines.
 
-A body is seen from the side from which it moves most, and its poses stand beside each other as
-those of a flip book would; heights are as they were.
+A body is drawn from the side from which it moves most. Its poses stand beside each other; heights
+are kept.
 """
 
 from __future__ import annotations
@@ -84,8 +84,8 @@ def plot_strip(
     axes = new_axes(6.0, 1.4) if ax is None else ax
     if isinstance(recording, Motion):
         at = np.linspace(first, last - 1, int(poses)).round().astype(np.int64)
-        seen = _from_the_side(recording.positions[first:last], recording.positions[at])
-        _draw_poses(axes, seen, recording.skeleton.parents, drawn)
+        outlines = _from_the_side(recording.positions[first:last], recording.positions[at])
+        _draw_poses(axes, outlines, recording.skeleton.parents, drawn)
     else:
         _draw_channels(axes, recording, first, last, drawn)
     axes.set_axis_off()
@@ -114,26 +114,28 @@ def _from_the_side(span: Floats, poses: Floats) -> Floats:
     middle = level.mean(axis=1)
     moved = (level - middle[:, None]) - (level - middle[:, None]).mean(axis=0)
     across = np.linalg.svd(moved.reshape(-1, 2), full_matrices=False)[2][0]
-    way = float((middle[-1] - middle[0]) @ across)
-    sign = np.sign(way) or np.sign(across[np.argmax(np.abs(across))])
-    seen = poses[:, :, [0, 2]]
-    beside = (seen - seen.mean(axis=1, keepdims=True)) @ (sign * across)
+    travel = float((middle[-1] - middle[0]) @ across)
+    sign = np.sign(travel) or np.sign(across[np.argmax(np.abs(across))])
+    outlines = poses[:, :, [0, 2]]
+    beside = (outlines - outlines.mean(axis=1, keepdims=True)) @ (sign * across)
     up = poses[:, :, 1] - span[:, :, 1].min()
     return np.stack([beside, up], axis=2)
 
 
-def _draw_poses(axes: Axes, seen: Floats, parents: Sequence[int], color: str) -> None:
+def _draw_poses(axes: Axes, outlines: Floats, parents: Sequence[int], color: str) -> None:
     """Bones of poses beside each other; joints alone where nothing joins them."""
-    wide = max(2 * float(np.abs(seen[:, :, 0]).max()), SLIM * float(seen[:, :, 1].max()), 1e-3)
-    laid = seen + np.arange(len(seen))[:, None, None] * np.array([BESIDE * wide, 0.0])
+    wide = max(
+        2 * float(np.abs(outlines[:, :, 0]).max()), SLIM * float(outlines[:, :, 1].max()), 1e-3
+    )
+    placed = outlines + np.arange(len(outlines))[:, None, None] * np.array([BESIDE * wide, 0.0])
     bones = [(joint, parent) for joint, parent in enumerate(parents) if parent >= 0]
     if bones:
-        lines = laid[:, bones].reshape(-1, 2, 2)
+        lines = placed[:, bones].reshape(-1, 2, 2)
         axes.add_collection(LineCollection(list(lines), colors=color, capstyle="round"))
     else:
-        axes.scatter(laid[..., 0], laid[..., 1], s=2, color=color)
-    tall = max(float(seen[:, :, 1].max()), 1e-3)
-    axes.set_xlim(-BESIDE * wide / 2, BESIDE * wide * (len(seen) - 0.5))
+        axes.scatter(placed[..., 0], placed[..., 1], s=2, color=color)
+    tall = max(float(outlines[:, :, 1].max()), 1e-3)
+    axes.set_xlim(-BESIDE * wide / 2, BESIDE * wide * (len(outlines) - 0.5))
     axes.set_ylim(-0.03 * tall, 1.03 * tall)
     axes.set_aspect("equal")
 

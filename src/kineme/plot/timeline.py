@@ -59,9 +59,9 @@ def compare(
 ) -> Axes:
     """Timelines of several results below each other, so that their borders can be compared.
 
-    Numbers of clusters mean nothing from one result to another: those of the second
-    and the following take the colours of the clusters of the first with which they
-    share most of their time, one each.
+    Numbers of clusters mean nothing from one result to another. So each cluster of later results
+    takes the colour of the one in the first result with which it shares most of its time, one to
+    one.
 
     Parameters
     ----------
@@ -110,12 +110,12 @@ def compare(
         if not len(table):
             raise ParameterError(f"{name} has no segments of level {level!r}")
     first = rows[shown[0]]
-    alike = [_renumbered(table, matched_clusters(first, table)) for table in rows.values()]
-    labels = label_colors(segment for table in alike for segment in table)
+    tables = [_renumbered(table, matched_clusters(first, table)) for table in rows.values()]
+    labels = label_colors(segment for table in tables for segment in table)
     return draw_timeline(
         rows,
         max(result.n_frames / result.fps for result in results),
-        colors=[[segment_color(segment, labels) for segment in table] for table in alike],
+        colors=[[segment_color(segment, labels) for segment in table] for table in tables],
         ax=ax,
     )
 
@@ -134,21 +134,23 @@ def matched_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]
         Clusters of ``other`` by their number; those that share no time with a free
         cluster are numbered on after those of ``first``.
     """
-    ours, theirs = (np.unique(table.cluster[table.cluster >= 0]) for table in (first, other))
+    first_clusters, other_clusters = (
+        np.unique(table.cluster[table.cluster >= 0]) for table in (first, other)
+    )
     times = np.unique(np.concatenate([first.start_s, first.stop_s, other.start_s, other.stop_s]))
     middles, lengths = (times[1:] + times[:-1]) / 2, np.diff(times)
     a, b = _clusters_at(first, middles), _clusters_at(other, middles)
     both = (a >= 0) & (b >= 0)
-    shared = np.zeros((len(ours), len(theirs)))
-    cells = np.searchsorted(ours, a[both]), np.searchsorted(theirs, b[both])
+    shared = np.zeros((len(first_clusters), len(other_clusters)))
+    cells = np.searchsorted(first_clusters, a[both]), np.searchsorted(other_clusters, b[both])
     np.add.at(shared, cells, lengths[both])
     numbers = {
-        int(theirs[column]): int(ours[row])
+        int(other_clusters[column]): int(first_clusters[row])
         for row, column in zip(*linear_sum_assignment(-shared), strict=True)
         if shared[row, column] > 0
     }
-    following = int(ours.max(initial=-1)) + 1
-    rest = [cluster for cluster in theirs.tolist() if cluster not in numbers]
+    following = int(first_clusters.max(initial=-1)) + 1
+    rest = [cluster for cluster in other_clusters.tolist() if cluster not in numbers]
     return numbers | {cluster: following + i for i, cluster in enumerate(rest)}
 
 

@@ -46,7 +46,7 @@ class Motion(Recording):
     provenance : Provenance
         Where it came from, and what had to be inferred.
     gaps : sequence of (int, int)
-        Frames [start, stop) in which the body was not seen, in time order and apart from
+        Frames [start, stop) in which the body was not recorded, in time order and apart from
         each other; positions in them only join what is around.
 
     Raises
@@ -172,6 +172,6 @@ class Motion(Recording):
         return poses_svg(self.skeleton, self.positions)
 
 
-def check_motion(motion: object, door: str) -> None:
+def check_motion(motion: object, caller: str) -> None:
     """ParameterError where a public function was given no Motion."""
-    check_type(motion, Motion, door, "kineme.read(path) gives one")
+    check_type(motion, Motion, caller, "kineme.read(path) gives one")

@@ -55,6 +55,13 @@ def resample(motion: Motion, fps: float) -> Motion:
     -----
     [V14], section 5 works at 30 Hz; at whole ratios the spline of the authors' program
     amounts to taking every fourth frame as well.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> kineme.resample(motion, 30.0).n_frames, motion.n_frames
+    (1449, 2898)
     """
     check_motion(motion, "resample")
     if not (is_number(fps) and fps > 0):
@@ -99,6 +106,14 @@ def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
     ------
     ParameterError
         Unless 0 <= start < stop <= n_frames.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.recordings.operations import cut
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> cut(motion, 60, 180).duration
+    2.0
     """
     if not 0 <= start < stop <= recording.n_frames:
         raise ParameterError(
@@ -123,6 +138,14 @@ def split_at_gaps(recording: AnyRecording) -> list[tuple[int, AnyRecording]]:
     ------
     MotionError
         The whole motion is a gap.
+
+    Examples
+    --------
+    >>> from kineme import Signals
+    >>> from kineme.recordings.operations import split_at_gaps
+    >>> signals = Signals([[0.0]] * 9, fps=3, gaps=[(3, 5)])
+    >>> [(start, span.n_frames) for start, span in split_at_gaps(signals)]
+    [(0, 3), (5, 4)]
     """
     if not recording.gaps:
         return [(0, recording)]
@@ -144,6 +167,14 @@ def scale(motion: Motion, factor: float) -> Motion:
     Returns
     -------
     Motion
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.recordings.operations import scale
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> bool((scale(motion, 2.0).positions == 2 * motion.positions).all())
+    True
     """
     if not (is_number(factor) and factor > 0):
         raise ParameterError(f"factor is {factor!r:.60}: give a number above 0")
@@ -167,6 +198,16 @@ def turn(motion: Motion, angle: float) -> Motion:
     Returns
     -------
     Motion
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import kineme
+    >>> from kineme.recordings.operations import turn
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> half = turn(motion, np.pi)
+    >>> bool(np.allclose(half.positions[..., 0], -motion.positions[..., 0]))
+    True
     """
     if not is_number(angle):
         raise ParameterError(f"angle is {angle!r:.60}: give radians")
@@ -196,6 +237,14 @@ def move(motion: Motion, offset: ArrayLike) -> Motion:
     Returns
     -------
     Motion
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.recordings.operations import move
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> move(motion, [1.0, 0.0, 0.0]).provenance.notes[-1].text
+    'moved by [1.0, 0.0, 0.0] m'
     """
     step = np.asarray(offset, float)
     if step.shape != (3,) or not np.isfinite(step).all():
@@ -207,17 +256,17 @@ def move(motion: Motion, offset: ArrayLike) -> Motion:
     )
 
 
-def _frames(motion: Motion, which: slice, fps: float, note: str) -> Motion:
-    rotations = None if motion.rotations is None else motion.rotations[which]
-    positions = motion.positions[which]
-    gaps = _gaps(motion, which.start, which.step or 1, len(positions))
+def _frames(motion: Motion, frames: slice, fps: float, note: str) -> Motion:
+    rotations = None if motion.rotations is None else motion.rotations[frames]
+    positions = motion.positions[frames]
+    gaps = _gaps(motion, frames.start, frames.step or 1, len(positions))
     return Motion(motion.skeleton, positions, fps, rotations, motion.provenance.noted(note), gaps)
 
 
 def _gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
     """The gaps among n frames taken from ``first`` on, each ``ratio`` frames after the one before.
 
-    A frame between one that was seen and one that was not counts as not seen.
+    A frame between a recorded one and one in a gap counts as in the gap.
     """
     spans: list[tuple[int, int]] = []
     for start, stop in motion.gaps:

@@ -110,12 +110,12 @@ class Signals(Recording):
         ParameterError
             There is no channel of a name.
         """
-        wanted = as_texts(names, "names of channels")
-        for name in wanted:
+        selection = as_texts(names, "names of channels")
+        for name in selection:
             if name not in self.names:
                 raise ParameterError(f"no channel {name!r}; there are {', '.join(self.names)}")
-        at = [self.names.index(name) for name in wanted]
-        return replace(self, values=self.values[:, at], names=wanted)
+        at = [self.names.index(name) for name in selection]
+        return replace(self, values=self.values[:, at], names=selection)
 
     def _sliced(self, start: int, stop: int, gaps: Spans, provenance: Provenance) -> Signals:
         return replace(self, values=self.values[start:stop], gaps=gaps, provenance=provenance)

@@ -99,7 +99,7 @@ def filled(
     tiles : dict
         PNGs by "level/row/column".
     curves : dict, optional
-        ``list`` and ``pieces`` of the curves over time, where there are any.
+        ``list`` and ``curves`` of the curves over time, where there are any.
 
     Returns
     -------
@@ -123,8 +123,8 @@ def _curves(recording: Shown, data: PageData) -> dict[str, object] | None:
     """The channels of what has no figure."""
     if data.motion is not None:
         return None
-    head, pieces = curves_of(recording, data.fps)
-    return {"list": head, "pieces": {place: _base64(piece) for place, piece in pieces.items()}}
+    head, curves = curves_of(recording, data.fps)
+    return {"list": head, "pieces": {place: _base64(data) for place, data in curves.items()}}
 
 
 def _name(segmentation: Segmentation) -> str:

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._json import decoded
-from kineme.datasets.annotated_trials import MARKS_FPS, Action, read_actions
+from kineme.datasets.annotated_trials import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
 from kineme.evaluation.truth import Truth, round_half_up
 from kineme.recordings import Motion
@@ -229,9 +229,9 @@ def _cache() -> Path | None:
 
 def _truth(rows: list[Action], fps: float) -> Truth:
     earliest, mean, latest = (
-        round_half_up(np.array([row[i] for row in rows[:-1]]) * (fps / MARKS_FPS)) - 1
+        round_half_up(np.array([row[i] for row in rows[:-1]]) * (fps / TRIAL_FPS)) - 1
         for i in (1, 2, 3)
     )
     # Keeping every fourth frame from the first on keeps ceil(N / 4) of them.
-    frames = math.ceil(rows[-1].latest * fps / MARKS_FPS)
+    frames = math.ceil(rows[-1].latest * fps / TRIAL_FPS)
     return Truth(tuple(row.label for row in rows), earliest, mean, latest, frames, fps)

@@ -22,7 +22,7 @@ from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods.base import Preset
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample, split_at_gaps
-from kineme.segmentation.spans import SeenSpan
+from kineme.segmentation.spans import RecordedSpan
 from kineme.segmentation.views import View
 
 Floats = NDArray[np.float64]
@@ -48,14 +48,14 @@ def view_of_motion(motion: Motion, preset: Preset, effectors: Names | None) -> V
     """
     spans = split_at_gaps(motion)
     motions = [resample(span, preset.working_fps) for _, span in spans]
-    seen = [
-        SeenSpan(start, start + span.n_frames, at_rate.n_frames)
+    recorded = [
+        RecordedSpan(start, start + span.n_frames, at_rate.n_frames)
         for (start, span), at_rate in zip(spans, motions, strict=True)
     ]
     notes = []
     if preset.view != "poses":
         try:
-            return View([_rotations(span, preset) for span in motions], seen, [])
+            return View([_rotations(span, preset) for span in motions], recorded, [])
         except MotionError as error:
             notes.append(f"{error}: seen by the positions of head, hands and feet")
     longest = max((span for _, span in spans), key=lambda span: span.n_frames)
@@ -68,9 +68,9 @@ def view_of_motion(motion: Motion, preset: Preset, effectors: Names | None) -> V
         if effectors is not None:
             raise
         size = SIZE
-        poses, said = _without_a_body(motions, preset, error)
-        notes += said
-    return View([_features(pose, preset, size) for pose in poses], seen, notes, mirror_features)
+        poses, note = _without_a_body(motions, preset, error)
+        notes += note
+    return View([_features(pose, preset, size) for pose in poses], recorded, notes, mirror_features)
 
 
 def motion_features(
@@ -107,11 +107,11 @@ def _without_a_body(
         ) from error
     features, points = distance_features(np.concatenate([span.positions for span in motions]))
     names = motions[0].skeleton.names
-    said = (
+    note = (
         f"{reason}: segmented by the distances between {len(points)} of its {len(names)} points; "
         f"name five joints with --effectors to be looked at as a body"
     )
-    notes = [said, f"points: {', '.join(names[point] for point in points)}"]
+    notes = [note, f"points: {', '.join(names[point] for point in points)}"]
     ends = np.cumsum([span.n_frames for span in motions])[:-1]
     return np.split(features, ends), notes
 

@@ -24,7 +24,7 @@ from kineme.features.rides import rides
 from kineme.methods.base import Preset
 from kineme.recordings import Signals
 from kineme.segmentation.joints import by_distances, joints_among
-from kineme.segmentation.spans import SeenSpan
+from kineme.segmentation.spans import RecordedSpan
 from kineme.segmentation.views import View
 
 Floats = NDArray[np.float64]
@@ -57,16 +57,16 @@ def view_of_signals(
         finds out.
     """
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
-    rows, seen = [], []
+    rows, spans = [], []
     for start, stop in signals.spans():
         row = at_rate(
             values[start:stop], signals.fps, preset.working_fps, smoothing=preset.smoothing
         )
         rows.append(row)
-        seen.append(SeenSpan(start, stop, len(row)))
+        spans.append(RecordedSpan(start, stop, len(row)))
     notes = _notes(signals, values, emg=emg, standardize=standardize)
-    told = standardize and not emg  # what channels are may be told by their names and values
-    points = joints_among(signals) if preset.told_bodies and told else None
+    descriptive = standardize and not emg  # what channels are may be told by their names and values
+    points = joints_among(signals) if preset.told_bodies and descriptive else None
     if points is not None:
         rows = by_distances(rows, points, preset.working_fps)
         notes.append(f"{len(points)} points with bones: seen by how far they are from each other")
@@ -80,23 +80,22 @@ def view_of_signals(
     elif preset.unit != "any":
         notes.append(f"lengths are in {named}")
     carried = None
-    if preset.told_rides and told:
-        carried = _carried(signals, seen, preset.working_fps)
+    if preset.told_rides and descriptive:
+        carried = _carried(signals, spans, preset.working_fps)
     if carried is not None:
         seconds = np.count_nonzero(carried) / preset.working_fps
         notes.append(f"carried for {seconds:.0f} s, as by a lift, say accelerometers")
-    ends = np.cumsum([span.n_samples for span in seen])[:-1]
+    ends = np.cumsum([span.n_samples for span in spans])[:-1]
     split = np.split(features, ends)
-    return View(split, seen, notes, carried=carried, joints=points is not None)
+    return View(split, spans, notes, carried=carried, joints=points is not None)
 
 
 def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
     """The channels at the times 0, 1/new, 2/new, … up to their last frame.
 
-    Each value is the mean over `smoothing` seconds around its time, over a
-    frame of the old or new rate where that is longer: nothing folds back from
-    above the new rate, and a lower rate is interpolated in a line. At the ends
-    the mean is over what is there.
+    Each value is the mean over `smoothing` seconds around its time, or over a frame of the old or
+    new rate where that is longer. So nothing folds back from above the new rate. A lower rate is
+    interpolated in a line. At the ends the mean is over what is there.
 
     Parameters
     ----------
@@ -118,14 +117,14 @@ def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> F
         The rate wanted is beyond all measure.
     """
     check_rates(fps, new)
-    held = np.asarray(values, np.float64)
-    middle: Floats = held.mean(axis=0)  # sums of what is left lose no digits to a large offset
-    sums = np.concatenate([np.zeros((1, held.shape[1])), np.cumsum(held - middle, axis=0)])
-    n = int((len(held) - 1) * new / fps + 1e-9) + 1
+    array = np.asarray(values, np.float64)
+    middle: Floats = array.mean(axis=0)  # sums of what is left lose no digits to a large offset
+    sums = np.concatenate([np.zeros((1, array.shape[1])), np.cumsum(array - middle, axis=0)])
+    n = int((len(array) - 1) * new / fps + 1e-9) + 1
     times = np.arange(n) / new
     half = max(smoothing, 1 / fps, 1 / new) / 2
-    starts = np.clip((times - half) * fps + 0.5, 0, len(held))
-    stops = np.clip((times + half) * fps + 0.5, 0, len(held))
+    starts = np.clip((times - half) * fps + 0.5, 0, len(array))
+    stops = np.clip((times + half) * fps + 0.5, 0, len(array))
     means = (at_frames(sums, stops) - at_frames(sums, starts)) / (stops - starts)[:, None]
     return np.asarray(means + middle, np.float64)
 
@@ -145,17 +144,17 @@ def standardized(values: ArrayLike) -> Floats:
 def _stacked(rows: list[Floats], preset: Preset, *, standardize: bool) -> Floats:
     """Features of all spans; their distances are root mean squares over window and channels."""
     ends = np.cumsum([len(row) for row in rows])[:-1]
-    whole = np.concatenate(rows)
-    scaled = standardized(whole) if standardize else whole
+    joined = np.concatenate(rows)
+    scaled = standardized(joined) if standardize else joined
     offsets = offsets_in_frames(preset.offsets, preset.working_fps)
     stacked = np.concatenate([stack(row, offsets) for row in np.split(scaled, ends)])
     return np.asarray(stacked / np.sqrt(stacked.shape[1]), np.float64)
 
 
-def _carried(signals: Signals, seen: list[SeenSpan], new: float) -> Floats | None:
+def _carried(signals: Signals, spans: list[RecordedSpan], new: float) -> Floats | None:
     """In each sample of the spans 1 or -1 where a ride goes up or down, else 0; None: no rides."""
     parts = []
-    for span in seen:
+    for span in spans:
         part = np.zeros(span.n_samples)
         for ride in rides(signals.values[span.start : span.stop], signals.fps):
             first, last = (

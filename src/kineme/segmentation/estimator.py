@@ -119,17 +119,17 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         ParameterError
             The preset has no constant of a name.
         """
-        own = set(self._get_param_names())
-        constants = {name: value for name, value in params.items() if name not in own}
-        known = _constants_of(params.get("preset", self.preset)) if constants else {}
+        options = set(self._get_param_names())
+        constants = {name: value for name, value in params.items() if name not in options}
+        allowed = _constants_of(params.get("preset", self.preset)) if constants else {}
         for name in constants:
-            if known and name not in known and name not in self._constants:
+            if allowed and name not in allowed and name not in self._constants:
                 raise ParameterError(
                     f"there is no parameter or constant {name!r:.60}; there are "
-                    f"{', '.join((*sorted(own), *known))}"
+                    f"{', '.join((*sorted(options), *allowed))}"
                 )
         self._constants = {**self._constants, **constants}
-        super().set_params(**{name: value for name, value in params.items() if name in own})
+        super().set_params(**{name: value for name, value in params.items() if name in options})
         return self
 
 

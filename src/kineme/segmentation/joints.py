@@ -27,7 +27,7 @@ guesses shake as much as hands move."""
 
 
 def joints_among(signals: Signals) -> Indices | None:
-    """The channels that are x, y and z of a body's points, told by their names and by its bones.
+    """The channels that are x, y and z of a body's points, by their names and by its bones.
 
     Parameters
     ----------
@@ -45,8 +45,8 @@ def joints_among(signals: Signals) -> Indices | None:
     ]
     if not points:
         return None
-    seen = np.concatenate([signals.values[slice(*span)] for span in signals.spans()])
-    return np.array(points) if have_bones(seen[:, points]) else None
+    values = np.concatenate([signals.values[slice(*span)] for span in signals.spans()])
+    return np.array(points) if have_bones(values[:, points]) else None
 
 
 def by_distances(rows: Sequence[Floats], points: Indices, fps: float) -> list[Floats]:

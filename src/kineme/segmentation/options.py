@@ -1,4 +1,4 @@
-"""What is asked of a segmentation, beside the recording: one object from the door to the method."""
+"""What is asked of a segmentation, beside the recording: one object for all options."""
 
 from __future__ import annotations
 
@@ -72,9 +72,9 @@ class SegmentOptions:
         >>> SegmentOptions.of(emg=True, min_action=2.0).constants
         {'min_action': 2.0}
         """
-        own = {each.name for each in fields(cls)} - {"constants"}
-        constants = {name: value for name, value in keywords.items() if name not in own}
-        given = {name: value for name, value in keywords.items() if name in own}
+        options = {each.name for each in fields(cls)} - {"constants"}
+        constants = {name: value for name, value in keywords.items() if name not in options}
+        given = {name: value for name, value in keywords.items() if name in options}
         return cls(constants=constants, **given)
 
     def resolved(self, *, signals: bool = False) -> Preset:

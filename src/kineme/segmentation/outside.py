@@ -37,10 +37,10 @@ def as_channels(recording: Motion | Signals, features: ArrayLike, fps: float | N
 def on_recording(view: View, recording: Motion | Signals, fps: float) -> View:
     """The view with its spans, so far in rows at `fps`, in frames of the recording."""
     per_row, n = recording.fps / fps, recording.n_frames
-    seen = [
+    spans = [
         replace(span, start=round(span.start * per_row), stop=min(round(span.stop * per_row), n))
-        for span in view.seen
+        for span in view.spans
     ]
     if not recording.gaps or recording.gaps[-1][1] < n:
-        seen[-1] = replace(seen[-1], stop=n)
-    return replace(view, seen=seen)
+        spans[-1] = replace(spans[-1], stop=n)
+    return replace(view, spans=spans)

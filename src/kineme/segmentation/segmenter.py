@@ -95,7 +95,7 @@ def segment(
     >>> import kineme
     >>> motion = kineme.read(kineme.bundled_recording())
     >>> kineme.segment(motion).repetitions()
-    {0: 9, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4}
+    {0: 9, 1: 4, ...}
     """
     options = SegmentOptions(
         preset=preset,
@@ -128,6 +128,14 @@ def segment_and_found(
     -------
     segmentation : Segmentation
     found : Found
+
+    Examples
+    --------
+    >>> import kineme
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> segments, found = kineme.segment_and_found(motion)
+    >>> segments == kineme.segment(motion)
+    True
     """
     return segmented(recording, SegmentOptions.of(**options), progress=progress)
 
@@ -160,26 +168,28 @@ def segmented(
     if progress is not None:
         progress("features")
     given = options.features
-    seen = recording if given is None else as_channels(recording, given, options.feature_fps)
-    chosen = options.resolved(signals=isinstance(seen, Signals)).at_most(seen.fps)
-    if isinstance(seen, Signals):
+    segmented = recording if given is None else as_channels(recording, given, options.feature_fps)
+    chosen = options.resolved(signals=isinstance(segmented, Signals)).at_most(segmented.fps)
+    if isinstance(segmented, Signals):
         scaled = given is None if options.standardize is None else options.standardize
-        view = view_of_signals(seen, chosen, emg=options.emg, standardize=scaled, unit=options.unit)
+        view = view_of_signals(
+            segmented, chosen, emg=options.emg, standardize=scaled, unit=options.unit
+        )
     elif chosen.unit == "standard deviations":
         raise ParameterError(
             f"{chosen.name} is in standard deviations, for signals: a motion takes one in metres "
             f"or body sizes"
         )
     else:
-        view = view_of_motion(seen, chosen, options.effectors)
+        view = view_of_motion(segmented, chosen, options.effectors)
     if given is not None:
-        view = on_recording(view, recording, seen.fps)
+        view = on_recording(view, recording, segmented.fps)
     timings = {"features": time.perf_counter() - start}
-    told: dict[str, Any] = {} if view.carried is None else {"carried": view.carried}
+    facts: dict[str, Any] = {} if view.carried is None else {"carried": view.carried}
     if view.joints:
-        told["joints"] = True
+        facts["joints"] = True
     found = chosen.analyze(
-        np.concatenate(view.features), mirror=view.mirror, progress=progress, **told
+        np.concatenate(view.features), mirror=view.mirror, progress=progress, **facts
     )
     return _result(recording, chosen, view, found, timings), found
 
@@ -238,11 +248,11 @@ def _result(
 
     def placed(columns: Columns) -> Columns:
         near = AT_GAP * preset.working_fps
-        return in_frames(columns, view.seen, n_frames, fps / preset.working_fps, near=near)
+        return in_frames(columns, view.spans, n_frames, fps / preset.working_fps, near=near)
 
     samples = found.columns()
     columns = placed(samples)
-    spent = {**timings, **found.timings}
+    seconds = {**timings, **found.timings}
     source = recording.provenance
     provenance: dict[str, Any] = {
         "kineme": __version__,
@@ -252,15 +262,15 @@ def _result(
         "input": {"path": source.path, "format": source.format, "sha256": source.sha256},
         "notes": [*map(str, source.notes), *view.notes, *found.doubts(columns, fps)],
     }
-    if gaps := gaps_between(view.seen, n_frames):
+    if gaps := gaps_between(view.spans, n_frames):
         provenance["gaps"] = [list(gap) for gap in gaps]
     if source.clock is not None:
         provenance["clock"] = source.clock.to_json()
     table, hierarchy = segment_table(columns, fps), None
     if isinstance(found, Leveled):
-        with stopwatch(spent, None)("levels"):
+        with stopwatch(seconds, None)("levels"):
             tables = {DEFAULT_DETAIL: table}
             for detail, level in found.levels(samples).items():
                 tables[detail] = segment_table(placed(level), fps)
             hierarchy = Hierarchy.of(tables)
-    return Segmentation(table, int(n_frames), float(fps), provenance, spent, hierarchy)
+    return Segmentation(table, int(n_frames), float(fps), provenance, seconds, hierarchy)

@@ -1,4 +1,4 @@
-"""Recordings with gaps: the spans that were seen are analysed as one, and put back in place.
+"""Recordings with gaps: the spans between them are analysed as one, and put back in place.
 
 Samples, the frames of the analysis, count through the spans as if there were
 nothing between them, so that what repeats itself is found wherever it is. Frames
@@ -28,8 +28,8 @@ AT_GAP = 0.2
 
 
 @dataclass(frozen=True)
-class SeenSpan:
-    """A span of a recording that was seen.
+class RecordedSpan:
+    """A span of a recording without a gap.
 
     Attributes
     ----------
@@ -45,9 +45,14 @@ class SeenSpan:
 
 
 def in_frames(
-    columns: Columns, seen: Sequence[SeenSpan], n_frames: int, ratio: float, *, near: float = 0.0
+    columns: Columns,
+    spans: Sequence[RecordedSpan],
+    n_frames: int,
+    ratio: float,
+    *,
+    near: float = 0.0,
 ) -> Columns:
-    """The columns in frames, cut at the ends of what was seen, gaps filled with transitions.
+    """The columns in frames, cut at the ends of the spans, gaps filled with transitions.
 
     Rows that vanish at the rate of the recording are left out.
 
@@ -55,27 +60,26 @@ def in_frames(
     ----------
     columns : dict of str to array
         Of a segment table, ``start_frame`` and ``stop_frame`` in samples.
-    seen : sequence of SeenSpan
+    spans : sequence of RecordedSpan
         In time order.
     n_frames : int
         Of the recording.
     ratio : float
         Frames in one sample.
     near : float
-        Borders so many samples from a gap at most are at the gap: who goes on there does so
-        after it, and what is left of the segment before it is less than can be told.
+        Borders so many samples from a gap at most are moved to the gap.
     """
     rows: list[NDArray[np.intp]] = []
     starts: list[NDArray[np.int64]] = []
     stops: list[NDArray[np.int64]] = []
     first = 0
-    for k, span in enumerate(seen):
+    for k, span in enumerate(spans):
         last = first + span.n_samples
         begin = np.maximum(columns["start_frame"], first)
         end = np.minimum(columns["stop_frame"], last)
         for borders in (begin, end):
             inner = (first < borders) & (borders < last)
-            if k + 1 < len(seen):
+            if k + 1 < len(spans):
                 borders[inner & (borders >= last - near)] = last
             if k > 0:
                 borders[inner & (borders <= first + near)] = first
@@ -90,18 +94,18 @@ def in_frames(
     row, start, stop = map(np.concatenate, (rows, starts, stops))
     # At low frame rates two borders may fall on the same frame.
     full = start < stop
-    taken = {name: column[row[full]] for name, column in columns.items()}
-    taken |= {"start_frame": start[full], "stop_frame": stop[full]}
-    if "border_confidence" in taken:  # what goes on after a gap does not start there
-        at_gap = np.isin(taken["start_frame"], [span.start for span in seen])
-        taken["border_confidence"] = np.where(at_gap, np.nan, taken["border_confidence"])
-    return _with_gaps(taken, gaps_between(seen, n_frames))
+    cut = {name: column[row[full]] for name, column in columns.items()}
+    cut |= {"start_frame": start[full], "stop_frame": stop[full]}
+    if "border_confidence" in cut:  # what goes on after a gap does not start there
+        at_gap = np.isin(cut["start_frame"], [span.start for span in spans])
+        cut["border_confidence"] = np.where(at_gap, np.nan, cut["border_confidence"])
+    return _with_gaps(cut, gaps_between(spans, n_frames))
 
 
-def gaps_between(seen: Sequence[SeenSpan], n_frames: int) -> Spans:
-    """What was not seen of the recording: frames [start, stop)."""
-    starts = [0, *(span.stop for span in seen)]
-    stops = [*(span.start for span in seen), n_frames]
+def gaps_between(spans: Sequence[RecordedSpan], n_frames: int) -> Spans:
+    """What lies between the spans of the recording: frames [start, stop)."""
+    starts = [0, *(span.stop for span in spans)]
+    stops = [*(span.start for span in spans), n_frames]
     return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
 
 
@@ -111,7 +115,7 @@ def in_time(graph: NeighborGraph, gaps: Sequence[Sequence[int]], n_frames: int) 
     Parameters
     ----------
     graph : NeighborGraph
-        Of the spans that were seen, at any rate.
+        Of the spans without gaps, at any rate.
     gaps : sequence of pairs of int
         Frames [start, stop).
     n_frames : int
@@ -119,8 +123,8 @@ def in_time(graph: NeighborGraph, gaps: Sequence[Sequence[int]], n_frames: int) 
     """
     from kineme.graph import NeighborGraph
 
-    known = n_frames - sum(stop - start for start, stop in gaps)
-    per_frame = len(graph) / max(known, 1)
+    n_present = n_frames - sum(stop - start for start, stop in gaps)
+    per_frame = len(graph) / max(n_present, 1)
     place = np.arange(len(graph))
     before = 0
     for start, stop in gaps:

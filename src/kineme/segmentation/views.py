@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.methods.base import Mirror
-from kineme.segmentation.spans import SeenSpan
+from kineme.segmentation.spans import RecordedSpan
 
 Floats = NDArray[np.float64]
 
@@ -21,8 +21,8 @@ class View:
     Attributes
     ----------
     features : sequence of (samples, dims) arrays
-        One of each span that was seen.
-    seen : sequence of SeenSpan
+        One of each span without a gap.
+    spans : sequence of RecordedSpan
     notes : sequence of str
         What is to be known of them.
     mirror : callable, optional
@@ -35,7 +35,7 @@ class View:
     """
 
     features: Sequence[Floats]
-    seen: Sequence[SeenSpan]
+    spans: Sequence[RecordedSpan]
     notes: Sequence[str]
     mirror: Mirror | None = None
     carried: Floats | None = None

@@ -1,11 +1,10 @@
 """From a route through the graph to a motion.
 
-Spans of the sources are laid end to end, each turned about the vertical
-and moved on the floor as its jump says. Around a jump both recordings go on
-for half a window, and the motion goes over from the one to the other: joint
-rotations along the sphere, translations in a line, with the smooth weight
-3w² - 2w³ (Kovar, Gleicher and Pighin 2002, section 3.2). Last, feet that
-stand are kept from sliding (see `kineme.synthesis.feet`).
+Spans of the sources are laid end to end, each turned about the vertical and moved on the floor as
+its jump says. Around a jump both recordings go on for half a window, and the motion goes over from
+the one to the other. Joint rotations go along the sphere, translations in a line, with the smooth
+weight 3w² - 2w³ (Kovar, Gleicher and Pighin 2002, section 3.2). Last, feet that stand are kept from
+sliding (see `kineme.synthesis.feet`).
 """
 
 from __future__ import annotations
@@ -175,7 +174,7 @@ def _joined(
     def placed(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
         motion = motions[span.source]
         rotations = np.array(motion.rotations)[start:stop]
-        return _laid(motion, rotations, shifts[span.source][start:stop], span.at)
+        return _placed_motion(motion, rotations, shifts[span.source][start:stop], span.at)
 
     placed_spans = [placed(span, span.start, span.stop) for span in spans]
     rotations, translations = (np.concatenate(each) for each in zip(*placed_spans, strict=True))
@@ -191,7 +190,7 @@ def _joined(
     return rotations, translations
 
 
-def _laid(
+def _placed_motion(
     motion: Motion, rotations: Floats, shifts: Floats, at: Placement
 ) -> tuple[Floats, Floats]:
     roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]

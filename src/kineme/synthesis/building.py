@@ -1,10 +1,9 @@
 """From recordings and their primitives to a motion graph.
 
-Jumps are looked for between the end of one node and the start of another:
-frames no farther from its border than a quarter of the node, and no
-farther than the window. Candidates are neighbours in feature space, found by
-one sparse search; of each pair of nodes the few nearest are measured as point
-clouds, and the best becomes an edge if it is below the threshold.
+Jumps are looked for between the end of one node and the start of another: frames no farther from
+its border than a quarter of the node, and no farther than the window. Candidates are neighbours in
+feature space, found by one sparse search. Of each pair of nodes the few nearest are measured as
+point clouds. The best becomes an edge if it is below the threshold.
 
 Frames are those of the ``kineme`` preset's working rate, 30 Hz; leaving and
 entering frames are given at the sources' own rate.
@@ -132,6 +131,13 @@ def check_source(motion: Motion, first: Motion) -> None:
     ------
     ParameterError
         No rotations, or another skeleton or frame rate.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.synthesis import check_source
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> check_source(motion[:100], motion)
     """
     where = motion.provenance.path or "a motion"
     if motion.rotations is None:

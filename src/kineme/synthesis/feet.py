@@ -1,9 +1,8 @@
 """Feet that stand do not slide (after Kovar, Schreiner and Gleicher 2002, Footskate cleanup).
 
-A foot stands while its ankle is low and slow. It is then held at one place of
-the floor, and hip, knee and ankle bend to bring it there: a two-bone inverse
-kinematics in closed form, which keeps the direction of the foot and the
-height of the ankle. Before and after, the correction fades.
+A foot stands while its ankle is low and slow. It is then held at one place of the floor, and hip,
+knee and ankle bend to bring it there. This is a two-bone inverse kinematics in closed form. It
+keeps the direction of the foot and the height of the ankle. Before and after, the correction fades.
 """
 
 from __future__ import annotations
@@ -119,12 +118,12 @@ def _corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
     fade = round(FADE * fps)
     frames, values = [-fade], [np.zeros(2)]
     for start, stop in _holds(floor, contacts, round(SHORTEST * fps)):
-        wanted = np.median(floor[start:stop], axis=0) - floor[start:stop]
+        offset = np.median(floor[start:stop], axis=0) - floor[start:stop]
         if start - frames[-1] > 2 * fade:
             frames += [frames[-1] + fade, start - fade]
             values += [np.zeros(2), np.zeros(2)]
         frames += range(start, stop)
-        values += list(wanted)
+        values += list(offset)
     frames.append(frames[-1] + fade)
     values.append(np.zeros(2))
     at = np.arange(len(path))
@@ -138,8 +137,8 @@ def _holds(floor: Floats, contacts: Spans, gap: int) -> Spans:
     for start, stop in contacts:
         first = start
         while first < stop:
-            crept = np.linalg.norm(floor[first:stop] - floor[first], axis=1) > REACH
-            last = first + int(np.argmax(crept)) if crept.any() else stop
+            out_of_reach = np.linalg.norm(floor[first:stop] - floor[first], axis=1) > REACH
+            last = first + int(np.argmax(out_of_reach)) if out_of_reach.any() else stop
             holds.append((first, max(last - gap * (last < stop), first + 1)))
             first = last
     return holds
@@ -158,11 +157,11 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
         return motion
     thigh, shin = knee - hip, ankle - knee
     a, b = np.linalg.norm(thigh, axis=1), np.linalg.norm(shin, axis=1)
-    wanted = np.linalg.norm(target - hip, axis=1)
-    wanted = np.clip(wanted, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
+    length = np.linalg.norm(target - hip, axis=1)
+    length = np.clip(length, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
     now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
-    then = np.arccos(np.clip((wanted**2 - a**2 - b**2) / (2 * a * b), -1, 1))
-    bend = _about(_hinge(thigh, shin, world[:, leg[0]]), then - now)
+    angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
+    bend = _about(_hinge(thigh, shin, world[:, leg[0]]), angle - now)
     reached = thigh + rot.rotate(bend, shin)
     swing = _arc(reached, target - hip)
     still = np.where(moved[:, None], 1.0, 0.0)
@@ -173,10 +172,10 @@ def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
         leg[2]: world[:, leg[2]],
     }
     rotations = np.array(motion.rotations)
-    for joint, own in turned.items():
+    for joint, turn in turned.items():
         parent = motion.skeleton.parents[joint]
         above = turned.get(parent, world[:, parent])
-        rotations[:, joint] = rot.multiply(rot.conjugate(above), own)
+        rotations[:, joint] = rot.multiply(rot.conjugate(above), turn)
     positions = forward_kinematics(
         motion.skeleton,
         rotations,

@@ -37,6 +37,12 @@ class Source:
     n_frames : int
     options : mapping
         The keywords that it was read with.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Source
+    >>> Source("walk.bvh", None, n_frames=600).n_frames
+    600
     """
 
     path: str | None
@@ -58,6 +64,12 @@ class Node:
         Equal clusters are equal movements, whatever their source; -1 for none.
     label : str
         Empty for none.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Node
+    >>> Node(source=0, start=0, stop=30, cluster=2, label="walk").name
+    'walk'
     """
 
     source: int
@@ -93,6 +105,12 @@ class Edge:
         then moved by so many metres in x and z.
     jump : bool
         Whether the head is not the recording's own successor.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge
+    >>> Edge(0, 1, leave=30, enter=90, distance=0.05).jump
+    True
     """
 
     tail: int
@@ -161,8 +179,8 @@ class MotionGraph:
     def nodes_of(self, name: str) -> list[int]:
         """The nodes of a super-node; ParameterError if there is none of that name."""
         if name not in self.names:
-            known = ", ".join(f"{name} ({n})" for name, n in self.names.items())
-            raise ParameterError(f"no node is called {name!r}; there are {known or 'no names'}")
+            listing = ", ".join(f"{name} ({n})" for name, n in self.names.items())
+            raise ParameterError(f"no node is called {name!r}; there are {listing or 'no names'}")
         return [i for i, node in enumerate(self.nodes) if node.name == name]
 
     def core(self) -> Ints:

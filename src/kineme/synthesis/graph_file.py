@@ -57,6 +57,16 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
         A source came from no file, so that nobody could read it again.
     WriteError
         The file cannot be written.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, read_graph, write_graph
+    >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
+    >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
+    >>> graph = MotionGraph((Source("walk.bvh", "0" * 64, 60),), nodes, edges, 30.0, 0.08, 1 / 3)
+    >>> write_graph(graph, "moves.json")
+    >>> read_graph("moves.json").nodes == graph.nodes
+    True
     """
     folder = Path(path).absolute().parent
     head = {
@@ -89,6 +99,16 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     ------
     ReadError
         Missing, damaged or of another version.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, read_graph, write_graph
+    >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
+    >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
+    >>> graph = MotionGraph((Source("walk.bvh", "0" * 64, 60),), nodes, edges, 30.0, 0.08, 1 / 3)
+    >>> write_graph(graph, "moves.json")
+    >>> len(read_graph("moves.json").edges)
+    2
     """
     data = loaded(Path(path))
     schema = data.get("schema") if isinstance(data, dict) else None
@@ -120,14 +140,24 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     ------
     ReadError
         One is missing or was changed since.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_recording, bundled_truth
+    >>> motion = kineme.read(bundled_recording())
+    >>> truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+    >>> graph = kineme.motion_graph([motion], [truth])
+    >>> len(load_sources(graph))
+    1
     """
     motions = []
     for source in graph.sources:
         path = Path(source.path or "")
         with reading(path):
-            there = path.is_file()
-            digest = sha256(path.read_bytes()).hexdigest() if there else ""
-        if not there:
+            exists = path.is_file()
+            digest = sha256(path.read_bytes()).hexdigest() if exists else ""
+        if not exists:
             raise ReadError(path, "is not there, and the graph was built on it: put it back, "
                             "or build the graph anew")  # fmt: skip
         if digest != source.sha256:

@@ -1,8 +1,7 @@
 """Jumps between the nodes of a motion graph: where one may be left for another.
 
-Candidates are neighbours in feature space, found by one sparse search; of each pair of
-nodes the few nearest are measured as point clouds, and the best becomes an edge if it is
-below the threshold.
+Candidates are neighbours in feature space, found by one sparse search. Of each pair of nodes the
+few nearest are measured as point clouds. The best becomes an edge if it is below the threshold.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ CANDIDATES = 12
 """Pairs of frames measured for each pair of nodes; with this radius, 99.8 % of the jumps are found
 that measuring all pairs of frames finds on these four recordings."""
 
-SEEN = KINEME.replace(offsets=(-0.2, -0.1, 0.0, 0.1, 0.2))
+POSES = KINEME.replace(offsets=(-0.2, -0.1, 0.0, 0.1, 0.2))
 """Poses with those before and after, so that a jump goes on as it came."""
 
 
@@ -45,11 +44,11 @@ def jumps(
     motions: Sequence[Motion], nodes: Sequence[Node], threshold: float, window: float
 ) -> list[Edge]:
     """The best jump of every pair of nodes that has one below the threshold."""
-    rate = SEEN.working_fps
+    rate = POSES.working_fps
     slow = [resample(motion, rate) for motion in motions]
     firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
     points = np.concatenate([motion.positions for motion in slow])
-    features = np.concatenate([motion_features(motion, SEEN) for motion in motions])
+    features = np.concatenate([motion_features(motion, POSES) for motion in motions])
     half = round(window * rate / 2)
     ratio = motions[0].fps / rate
     ends, starts = (_ends_of(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0))
@@ -91,9 +90,11 @@ def _ends_of(
         border = (node.start, node.stop)[side] / ratio
         reach = min((node.stop - node.start) / ratio / 4, widest)
         low, high = half, firsts[node.source + 1] - firsts[node.source] - half
-        own = np.arange(max(low, int(np.ceil(border - reach))), min(high, int(border + reach) + 1))
-        frames.append(own + firsts[node.source])
-        owners.append(np.full(len(own), number))
+        frames_of_node = np.arange(
+            max(low, int(np.ceil(border - reach))), min(high, int(border + reach) + 1)
+        )
+        frames.append(frames_of_node + firsts[node.source])
+        owners.append(np.full(len(frames_of_node), number))
     return _Ends(np.concatenate(frames), np.concatenate(owners))
 
 

@@ -1,10 +1,9 @@
 """A route through a motion graph that follows a line on the floor.
 
-The cost of a route is the integral over time of the squared distance of the
-root from the line, plus a little for the time itself, so that nobody dawdles.
-The cheapest is looked for by a beam search: of the candidates that have come
-equally far down the line, to a quarter of a metre, the cheapest go on first,
-only one for each node and direction, and only so many. It is deterministic.
+The cost of a route is the integral over time of the squared distance of the root from the line,
+plus a little for the time itself, so that a route takes no longer than it must. The cheapest is
+found by a beam search. Of the candidates that have come equally far down the line, to a quarter of
+a metre, the cheapest go on: one for each node and direction, and only so many. It is deterministic.
 
 Source: Kovar, Gleicher and Pighin 2002, section 5, who compare with the point of
 the line at equal arc length; the nearest point farther on forgives swaying.
@@ -132,7 +131,7 @@ def line_route(
             f"of them, or a tolerance of {np.ceil(progress.worst * 10) / 10:g} m"
         )
     route = last.route()
-    return route, _laid(graph, floors, route[0], points)
+    return route, _placement(graph, floors, route[0], points)
 
 
 def _search(
@@ -141,8 +140,8 @@ def _search(
     """The cheapest candidate at the end of the line; None where all end before it."""
     heap: list[tuple[int, float, int, _Candidate]] = []
     done: list[tuple[_Candidate, _Progress]] = []
-    seen: set[tuple[int, int, int]] = set()
-    taken: Counter[int] = Counter()
+    visited: set[tuple[int, int, int]] = set()
+    counts: Counter[int] = Counter()
     number = count()  # of equal candidates the one found first goes first
 
     def push(candidate: _Candidate) -> None:
@@ -150,15 +149,15 @@ def _search(
         heappush(heap, (bucket, candidate.progress.cost, next(number), candidate))
 
     for node in sorted(nodes):
-        at = _laid(graph, floors, node, points)
+        at = _placement(graph, floors, node, points)
         push(_Candidate(node, graph.nodes[node].start, at, _Progress()))
     while heap:
         bucket, _, _, candidate = heappop(heap)
         direction = round(candidate.at.angle / TURN) % round(2 * np.pi / TURN)
-        if taken[bucket] == WIDTH or (bucket, candidate.node, direction) in seen:
+        if counts[bucket] == WIDTH or (bucket, candidate.node, direction) in visited:
             continue
-        seen.add((bucket, candidate.node, direction))
-        taken[bucket] += 1
+        visited.add((bucket, candidate.node, direction))
+        counts[bucket] += 1
         reached, onward = _expanded(graph, floors, points, nodes, candidate)
         if reached.point == len(points) - 1:
             done.append((candidate, reached))
@@ -186,8 +185,8 @@ def _expanded(
     onward = []
     for edge in edges:
         at = candidate.at.after(edge.angle, edge.shift) if edge.jump else candidate.at
-        went = reached[_steps(candidate.enter, edge.leave, step)]
-        onward.append(_Candidate(edge.head, edge.enter, at, went, candidate))
+        travel = reached[_steps(candidate.enter, edge.leave, step)]
+        onward.append(_Candidate(edge.head, edge.enter, at, travel, candidate))
     return reached[_steps(candidate.enter, node.stop, step)], onward
 
 
@@ -225,13 +224,15 @@ def _allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
     return named | {i for i, node in enumerate(graph.nodes) if not node.name}
 
 
-def _laid(graph: MotionGraph, floors: Sequence[Complex], node: int, points: Complex) -> Placement:
+def _placement(
+    graph: MotionGraph, floors: Sequence[Complex], node: int, points: Complex
+) -> Placement:
     """Where a node begins at the line's first point and heads down it."""
     span = graph.nodes[node]
     floor = floors[span.source]
-    went = floor[min(span.stop, len(floor) - 1)] - floor[span.start]
-    ahead = points[min(round(max(abs(went), FAR) / SPACING), len(points) - 1)] - points[0]
+    travel = floor[min(span.stop, len(floor) - 1)] - floor[span.start]
+    ahead = points[min(round(max(abs(travel), FAR) / SPACING), len(points) - 1)] - points[0]
     # Placements turn by exp(-i angle).
-    angle = float(np.angle(went) - np.angle(ahead)) if abs(went) > 0 else 0.0
+    angle = float(np.angle(travel) - np.angle(ahead)) if abs(travel) > 0 else 0.0
     turned = Placement(angle)
     return Placement(angle, complex(points[0]) - turned.of(complex(floor[span.start])))

@@ -62,6 +62,6 @@ def spaced(line: Sequence[tuple[float, float]]) -> Complex:
             f"the line is {total:g} m long: it must have a length from {FAR} m to 10 km"
         )
     at = np.concatenate([[0], np.cumsum(lengths)])
-    wanted = np.linspace(0, total, round(total / SPACING) + 1)
-    x, z = (np.interp(wanted, at, part) for part in (corners.real, corners.imag))
+    places = np.linspace(0, total, round(total / SPACING) + 1)
+    x, z = (np.interp(places, at, part) for part in (corners.real, corners.imag))
     return np.asarray(x + 1j * z, np.complex128)

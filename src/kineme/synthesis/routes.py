@@ -86,10 +86,10 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
     >>> action_route(graph, [("walk", 1), ("jump", 1), ("walk", 1)])
     [0, 1, 0]
     """
-    wanted = [name for name, count in actions for _ in range(count)]
-    if not wanted:
+    names = [name for name, count in actions for _ in range(count)]
+    if not names:
         raise ParameterError("no actions: give names with counts, as in walk,run*3")
-    layers = [graph.nodes_of(name) for name in wanted]
+    layers = [graph.nodes_of(name) for name in names]
     cost, before = _cheapest_paths(graph)
     total = np.zeros(len(layers[0]))
     chosen = []
@@ -98,7 +98,7 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
         chosen.append(through.argmin(axis=0))
         total = through.min(axis=0)
         if not np.isfinite(total).any():
-            raise ParameterError(_no_route(graph, wanted[: i + 1], cost))
+            raise ParameterError(_no_route(graph, names[: i + 1], cost))
     at = int(total.argmin())
     route = [layers[-1][at]]
     for i in range(len(chosen) - 1, -1, -1):
@@ -171,6 +171,15 @@ def following(graph: MotionGraph, name: str) -> list[str]:
     ------
     ParameterError
         No node has the name.
+
+    Examples
+    --------
+    >>> from kineme.synthesis import Edge, MotionGraph, Node, Source, following
+    >>> nodes = Node(0, 0, 30, 0, "walk"), Node(0, 30, 60, 1, "jump")
+    >>> edges = Edge(0, 1, 30, 30, jump=False), Edge(1, 0, 60, 0, distance=0.05)
+    >>> graph = MotionGraph((Source("walk.bvh", None, 60),), nodes, edges, 30.0, 0.08, 1 / 3)
+    >>> following(graph, "walk")
+    ['jump']
     """
     return _names(graph, np.isfinite(_cheapest_paths(graph)[0][graph.nodes_of(name)]).any(axis=0))
 
@@ -205,9 +214,9 @@ def _path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
     return [node % n for node in path]
 
 
-def _no_route(graph: MotionGraph, wanted: Sequence[str], cost: Floats) -> str:
-    shown = ", ".join(f"{name}*{len(list(same))}" for name, same in groupby(wanted))
-    tail, head = wanted[-2:]
+def _no_route(graph: MotionGraph, names: Sequence[str], cost: Floats) -> str:
+    shown = ", ".join(f"{name}*{len(list(same))}" for name, same in groupby(names))
+    tail, head = names[-2:]
     back = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
     return (
         f"no route leads through {shown}: from {tail!r} one can go on to "

@@ -1,4 +1,4 @@
-"""Which label each segment takes, of those that its matches have, and how sure that is."""
+"""Which label each segment takes, of those that its matches have, and with what confidence."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from kineme.transfer.matching import Floats, Primitives, label_costs
 
 REACH = 2.0
 """Thresholds up to which a match with the next label is looked for."""
-ALIKE = 0.6
+SIMILAR = 0.6
 """Cost up to which the repetitions of one person are the same movement."""
 
 
@@ -58,20 +58,20 @@ def another_movement(
     for label in set(labels.tolist()) - {""}:
         named = np.flatnonzero(labels == label)
         first = named[costs[named].argmin()]
-        other[named] = (movements[named] != movements[first]) & (costs[named] > ALIKE)
+        other[named] = (movements[named] != movements[first]) & (costs[named] > SIMILAR)
     return other
 
 
 def spread_in_clusters(
-    labels: NDArray[Any], margins: Floats, clusters: NDArray[np.int64], todo: NDArray[np.intp]
+    labels: NDArray[Any], margins: Floats, clusters: NDArray[np.int64], unnamed: NDArray[np.intp]
 ) -> None:
     """Give every cluster's members the label that most of them have; a person's label stays."""
-    for cluster in set(clusters[todo].tolist()) - {-1}:
+    for cluster in set(clusters[unnamed].tolist()) - {-1}:
         named = Counter(label for label in labels[clusters == cluster] if label)
         if not named:
             continue
         winner, votes = named.most_common(1)[0]
-        others = [row for row in todo if clusters[row] == cluster and labels[row] != winner]
+        others = [row for row in unnamed if clusters[row] == cluster and labels[row] != winner]
         labels[others] = winner
         margins[others] = votes / named.total()
 

@@ -24,8 +24,8 @@ from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, SegmentTable
 from kineme.transfer.choosing import (
-    ALIKE,
     REACH,
+    SIMILAR,
     activity_labels,
     another_movement,
     cheapest,
@@ -107,19 +107,19 @@ def transfer_labels(
     rows = segmentation.level(level)
     labels = rows.label.astype(object)
     margins, costs = rows.confidence.copy(), np.full(len(rows), np.nan)
-    todo = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
-    if len(todo) and len(knowledge):
-        unknown = _primitives(rows.select(todo), features, segmentation.fps)
+    unnamed = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
+    if len(unnamed) and len(knowledge):
+        unknown = _primitives(rows.select(unnamed), features, segmentation.fps)
         found, names = costs_of(unknown, knowledge, REACH * threshold)
         named = cheapest(found, names, threshold)
-        other = another_movement(named[0], named[2], same_movements(unknown, ALIKE))
+        other = another_movement(named[0], named[2], same_movements(unknown, SIMILAR))
         named[0][other], named[1][other], named[2][other] = "", np.nan, np.nan
-        labels[todo], margins[todo], costs[todo] = named
+        labels[unnamed], margins[unnamed], costs[unnamed] = named
     if spread:
-        spread_in_clusters(labels, margins, rows.cluster, todo)
-    own = table.level == level
+        spread_in_clusters(labels, margins, rows.cluster, unnamed)
+    of_level = table.level == level
     all_labels, all_margins = table.label.astype(object), table.confidence.copy()
-    all_labels[own], all_margins[own] = labels, margins
+    all_labels[of_level], all_margins[of_level] = labels, margins
     if level == "primitive":
         activities = table.level == "activity"
         all_labels[activities] = activity_labels(segmentation, labels)
@@ -127,7 +127,7 @@ def transfer_labels(
         table.with_columns(label=all_labels.astype(np.str_), confidence=all_margins),
         segmentation.n_frames,
         segmentation.fps,
-        _provenance(segmentation, labels[todo], costs, threshold, spread=spread),
+        _provenance(segmentation, labels[unnamed], costs, threshold, spread=spread),
         segmentation.timings,
         annotation=segmentation.annotation,
     )
@@ -187,8 +187,8 @@ def _searched(
     result = segmented_as_found(segmentation, found) if found else segmentation
     labels = np.array([match.label for match in found], np.str_)
     costs = np.array([match.distance for match in found])
-    said = _provenance(segmentation, labels, costs, threshold, spread=spread)
-    return replace(result, provenance=said, hierarchy=None)
+    provenance = _provenance(segmentation, labels, costs, threshold, spread=spread)
+    return replace(result, provenance=provenance, hierarchy=None)
 
 
 def _checked(features: ArrayLike, segmentation: Segmentation) -> Floats:

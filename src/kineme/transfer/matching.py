@@ -5,11 +5,11 @@ of L, at half to twice its speed (subsequence warping), and all of a primitive o
 of u. The match costs the dearer of the two. With one of them alone, a part of a movement would
 pass for the whole.
 
-A *run* is of primitives that touch and are of one kind: cyclic movements may be cut at another
+A *run* is of primitives that touch and are of one kind. Cyclic movements may be cut at another
 phase, so a warping may lead from one primitive to the next of its run, but never into another.
 
-Source: Vögele, Krüger and Klein 2014, section 6.1; the way back is our own, the warping that of
-`kineme.matching`.
+Source: Vögele, Krüger and Klein 2014, section 6.1; the backward match is our own, the warping that
+of `kineme.matching`.
 """
 
 from __future__ import annotations
@@ -67,13 +67,13 @@ class Primitives:
 
 
 def label_costs(
-    unknown: Primitives, known: Primitives, codes: Ints, n_labels: int, *, radius: float
+    unknown: Primitives, examples: Primitives, codes: Ints, n_labels: int, *, radius: float
 ) -> Floats:
     """``costs[u, c]``: of the cheapest match of primitive u with one of label c; inf without.
 
     Parameters
     ----------
-    unknown, known : Primitives
+    unknown, examples : Primitives
         Features of both in the same unit.
     codes : (known primitives,) array of int
         The label of each, from 0, one for all of a run.
@@ -86,26 +86,26 @@ def label_costs(
     (unknown primitives, n_labels) array
     """
     costs = np.full((len(unknown), n_labels), np.inf)
-    of_run = np.empty(int(known.runs[-1]) + 1, np.int64)
-    of_run[known.runs] = codes
-    u, run, cost = mutual_matches(unknown, known, radius)
+    of_run = np.empty(int(examples.runs[-1]) + 1, np.int64)
+    of_run[examples.runs] = codes
+    u, run, cost = mutual_matches(unknown, examples, radius)
     np.minimum.at(costs, (u, of_run[run]), cost)
     return costs
 
 
-def mutual_matches(unknown: Primitives, known: Primitives, radius: float) -> Matches:
+def mutual_matches(unknown: Primitives, examples: Primitives, radius: float) -> Matches:
     """Every match of an unknown primitive with a run of known ones: number, run, cost."""
-    u, known_run, forward = _matches_within(unknown, known, np.arange(len(unknown)), radius)
-    reached = np.flatnonzero(np.isin(known.runs, known_run))
-    k, unknown_run, backward = _matches_within(known, unknown, reached, radius)
-    n = int(known.runs[-1]) + 1
-    most = np.bincount(known.runs)
-    pairs, medians = _medians(unknown_run * n + known.runs[k], backward, most)
-    wanted = unknown.runs[u] * n + known_run
-    at = np.searchsorted(pairs, wanted)
+    u, example_run, forward = _matches_within(unknown, examples, np.arange(len(unknown)), radius)
+    reached = np.flatnonzero(np.isin(examples.runs, example_run))
+    k, unknown_run, backward = _matches_within(examples, unknown, reached, radius)
+    n = int(examples.runs[-1]) + 1
+    most = np.bincount(examples.runs)
+    pairs, medians = _medians(unknown_run * n + examples.runs[k], backward, most)
+    keys = unknown.runs[u] * n + example_run
+    at = np.searchsorted(pairs, keys)
     both = at < len(pairs)
-    both[both] = pairs[at[both]] == wanted[both]
-    return u[both], known_run[both], np.maximum(forward[both], medians[at[both]])
+    both[both] = pairs[at[both]] == keys[both]
+    return u[both], example_run[both], np.maximum(forward[both], medians[at[both]])
 
 
 def same_movements(primitives: Primitives, radius: float) -> Ints:
@@ -119,34 +119,34 @@ def same_movements(primitives: Primitives, radius: float) -> Ints:
 
 
 def _matches_within(
-    examples: Primitives, others: Primitives, which: Ints, radius: float
+    examples: Primitives, others: Primitives, numbers: Ints, radius: float
 ) -> Matches:
     """Cheapest warping of each of some examples inside each run of others, within the radius."""
-    walled, first = _walled(others)
+    separated, first = _with_walls(others)
     starts = examples.starts
     features = np.asarray(examples.features, np.float32)
 
     def matches_of(p: np.int64) -> tuple[Ints, Floats]:
-        costs, _ = warped(features[starts[p] : starts[p + 1]], walled)
+        costs, _ = warped(features[starts[p] : starts[p + 1]], separated)
         cheapest = np.minimum.reduceat(costs, first)
         runs = np.flatnonzero(cheapest <= radius)
         return runs, cheapest[runs].astype(np.float64)
 
-    found = map_threads(matches_of, which)
+    found = map_threads(matches_of, numbers)
     if not found:
         return np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0)
     runs, costs = (np.concatenate(part) for part in zip(*found, strict=True))
-    return np.repeat(which, [len(part) for part, _ in found]), runs, costs
+    return np.repeat(numbers, [len(part) for part, _ in found]), runs, costs
 
 
-def _walled(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
+def _with_walls(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
     """The features with a wall after each run, and where each run begins among them."""
     frames = np.arange(len(primitives.frame_runs)) + primitives.frame_runs
     n_runs = int(primitives.runs[-1]) + 1
-    walled = np.full((len(frames) + n_runs, primitives.features.shape[1]), _WALL, np.float32)
-    walled[frames] = primitives.features
+    separated = np.full((len(frames) + n_runs, primitives.features.shape[1]), _WALL, np.float32)
+    separated[frames] = primitives.features
     first = np.searchsorted(primitives.frame_runs, np.arange(n_runs)) + np.arange(n_runs)
-    return walled, first
+    return separated, first
 
 
 def _medians(keys: Ints, costs: Floats, sizes: Ints) -> tuple[Ints, Floats]:
@@ -158,5 +158,5 @@ def _medians(keys: Ints, costs: Floats, sizes: Ints) -> tuple[Ints, Floats]:
     order = np.lexsort((costs, keys))
     unique, first, counts = np.unique(keys[order], return_index=True, return_counts=True)
     middle = (sizes[unique % len(sizes)] - 1) // 2
-    known = middle < counts
-    return unique[known], costs[order][(first + middle)[known]]
+    matched = middle < counts
+    return unique[matched], costs[order][(first + middle)[matched]]

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
+from kineme.transfer.channel_samples import channel_samples
 from kineme.transfer.features import transfer_features
 from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.labels import transfer_labels
 from kineme.transfer.matching import THRESHOLD
-from kineme.transfer.moments import moments_of
-from kineme.transfer.vocabulary import share_by_moments
+from kineme.transfer.vocabulary import share_by_samples
 
 
 def share_clusters(
@@ -34,12 +34,11 @@ def share_clusters(
 ) -> list[Segmentation]:
     """The same segments, in which equal cluster numbers are equal movements everywhere.
 
-    Of motions the clusters of the first keep their numbers. A later cluster takes
-    the number that most of its members find in the recordings before, if more
-    than half find it; of two clusters of one recording only the one of more
-    finds takes it. All others are numbered on.
+    Of motions the clusters of the first keep their numbers. A later cluster takes the number that
+    most of its members match in the recordings before, if more than half match it. Of two clusters
+    of one recording only the one with more matches takes it. All others are numbered on.
 
-    Of signals each activity takes one of the clusters that the moments of all recordings
+    Of signals each activity takes one of the clusters that the samples of all recordings
     have together; repetitions have the cluster of their activity.
 
     Parameters
@@ -87,48 +86,48 @@ def share_clusters(
         return _numbered_on(motions, segmentations, threshold)
     if len(signals) < len(recordings):
         raise ParameterError("clusters are shared over motions or over signals, not over both")
-    moments = [moments_of(each) for each in signals]
-    return share_by_moments(moments, segmentations, n_clusters=n_clusters)
+    samples = [channel_samples(each) for each in signals]
+    return share_by_samples(samples, segmentations, n_clusters=n_clusters)
 
 
 def _numbered_on(
     motions: Sequence[Motion], segmentations: Sequence[Segmentation], threshold: float
 ) -> list[Segmentation]:
     """The clusters of motions by the numbers of those before, or by the next ones."""
-    known: KnowledgeBase | None = None
+    base: KnowledgeBase | None = None
     shared, following = [], 0
     for motion, found in zip(motions, segmentations, strict=True):
         old = sorted(set(found.table.cluster.tolist()) - {-1})
-        numbers = _met_before(motion, found, known, threshold) if known else {}
+        numbers = _numbers_before(motion, found, base, threshold) if base else {}
         for cluster in old:
             if cluster not in numbers:
-                numbers[cluster] = following if known else cluster
+                numbers[cluster] = following if base else cluster
                 following = max(following, numbers[cluster]) + 1
         renumbered = _renumbered(found, numbers)
         shared.append(renumbered)
         if old:
             named = _named_by_cluster(renumbered)
-            own = KnowledgeBase.from_recording(motion, named)
-            known = known + own if known else own
+            examples = KnowledgeBase.from_recording(motion, named)
+            base = base + examples if base else examples
     return shared
 
 
-def _met_before(
-    motion: Motion, found: Segmentation, known: KnowledgeBase, threshold: float
+def _numbers_before(
+    motion: Motion, found: Segmentation, base: KnowledgeBase, threshold: float
 ) -> dict[int, int]:
     """The numbers of the clusters that are found in the knowledge."""
     unnamed = found.table.with_columns(label=np.full(len(found), ""))
     bare = replace(found, table=unnamed, hierarchy=None)
-    named = transfer_labels(bare, transfer_features(motion), known, threshold=threshold)
+    named = transfer_labels(bare, transfer_features(motion), base, threshold=threshold)
     rows = named.primitives if len(named.primitives) else named.activities
-    finds: list[tuple[int, int, int]] = []
+    matches: list[tuple[int, int, int]] = []
     for cluster in sorted(set(rows.cluster.tolist()) - {-1}):
-        own = rows.label[rows.cluster == cluster].tolist()
-        name, count = Counter(own).most_common(1)[0]
-        if name and count > len(own) / 2:
-            finds.append((-count, cluster, int(name)))
+        cluster_labels = rows.label[rows.cluster == cluster].tolist()
+        name, count = Counter(cluster_labels).most_common(1)[0]
+        if name and count > len(cluster_labels) / 2:
+            matches.append((-count, cluster, int(name)))
     numbers: dict[int, int] = {}
-    for _, cluster, number in sorted(finds):
+    for _, cluster, number in sorted(matches):
         if number not in numbers.values():
             numbers[cluster] = number
     return numbers

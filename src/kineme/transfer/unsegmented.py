@@ -42,11 +42,11 @@ def found_by_search(
         found = search(knowledge.features[start:stop], features, threshold=threshold)
         spans = zip(*(column.tolist() for column in found), strict=True)
         matches += [Found(a, b, str(label), distance) for a, b, distance in spans]
-    taken = np.zeros(len(features), np.bool_)
+    occupied = np.zeros(len(features), np.bool_)
     kept = []
     for match in sorted(matches, key=lambda match: match.distance):
-        if not taken[match.start : match.stop].any():
-            taken[match.start : match.stop] = True
+        if not occupied[match.start : match.stop].any():
+            occupied[match.start : match.stop] = True
             kept.append(match)
     return sorted(kept)
 

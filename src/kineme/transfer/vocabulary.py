@@ -1,9 +1,9 @@
-"""One vocabulary for the signals of a collection: clusters of its moments, which segments take.
+"""One vocabulary for the signals of a collection: clusters of its samples, which segments take.
 
 Clusters of single recordings differ by what their recordings hold: the one that only walks tells
-fast from slow, the one that walks and sits does not. So these are not joined. The moments of all
+fast from slow, the one that walks and sits does not. So these are not joined. The samples of all
 recordings are clustered together (k-means, the best of several starts), and each segment takes the
-cluster that its moments are nearest to in the mean.
+cluster that its samples are nearest to in the mean.
 """
 
 from __future__ import annotations
@@ -17,33 +17,33 @@ from scipy.spatial.distance import cdist
 from threadpoolctl import threadpool_limits
 
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.moments import Float32s, Moments, by_content, in_common_units
+from kineme.transfer.channel_samples import ChannelSamples, Float32s, by_content, in_common_units
 
 Floats = NDArray[np.float64]
 
 STARTS = 5
 MOST = 100_000
-"""Moments that are clustered; of more, as many at equal steps."""
+"""Samples that are clustered; of more, as many at equal steps."""
 WORTH = 0.02
-"""Share of the variance of all moments that one more cluster must explain."""
+"""Share of the variance of all samples that one more cluster must explain."""
 TRIED = 10_000
-"""Moments of which is found out how many clusters there are."""
+"""Samples of which is found out how many clusters there are."""
 PATIENCE = 3
 """Numbers that are tried beyond the best."""
 
 
-def share_by_moments(
-    moments: Sequence[Moments],
+def share_by_samples(
+    samples: Sequence[ChannelSamples],
     segmentations: Sequence[Segmentation],
     *,
     n_clusters: int | None = None,
 ) -> list[Segmentation]:
-    """The same segments, in which equal cluster numbers are alike everywhere.
+    """The same segments, in which equal cluster numbers are equal movements everywhere.
 
     Parameters
     ----------
-    moments : sequence of Moments
-        Of recordings of the same channels, see `moments_of`.
+    samples : sequence of ChannelSamples
+        Of recordings of the same channels, see `channel_samples`.
     segmentations : sequence of Segmentation
         One for each.
     n_clusters : int, optional
@@ -59,9 +59,9 @@ def share_by_moments(
     ParameterError
         Their channels differ.
     """
-    features = in_common_units(moments)
-    typical = [_typical(*each) for each in zip(moments, features, segmentations, strict=True)]
-    points = np.concatenate([features[i] for i in by_content(moments)])
+    features = in_common_units(samples)
+    typical = [_typical(*each) for each in zip(samples, features, segmentations, strict=True)]
+    points = np.concatenate([features[i] for i in by_content(samples)])
     count = likely_number(points) if n_clusters is None else n_clusters
     centres = centres_of(points[:: -(-len(points) // MOST)], count)
     shared = []
@@ -99,13 +99,13 @@ def centres_of(points: Float32s, n_clusters: int) -> Float32s:
     return centres
 
 
-def _typical(moments: Moments, features: Float32s, found: Segmentation) -> Floats:
-    """The mean features of each activity; of a short one those of the moment before."""
+def _typical(samples: ChannelSamples, features: Float32s, found: Segmentation) -> Floats:
+    """The mean features of each activity; of a short one those of the sample before."""
     rows = found.activities
     sums = np.concatenate([np.zeros((1, features.shape[1])), np.cumsum(features, 0, np.float64)])
-    first = np.searchsorted(moments.frames, rows.start_frame)
+    first = np.searchsorted(samples.frames, rows.start_frame)
     first = np.minimum(first, len(features) - 1)
-    stop = np.maximum(np.searchsorted(moments.frames, rows.stop_frame), first + 1)
+    stop = np.maximum(np.searchsorted(samples.frames, rows.stop_frame), first + 1)
     means: Floats = (sums[stop] - sums[first]) / (stop - first)[:, None]
     return means
 
@@ -128,14 +128,14 @@ def likely_number(points: Float32s) -> int:
     3
     """
     points = points[:: -(-len(points) // TRIED)]
-    whole = float(((points - points.mean(axis=0)) ** 2).sum(dtype=np.float64))
+    total = float(((points - points.mean(axis=0)) ** 2).sum(dtype=np.float64))
     best, least = 1, 1.0 + WORTH
     for count in range(2, int(1 / WORTH)):
         if count > best + PATIENCE or best * WORTH + 1e-9 > least:
             break
         centres = centres_of(points, count)
         left = float((cdist(points, centres, "sqeuclidean").min(axis=1)).sum())
-        cost = left / max(whole, 1e-12) + count * WORTH
+        cost = left / max(total, 1e-12) + count * WORTH
         if cost < least:
             best, least = count, cost
     return best

@@ -1,4 +1,4 @@
-"""The poses of anybody, told by a body of the same size and shape for all.
+"""Poses of any person as those of one canonical body of fixed size and shape.
 
 The canonical body has the directions of the person's limbs and lengths of its own: what is left
 is how somebody moves, whoever it is. Its ankles, head and wrists are told in its own frame: from
@@ -80,7 +80,17 @@ def canonical_poses(joints: Joints, fps: float) -> Floats:
 
 
 def mirror_poses(poses: Floats) -> Floats:
-    """Poses (frames, 17) of the body in a mirror: left and right exchanged."""
+    """Poses (frames, 17) of the body in a mirror: left and right exchanged.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features.canonical import matching_poses, mirror_poses
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> poses = matching_poses(motion)
+    >>> bool((mirror_poses(mirror_poses(poses)) == poses).all())
+    True
+    """
     ends = poses[:, :15].reshape(len(poses), len(EXCHANGED), 3)[:, EXCHANGED] * FLIP
     return np.hstack([ends.reshape(len(poses), -1), poses[:, 15:]])
 
@@ -121,10 +131,10 @@ def _facing_ahead(points: Floats, to_left: Floats) -> Floats:
     Where that stands upright the heading of the nearest frame that has one is taken.
     """
     length = np.hypot(to_left[:, 0], to_left[:, 2])
-    known = np.flatnonzero(length > _FLAT * np.linalg.norm(to_left, axis=1))
-    if len(known) == 0:
+    sideways = np.flatnonzero(length > _FLAT * np.linalg.norm(to_left, axis=1))
+    if len(sideways) == 0:
         return points
-    nearest = known[np.searchsorted((known[:-1] + known[1:]) / 2, np.arange(len(length)))]
+    nearest = sideways[np.searchsorted((sideways[:-1] + sideways[1:]) / 2, np.arange(len(length)))]
     cos, sin = (to_left[nearest, axis, None] / length[nearest, None] for axis in (0, 2))
     x, y, z = np.moveaxis(points, 2, 0)
     return np.stack([cos * x + sin * z, y, cos * z - sin * x], axis=2)

@@ -1,10 +1,10 @@
 """Which points of any body are its hips, knees, ankles, shoulders, elbows, wrists and head.
 
 Ankles, wrists and head are found as everywhere (see `kineme.features.effectors`). The joints
-between come from the skeleton, where it has limbs: of the joints from the pelvis to an ankle,
-and from where the arms part to a wrist, the two that begin the longest and most equal pair of
-bones are hip and knee, or shoulder and elbow. Markers and keypoints, which hang on nothing, are
-found by their usual names.
+between come from the skeleton, where it has limbs. A leg goes from the pelvis to an ankle, an arm
+from where the arms part to a wrist. In each, the longest and most equal pair of bones begins at hip
+and knee, or at shoulder and elbow. Markers and keypoints, which hang on nothing, are found by their
+usual names.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _MARKERS = {
     "shoulder": ("shoulder", "sjc", "sho", "shouldertop", "acromion", "acromium", "acr"),
     "elbow": ("elbow", "ejc", "elbowlat elbowmed", "elbowout elbowin", "hle hme", "elb"),
 }
-_TURNS_ALONG = frozenset({"twist", "roll"})
+_TWISTS = frozenset({"twist", "roll"})
 
 
 def canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[str, Points]:
@@ -70,8 +70,8 @@ def canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[
         **_named(("shoulder", "elbow", "wrist"), arms),
         "head": (ends.head,),
     }
-    marks = _marks(skeleton.names)
-    found = {joint: limbs.get(joint) or marks.get(joint) for joint in JOINTS}
+    named_points = _named_points(skeleton.names)
+    found = {joint: limbs.get(joint) or named_points.get(joint) for joint in JOINTS}
     for side in ("left", "right"):
         if not found[f"{side}_hip"]:
             raise MotionError(f"the {side} leg has no hip: nothing joins it to a pelvis")
@@ -113,7 +113,7 @@ def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
         place
         for place, joint in enumerate(chain[:-1])
         if 0 < below[place] < below[place + 1]
-        and not _TURNS_ALONG.intersection(words_of(skeleton.names[joint]))
+        and not _TWISTS.intersection(words_of(skeleton.names[joint]))
     ]
     if len(inner) < 2:
         return (chain[inner[0]] if inner else -1), -1
@@ -126,7 +126,7 @@ def _top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
     return chain[top], chain[middle]
 
 
-def _marks(names: Sequence[str]) -> dict[str, Points]:
+def _named_points(names: Sequence[str]) -> dict[str, Points]:
     """Joints of the limbs that are markers or keypoints, by their names."""
     at: dict[tuple[str, str], int] = {}
     for point, name in enumerate(names):
@@ -135,7 +135,7 @@ def _marks(names: Sequence[str]) -> dict[str, Points]:
     for part, choices in _MARKERS.items():
         for side in ("left", "right"):
             for choice in choices:
-                wanted = [(word, side) for word in choice.split()]
-                if all(key in at for key in wanted):
-                    found.setdefault(f"{side}_{part}", tuple(at[key] for key in wanted))
+                keys = [(word, side) for word in choice.split()]
+                if all(key in at for key in keys):
+                    found.setdefault(f"{side}_{part}", tuple(at[key] for key in keys))
     return found

@@ -1,10 +1,10 @@
 """Features in which the movements of different people match: directions on a sphere.
 
-Poses of the canonical body (see `kineme.features.canonical.body`) at 30 Hz, each stacked with
-those 0.1 and 0.2 s before and after it, less a fixed mean, along fixed main axes of many people's
-movements, each divided by a shrunk deviation, and made a unit vector: what counts is how a pose
-departs from the mean one, not how far. The distance of two is the chord between them: 0 is equal,
-1.41 has nothing in common, 2 is opposite.
+Poses of the canonical body (see `kineme.features.canonical.body`) are taken at 30 Hz, each stacked
+with those 0.1 and 0.2 s before and after it. A fixed mean is subtracted. What is left is projected
+on fixed main axes of many people's movements, divided by a shrunk deviation of each, and made a
+unit vector. So it counts how a pose departs from the mean one, not how far. The distance of two is
+the chord between them: 0 is equal, 1.41 has nothing in common, 2 is opposite.
 
 Mean and axes are in ``basis.npz``, which ``benchmarks/truth/canonical_basis.py`` makes.
 """
@@ -90,6 +90,14 @@ def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
     ------
     EndEffectorError, MotionError
         As `matching_features`.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features.canonical import matching_poses
+    >>> motion = kineme.read(kineme.bundled_recording())
+    >>> matching_poses(motion).shape
+    (725, 17)
     """
     return poses_of(resample(motion, POSE_FPS), effectors=effectors)[::2]
 
@@ -131,8 +139,8 @@ def directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float3
 @cache
 def basis() -> tuple[Floats, Floats]:
     """The mean (85,) and the axes (85, 40), each over its shrunk deviation."""
-    with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as held:
-        return held["mean"].astype(np.float64), held["axes"].astype(np.float64)
+    with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as arrays:
+        return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
 
 
 def _smoothed(positions: Floats) -> Floats:

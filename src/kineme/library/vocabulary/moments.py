@@ -23,7 +23,7 @@ from kineme.library.storage.pieces import Piece, read_moments
 from kineme.library.vocabulary.comparing import results
 from kineme.library.vocabulary.joining import Joined
 from kineme.library.vocabulary.words import Place
-from kineme.transfer.moments import Units
+from kineme.transfer.channel_samples import Units
 
 Floats = NDArray[np.float64]
 Float32s = NDArray[np.float32]

@@ -57,7 +57,7 @@ class Identities:
         >>> import kineme
         >>> from kineme.datasets import bundled_truth
         >>> Identities().of(kineme.read_segments(bundled_truth(), fps=60))[:2]
-        ['a:0', 'a:140']
+        ['a:0', 'a:326']
         """
         return [self.others.get(_place(row), _identity(self.origin, row)) for row in table]
 

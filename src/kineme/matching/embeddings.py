@@ -1,11 +1,10 @@
 """A segment in 32 numbers: what its poses go through, and how much they move besides.
 
-The course of each number of a pose, brought to one length, is told by its mean and two slow
-cosines (the first terms of a discrete cosine transform), and by the root mean square of what these
-leave: a walk has a straight course, and much beside it. Of these 68 numbers a fixed mean is taken
-away, and fixed axes are kept, along which copies of a segment (faster, slower, larger, smaller,
-mirrored, noisy) differ little and different segments much. The result is a unit vector, and the
-distance of two the chord between them.
+The course of each number of a pose is brought to one length. Four numbers describe it: its mean,
+two slow cosines (the first terms of a discrete cosine transform), and the root mean square of what
+these leave. From these 68 numbers a fixed mean is subtracted, and fixed axes are kept. In them
+copies of a segment (faster, slower, larger, smaller, mirrored, noisy) differ little, and different
+segments much. The result is a unit vector, and the distance of two the chord between them.
 
 Mean and axes are in ``axes.npz``, which ``benchmarks/truth/embedding_axes.py`` makes.
 """
@@ -90,5 +89,5 @@ def course(features: Floats) -> Floats:
 @cache
 def axes_of_embeddings() -> tuple[Floats, Floats]:
     """The mean (68,) and the axes (68, 32)."""
-    with np.load(Path(__file__).with_name("axes.npz"), allow_pickle=False) as held:
-        return held["mean"].astype(np.float64), held["axes"].astype(np.float64)
+    with np.load(Path(__file__).with_name("axes.npz"), allow_pickle=False) as arrays:
+        return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)

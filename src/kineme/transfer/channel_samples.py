@@ -1,7 +1,7 @@
-"""What channels are like, moment by moment, so that recordings of one collection can be compared.
+"""What channels are like, sample by sample, so that recordings of one collection can be compared.
 
 Five times a second and per channel: the mean over a second, and the logarithm of the deviation
-within it. A recording alone is divided by its own deviations; here all of a collection are divided
+within it. A recording alone is divided by its own deviations. Here all of a collection are divided
 by those of the collection: what lies still in one must not look like what runs in another.
 """
 
@@ -22,7 +22,7 @@ Float32s = NDArray[np.float32]
 Ints = NDArray[np.int64]
 
 RATE = 5.0
-"""Moments per second."""
+"""Samples per second."""
 WINDOW = 1.0
 """Seconds around each."""
 STILL = 0.05
@@ -30,16 +30,16 @@ STILL = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class Moments:
-    """What the channels of a recording are like at some of its frames.
+class ChannelSamples:
+    """What the channels of a recording are like, in samples at `RATE` a second.
 
     Parameters
     ----------
     names : tuple of str
         Of the channels.
-    frames : (moments,) array
+    frames : (samples,) array
         Where they are.
-    means, deviations : (moments, channels) array
+    means, deviations : (samples, channels) array
         In the units of the channels, over `WINDOW`.
     """
 
@@ -49,8 +49,8 @@ class Moments:
     deviations: Float32s
 
 
-def moments_of(signals: Signals) -> Moments:
-    """The moments of a recording, `RATE` a second outside of its gaps.
+def channel_samples(signals: Signals) -> ChannelSamples:
+    """The samples of a recording, `RATE` a second outside of its gaps.
 
     Parameters
     ----------
@@ -58,12 +58,12 @@ def moments_of(signals: Signals) -> Moments:
 
     Returns
     -------
-    Moments
+    ChannelSamples
 
     Examples
     --------
     >>> from kineme import Signals
-    >>> moments_of(Signals([[0.0], [2.0]] * 20, fps=20)).deviations[4].tolist()
+    >>> channel_samples(Signals([[0.0], [2.0]] * 20, fps=20)).deviations[4].tolist()
     [1.0]
     """
     half = max(1, round(WINDOW / 2 * signals.fps))
@@ -79,14 +79,14 @@ def moments_of(signals: Signals) -> Moments:
         deviations = np.sqrt(np.maximum(squares - means**2, 0.0))
         parts.append((first + at, means + middle, deviations))
     frames, means, deviations = (np.concatenate(part) for part in zip(*parts, strict=True))
-    return Moments(
+    return ChannelSamples(
         tuple(signals.names), frames, means.astype(np.float32), deviations.astype(np.float32)
     )
 
 
 @dataclass(frozen=True, eq=False)
 class Units:
-    """Those of a collection, in which the moments of its recordings are compared.
+    """Those of a collection, in which the samples of its recordings are compared.
 
     Parameters
     ----------
@@ -102,14 +102,14 @@ class Units:
 
     @classmethod
     def of(cls, means: Float32s, deviations: Float32s) -> Units:
-        """The units of these moments, (moments, channels) each."""
+        """The units of these samples, (samples, channels) each."""
         values, within = means.astype(np.float64), deviations.astype(np.float64)
         varies = values.std(axis=0)
         varies = np.where(varies > 0, varies, np.sqrt((within**2).mean(axis=0)))
         return cls(varies, _scale(values), _scale(_energies(within, varies)))
 
     def features(self, means: Float32s, deviations: Float32s) -> Float32s:
-        """Moments as they are compared, (moments, 2 · channels)."""
+        """Samples as they are compared, (samples, 2 · channels)."""
         values = means.astype(np.float64)
         energies = _energies(deviations.astype(np.float64), self.varies)
         parts = [
@@ -119,12 +119,12 @@ class Units:
         return np.hstack(parts).astype(np.float32)
 
 
-def in_common_units(recordings: Sequence[Moments]) -> list[Float32s]:
-    """Features (moments, 2 · channels) of each recording, in units of all of them.
+def in_common_units(recordings: Sequence[ChannelSamples]) -> list[Float32s]:
+    """Features (samples, 2 · channels) of each recording, in units of all of them.
 
     Parameters
     ----------
-    recordings : sequence of Moments
+    recordings : sequence of ChannelSamples
         With the same channels.
 
     Returns
@@ -150,7 +150,7 @@ def in_common_units(recordings: Sequence[Moments]) -> list[Float32s]:
     return [units.features(one.means, one.deviations) for one in recordings]
 
 
-def by_content(recordings: Sequence[Moments]) -> list[int]:
+def by_content(recordings: Sequence[ChannelSamples]) -> list[int]:
     """Recordings by their numbers, in an order that is the same whatever they are called.
 
     Sums, and samples at equal steps, depend on the order; what they are taken for must not.
