@@ -25,9 +25,10 @@ from pathlib import Path
 
 from kineme._counts import counted
 from kineme._files import head_of, tail_of
-from kineme.formats.columns import is_timing, joint_names
+from kineme.formats.columns import joint_names
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.registry import speaks, supported_formats
+from kineme.formats.timing import is_timing
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""

@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import MissingDependencyError, ReadError
-from kineme.formats.channels.table import (
+from kineme.formats.channels.reading import (
     ChannelTable,
     asked_for,
     channel_table,
-    named,
     wanted_columns,
 )
-from kineme.formats.columns import is_timing
+from kineme.formats.delimited import named
 from kineme.formats.files import FileContent
+from kineme.formats.timing import is_timing
 
 
 def parquet_file(content: FileContent) -> Any:

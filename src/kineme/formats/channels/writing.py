@@ -26,12 +26,11 @@ import numpy as np
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
-from kineme.formats.channels.table import ChannelTable, named
-from kineme.formats.channels.text import TextTable, text_channels
-from kineme.formats.columns import RATE, is_rate, is_timing
-from kineme.formats.delimited import as_text, dotted
+from kineme.formats.channels.reading import ChannelTable, text_channels
+from kineme.formats.delimited import as_text, dotted, named, sniff
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import covered
+from kineme.formats.timing import RATE, is_rate, is_timing
 from kineme.recordings import Signals
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
@@ -127,14 +126,14 @@ class _TextRows:
     @classmethod
     def of(cls, content: FileContent, n_rows: int) -> _TextRows:
         """The first rows of a file, blank lines left out."""
-        table = TextTable.of(content)
+        table = sniff(content).numbered()
         text = (
             content.text
             if content.is_utf16
             else content.data.decode("utf-8", errors="surrogateescape")
         )
         lines = text.splitlines(keepends=True)
-        head, below = lines[: table.first_row - 1], lines[table.first_row - 1 :]
+        head, below = lines[: table.below], lines[table.below :]
         reader = csv.reader(table.rows, delimiter=table.separator)
         kept: list[str] = []
         start = 0
@@ -217,7 +216,7 @@ def _held(content: FileContent, signals: Signals) -> ChannelTable | None:
         if signals.provenance.format == PARQUET:
             table = parquet_channels(content, parquet_file(content), signals.names)
         elif signals.provenance.format in TEXT:
-            table = text_channels(content, TextTable.of(content), signals.names)
+            table = text_channels(sniff(content), signals.names)
         else:
             return None
     except ReadError:  # channels of other names

@@ -143,6 +143,13 @@ def in_groups(content: FileContent, values: Any, width: int) -> Floats:
     return flat.reshape(-1, width)
 
 
+def whole_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
+    """The numbers of frames as such; ReadError where they are none."""
+    if not np.isfinite(frames).all() or np.abs(frames).max(initial=0) > 2**53:
+        raise content.error("the frames have no whole numbers")
+    return np.rint(frames).astype(np.int64)
+
+
 def _numbered(content: FileContent, video: Video, found: list[int]) -> tuple[NDArray[np.intp], int]:
     """Frames counted from 0, and how many there are."""
     known = {*found, *video.frames}

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from kineme.formats.channels.reading import to_signals
-from kineme.formats.channels.table import ChannelTable, asked_for, wanted_columns
+from kineme.formats.channels.reading import ChannelTable, asked_for, to_signals, wanted_columns
 from kineme.formats.files import FileContent, unique
 from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.formats.markers.muscles import muscles_of
