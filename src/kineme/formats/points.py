@@ -23,9 +23,8 @@ from kineme._counts import counted
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
-from kineme.formats.inferred import scale_of, up_axis
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
-from kineme.formats.units import upright
+from kineme.formats.units import scale_of, up_axis, upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 
 Floats = NDArray[np.float64]

@@ -5,7 +5,7 @@ CSV, TSV, text names in the first line, or numbers only (channels 1, 2, …);
                between commas, tabs, semicolons or blanks
 Parquet        one channel per column
 MOT, STO       OpenSim's coordinates, forces or other channels
-C3D            the analog channels, or those of muscles, see `kineme.formats.markers.muscles`
+C3D            the analog channels, or those of muscles, see `kineme.formats.markers.c3d`
 MAT            vectors, and columns of matrices, of the length that most have
 ============== ==================================================================
 
