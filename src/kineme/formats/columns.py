@@ -87,8 +87,8 @@ def columns_to_motion(
         )
     unit, up = options.unit, options.up
     if unit is None:
-        unit, said = _in_one_unit(content, joints, positions)
-        notes += said
+        unit, remarks = _in_one_unit(content, joints, positions)
+        notes += remarks
     if flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")
         unit, up = unit or "pixel", up or "-y"
@@ -120,12 +120,12 @@ def _joints(content: FileContent, columns: Iterable[str]) -> Joints:
         )
     called = {name: _POSITION.fullmatch(name) for name in points if is_body(name)}
     plain = {name: match[1] if match else name for name, match in called.items()}
-    known, all_so = set(plain.values()), all(called.values())
+    plain_names, all_positions = set(plain.values()), all(called.values())
     joints: dict[str, Mapping[str, str]] = {}
     for name, axes in points.items():
         if name in plain:
-            joints[plain[name] if all_so else name] = axes
-        elif known.isdisjoint(beginnings(name)):
+            joints[plain[name] if all_positions else name] = axes
+        elif plain_names.isdisjoint(beginnings(name)):
             joints[name] = axes
     return joints
 
@@ -137,13 +137,14 @@ def _in_one_unit(
 
     Where they tell several, ``positions`` are brought to metres in place, and the unit is that.
     """
-    told = {joint: _told(axes) for joint, axes in joints.items()}
-    units = sorted({unit for axes in told.values() for unit in axes.values() if unit})
-    silent = [joint for joint, axes in told.items() if None in axes.values()]
+    by_joint = {joint: _units_of(axes) for joint, axes in joints.items()}
+    units = sorted({unit for axes in by_joint.values() for unit in axes.values() if unit})
+    silent = [joint for joint, axes in by_joint.items() if None in axes.values()]
     if len(units) < 2:
-        said = f"columns of {counted(len(silent), 'point')} tell no unit, and are taken in that of"
-        notes = [Note(f"{said} the others, {units[0]}", "warning")] if units and silent else []
-        return (units[0] if units else None), [*notes]
+        if not (units and silent):
+            return (units[0] if units else None), []
+        remark = f"columns of {counted(len(silent), 'point')} tell no unit, and are taken in that"
+        return units[0], [Note(f"{remark} of the others, {units[0]}", "warning")]
     listed = " and ".join(units)
     if silent:
         column = next(iter(joints[silent[0]].values()))
@@ -151,18 +152,19 @@ def _in_one_unit(
             f"columns are in {listed}, and {column!r} tells no unit: add it to the name, as in "
             f"'{column} [{units[0]}]', or give unit= (--unit) for all of them"
         )
-    for j, axes in enumerate(told.values()):
+    for j, axes in enumerate(by_joint.values()):
         for axis, unit in axes.items():
             positions[:, j, "xyz".index(axis)] *= metres(unit or "m")
     return "m", [f"columns are in {listed}, each taken in its own"]
 
 
-def _told(axes: Mapping[str, str]) -> dict[str, str | None]:
+def _units_of(axes: Mapping[str, str]) -> dict[str, str | None]:
     """The unit of each axis of a point; where one tells none, that of the others if it is one."""
     matches = {axis: COORDINATE.fullmatch(column.strip()) for axis, column in axes.items()}
-    told = {axis: match[5] if match else None for axis, match in matches.items()}
-    known = {unit for unit in told.values() if unit}
-    return {axis: unit or (min(known) if len(known) == 1 else None) for axis, unit in told.items()}
+    by_axis = {axis: match[5] if match else None for axis, match in matches.items()}
+    units = {unit for unit in by_axis.values() if unit}
+    other = min(units) if len(units) == 1 else None
+    return {axis: unit or other for axis, unit in by_axis.items()}
 
 
 def _positions(

@@ -86,7 +86,7 @@ def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
     for place, names, files in os.walk(folder, onerror=closed):
         names[:] = sorted(name for name in names if not name.startswith("."))
         here = Path(place)
-        recordings = list(_judged(here, files, found))
+        recordings = list(_recordings_among(here, files, found))
         try:
             frames = frame_files(here)
         except OSError as error:
@@ -129,7 +129,7 @@ def holds_recording(path: Path) -> bool:
         return False
 
 
-def _judged(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
+def _recordings_among(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
     """The recordings among files; what cannot be judged is noted in ``found``."""
     for name in sorted(names):
         path = folder / name
@@ -146,12 +146,12 @@ def _judged(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
 
 def _is_recording(path: Path) -> bool:
     suffix = path.suffix.lower()
-    formats = [known for known in supported_formats() if known.read and suffix in known.suffixes]
+    formats = [each for each in supported_formats() if each.read and suffix in each.suffixes]
     if not formats or suffix in _SKELETONS:
         return False
     if suffix in _ANYTHING:
         ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
-        return any(speaks(known, ends) for known in formats)
+        return any(speaks(each, ends) for each in formats)
     if suffix in (".csv", ".tsv"):
         return not _names_spans(head_of(path))
     if suffix == ".parquet":

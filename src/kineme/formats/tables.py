@@ -89,7 +89,7 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
     timeless = options.fps is not None
     used = [i for i, n in enumerate(names) if is_used(n) and not (timeless and is_timing(n))]
     for i in used:
-        if i < len(table.first_cells) and _tells_nothing(names[i], table.first_cells[i]):
+        if i < len(table.first_cells) and _lacks_time(names[i], table.first_cells[i]):
             reason = f"column {names[i]!r} {NO_TIMES}: give fps= (--fps)"
             raise content.error(reason, table.below + 1)
     values = table.numbers(used)
@@ -97,7 +97,7 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
     return columns_to_motion(content, TABLE.name, columns, options).noted(*table.remarks)
 
 
-def _tells_nothing(name: str, cell: str) -> bool:
+def _lacks_time(name: str, cell: str) -> bool:
     """Whether a column is called as times are, and its first cell is none."""
     return is_timing(name) and not (is_number(cell) or is_date(cell) or cell.lower() in EMPTY)
 

@@ -76,8 +76,8 @@ def unit_named(word: str) -> str | None:
     longer = {
         f"{p}met{e}{s}": u for p, u in prefixes.items() for e in ("er", "re") for s in ("", "s")
     }
-    known = {"m": "m", "cm": "cm", "mm": "mm", "in": "inch", "inch": "inch", "inches": "inch"}
-    return (longer | known).get(word)
+    short = {"m": "m", "cm": "cm", "mm": "mm", "in": "inch", "inch": "inch", "inches": "inch"}
+    return (longer | short).get(word)
 
 
 def upright(points: Floats, up: str) -> Floats:
@@ -109,11 +109,11 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
         return unit, Note(f"unit {unit} inferred: the skeleton is then about {tall:.2f} m tall")
     off = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
     unit = list(UNITS)[int(np.abs(off).argmin())]
-    said = (
+    remark = (
         f"in no unit is this skeleton, about {height:.3g} units tall, of human size: "
         f"{unit} assumed; give unit= (--unit)"
     )
-    return unit, Note(said, "warning")
+    return unit, Note(remark, "warning")
 
 
 def height_of(skeleton: Skeleton, means: Floats) -> float:
@@ -195,11 +195,11 @@ def scale_of(unit: str | float | None, positions: Floats) -> tuple[float, list[s
         found = fits[0]
     else:
         found = "m" if spread < 1 else "mm"
-        said = (
+        remark = (
             f"markers {spread:.3g} units apart are in no unit those of a person: "
             f"{found} assumed; give unit= (--unit)"
         )
-        return sizes[found], [Note(said, "warning")]
+        return sizes[found], [Note(remark, "warning")]
     return sizes[found], [
         f"unit {found} inferred: the points then spread over {spread * sizes[found]:.2f} m"
     ]

@@ -135,8 +135,8 @@ def channels_of(
     if columns is None and others:
         note = f"of another length, left out: {', '.join(others)}"
         table = replace(table, notes=(*table.notes, note))
-    known = rate is not None and np.isfinite(rate) and rate > 0
-    return replace(table, rate=rate) if known else table
+    has_rate = rate is not None and np.isfinite(rate) and rate > 0
+    return replace(table, rate=rate) if has_rate else table
 
 
 def _hold_channels(arrays: Arrays) -> bool:

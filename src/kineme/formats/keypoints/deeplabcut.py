@@ -41,7 +41,7 @@ def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
     individuals = labels.get("individuals", [""] * len(parts))
     if len({len(parts), len(coords), len(individuals)}) > 1:
         raise content.error("the rows of names differ in length", line)
-    wanted = _wanted(content, list(dict.fromkeys(individuals)), options.person)
+    wanted = _individual(content, list(dict.fromkeys(individuals)), options.person)
     names = ["frame", *(f"{part}_{coord}" for part, coord in zip(parts, coords, strict=True))]
     values = replace(table, names=names, below=table.head + len(labels)).numbers()[:, 1:]
     columns = {
@@ -52,7 +52,7 @@ def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
     return columns_to_motion(content, "DeepLabCut", columns, options, limit=LIKELY)
 
 
-def _wanted(content: FileContent, individuals: list[str], person: str | None) -> str:
+def _individual(content: FileContent, individuals: list[str], person: str | None) -> str:
     """The individual to read."""
     if person in individuals:
         return person

@@ -48,10 +48,10 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
     positions, sure = _arranged(content, tracks, found.get("point_scores"), old=old)
     if len(names) != len(positions):
         names = [str(i) for i in range(len(positions))]
-    seen = np.any(np.isfinite(positions).all(axis=3), axis=2)
+    visible = np.any(np.isfinite(positions).all(axis=3), axis=2)
     people = [
         Person(frame, positions[track, frame].tolist(), sure[track, frame].tolist(), names[track])
-        for track, frame in np.argwhere(seen).tolist()
+        for track, frame in np.argwhere(visible).tolist()
     ]
     frames = range(positions.shape[1])
     video = Video("SLEAP", nodes, people, SURE, frames=frames)
@@ -95,9 +95,9 @@ def _arranged(
     positions = tracks.transpose((0, 3, 2, 1) if old else (1, 0, 2, 3))
     sure = np.ones(positions.shape[:3])
     if isinstance(scores, np.ndarray) and scores.ndim == 3 and scores.dtype.kind in "iuf":
-        given = scores.transpose((0, 2, 1) if old else (1, 0, 2))
-        if given.shape == sure.shape:
-            sure = np.where(np.isnan(given), 1.0, given)
+        confidences = scores.transpose((0, 2, 1) if old else (1, 0, 2))
+        if confidences.shape == sure.shape:
+            sure = np.where(np.isnan(confidences), 1.0, confidences)
     return np.asarray(positions, np.float64), sure
 
 

@@ -96,8 +96,8 @@ def parse_c3d(content: FileContent) -> C3D:
     file = Layout(content, parameters, read_header(content, parameters))
     raw = file.frames()
     n = file.n_points
-    points, seen = _points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
-    points[~seen] = np.nan
+    points, visible = _points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
+    points[~visible] = np.nan
     analog = _analog(file, raw[:, 4 * n :])
     return C3D(
         labels=_labels(parameters, "POINT", n, "point"),
@@ -130,8 +130,8 @@ def _analog(file: Layout, raw: Stored) -> Floats:
 
 
 def _per_channel(parameters: Parameters, name: str, channels: int, usual: float) -> Floats:
-    given = parameters.numbers("ANALOG", name, signed=True)[:channels]
-    return np.array(given + [usual] * (channels - len(given)))
+    values = parameters.numbers("ANALOG", name, signed=True)[:channels]
+    return np.array(values + [usual] * (channels - len(values)))
 
 
 def _events(file: Layout) -> tuple[tuple[float, str], ...]:
@@ -169,8 +169,8 @@ def _points(quads: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
     positions = quads[:, :, :3].astype(np.float64)
     if quads.dtype.kind == "i":
         positions *= scale
-    seen = (quads[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
-    return positions, seen & positions.any(axis=2)
+    visible = (quads[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
+    return positions, visible & positions.any(axis=2)
 
 
 def _labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]:
@@ -240,20 +240,20 @@ class Layout:
             return header
         pairs = dict.fromkeys((n, m) for n in (used, header[0]) for m in (header[1], samples))
         fitting = [pair for pair in pairs if any(pair) and self._fills(*pair)]
-        said = (
+        remark = (
             f"the header counts {header[0]} points and {header[1]} analog samples in a frame, "
             f"the parameters {used} and {samples}"
         )
         widths = {4 * n + m for n, m in fitting}
         if len(fitting) == 1 or (fitting and used == header[0] and len(widths) == 1):
             n, m = fitting[0]
-            self.content.warn(f"{said}: {n} and {m} are taken, which fit the length of the file")
+            self.content.warn(f"{remark}: {n} and {m} are taken, which fit the length of the file")
             return fitting[0]
         if used == header[0] and not fitting:  # as header and length of a cut file would
-            self.content.warn(f"{said}: those of the header are taken")
+            self.content.warn(f"{remark}: those of the header are taken")
             return header
         which = "either fits" if fitting else "neither fits"
-        raise self.content.error(f"{said}, and {which} the length of the file: it is damaged")
+        raise self.content.error(f"{remark}, and {which} the length of the file: it is damaged")
 
     def _fills(self, n_points: int, per_frame: int) -> bool:
         """Whether a declared number of frames, so wide, ends in the last block of the file."""

@@ -61,7 +61,7 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     turn = 1.0 if b"radians" in keywords else radians(1) if b"degrees" in keywords else figure.turn
     values = read_frames(content, len(head), figure)
     notes = [f"skeleton from {asf}"]
-    fps = options.fps or _written_rate(head)
+    fps = options.fps or _comment_rate(head)
     if fps is None:
         fps = FPS
         notes.append(f"frame rate {FPS:g} Hz assumed: AMC files do not store one")
@@ -100,7 +100,7 @@ def find_skeleton(path: Path) -> Path:
     """
     parts = path.stem.split("_")
     stems = ["_".join(parts[:n]).lower() for n in range(len(parts), 0, -1)]
-    seen: list[Path] = []
+    candidates: list[Path] = []
     for folder in (path.parent, path.parent / "asf", path.parent.parent / "asf"):
         found = sorted(p for p in folder.glob("*") if p.suffix.lower() == ".asf")
         by_stem = {p.stem.lower(): p for p in found}
@@ -109,23 +109,23 @@ def find_skeleton(path: Path) -> Path:
                 return by_stem[stem]
         if len(found) == 1:
             return found[0]
-        seen += found
-    if not seen:
+        candidates += found
+    if not candidates:
         raise ReadError(
             path, "no ASF skeleton found beside it: name one with skeleton= (--skeleton)"
         )
     raise ReadError(
         path,
-        f"none of the {len(seen)} ASF files beside it has its name: "
+        f"none of the {len(candidates)} ASF files beside it has its name: "
         f"name one with skeleton= (--skeleton)",
     )
 
 
-def _written_rate(head: bytes) -> float | None:
+def _comment_rate(head: bytes) -> float | None:
     """The frame rate in the comment that `write_amc` leaves, if it is there."""
-    said = _FPS_COMMENT.search(head)
+    comment = _FPS_COMMENT.search(head)
     try:
-        return numbers([said.group(1)])[0] if said else None
+        return numbers([comment.group(1)])[0] if comment else None
     except ValueError:
         return None
 

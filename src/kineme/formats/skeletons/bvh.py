@@ -284,21 +284,21 @@ class _Hierarchy:
 
     def _name_end_sites(self) -> None:
         """End sites are called after their parent; all names are unique."""
-        taken: set[str] = set()
+        names: set[str] = set()
         for joint in self.joints:
             joint.end = joint.end and not joint.channels
             if not joint.end:
-                if joint.name in taken:
+                if joint.name in names:
                     raise self.content.error(f"a second joint is called {joint.name!r}", joint.line)
-                taken.add(joint.name)
+                names.add(joint.name)
         tried: dict[str, int] = {}  # the last number behind each name
         for joint in self.joints:
             if joint.end:
                 stem = joint.name = f"{self.joints[joint.parent].name}_end"
-                while joint.name in taken:
+                while joint.name in names:
                     tried[stem] = tried.get(stem, 1) + 1
                     joint.name = f"{stem}{tried[stem]}"
-                taken.add(joint.name)
+                names.add(joint.name)
 
 
 def read_frames(content: FileContent, start: int, width: int, declared: int) -> Floats:
