@@ -15,6 +15,7 @@ from kineme.formats.columns import columns_to_motion
 from kineme.formats.delimited import sniff
 from kineme.formats.dialects import DIALECTS, Dialect
 from kineme.formats.files import FileContent
+from kineme.formats.listing import recordings_in
 
 ROWS = [(i / 50, i * 0.25, 1.5 - i * 0.125, i * 0.5) for i in range(12)]
 
@@ -138,3 +139,13 @@ def test_a_dialect_that_cannot_tell_its_files_costs_itself_only(tmp_path: Path) 
             assert kineme.read(path).n_frames == len(ROWS)
     finally:
         DIALECTS.remove("broken")
+
+
+@pytest.mark.parametrize("head", ["start_s;stop_s;label", "Observer,Ann\nstart_s,stop_s,label,n"])
+def test_a_folder_passes_over_tables_of_spans_in_any_layout(tmp_path: Path, head: str) -> None:
+    names = head.splitlines()[-1]
+    separator = ";" if ";" in names else ","
+    row = separator.join(["0.5", "1.5", "walk", "3"][: names.count(separator) + 1])
+    (tmp_path / "labels.csv").write_text(f"{head}\n{row}\n{row}\n{row}\n")
+    (tmp_path / "take.csv").write_text(text("time,acc_x,acc_y,acc_z"))
+    assert [path.name for path in recordings_in(tmp_path).recordings] == ["take.csv"]

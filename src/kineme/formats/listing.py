@@ -17,7 +17,6 @@ the reason; it never ends the listing.
 from __future__ import annotations
 
 import os
-import re
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -25,7 +24,10 @@ from pathlib import Path
 
 from kineme._counts import counted
 from kineme._files import head_of, tail_of
+from kineme.errors import ReadError
 from kineme.formats.columns import joint_names
+from kineme.formats.delimited import sniff
+from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.registry import speaks, supported_formats
 from kineme.formats.timing import is_timing
@@ -153,16 +155,19 @@ def _is_recording(path: Path) -> bool:
         ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
         return any(speaks(each, ends) for each in formats)
     if suffix in (".csv", ".tsv"):
-        return not _names_spans(head_of(path))
+        return not _names_spans(path)
     if suffix == ".parquet":
         tail = tail_of(path)
         return not any(name in tail for name in SPANS[:2])
     return suffix != ".npz" or _names_motion(path)
 
 
-def _names_spans(head: bytes) -> bool:
-    first = head.removeprefix(b"\xef\xbb\xbf").split(b"\n", 1)[0].lower()
-    return any(name.strip(b' "\r') in SPANS for name in re.split(rb"[,;\t]", first))
+def _names_spans(path: Path) -> bool:
+    try:
+        names = sniff(FileContent(path, head_of(path))).names
+    except ReadError:  # not a line: an error for who reads it
+        return False
+    return any(name.lower().encode() in SPANS for name in names)
 
 
 def _names_motion(path: Path) -> bool:
