@@ -96,6 +96,20 @@ def write(signals, path):
 FORMAT = Format("PLAIN", (".plain",), lambda head: False, read, write_signals=write)
 """
 
+DIALECT = """
+from kineme.formats.columns import columns_to_motion
+from kineme.formats.dialects import Dialect
+
+
+def read(table, options):
+    columns = dict(zip(table.names, table.numbers().T))
+    named = {name: columns[f"{name[-1].upper()}.{name[:-2]}"] for name in ("hip_x", "hip_y")}
+    return columns_to_motion(table.content, "axis first", named | columns, options)
+
+
+DIALECT = Dialect("axis first", lambda names, lines: "X.hip" in names, read)
+"""
+
 LABELS = """
 from kineme.labels import LabelFormat, Labels, Span
 
@@ -131,6 +145,9 @@ slowly = somebody.slowly:PRESET
 
 [kineme.formats]
 plain = somebody.plain:FORMAT
+
+[kineme.table_dialects]
+axes = somebody.axes:DIALECT
 
 [kineme.label_formats]
 words = somebody.words:FORMAT
@@ -182,8 +199,8 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The package as an installer leaves it: modules, and a folder that names its objects."""
     home = tmp_path_factory.mktemp("site")
     (home / "somebody").mkdir()
-    modules = {"halves": METHOD, "slowly": PRESET, "plain": FORMAT, "words": LABELS,
-               "longest": SCORE}  # fmt: skip
+    modules = {"halves": METHOD, "slowly": PRESET, "plain": FORMAT, "axes": DIALECT,
+               "words": LABELS, "longest": SCORE}  # fmt: skip
     for name, text in modules.items():
         (home / "somebody" / f"{name}.py").write_text(text)
     info = home / "somebody-1.0.dist-info"
@@ -276,6 +293,15 @@ def test_its_files_are_read_segmented_and_converted(python: Run, kineme_all, fol
     shown = python("-c", code)
     assert "Signals of 1200 frames (40.0 s) at 30 Hz" in shown
     assert shown.strip().endswith("True")
+
+
+def test_its_tables_are_read(python: Run, tmp_path: Path) -> None:
+    rows = [f"{i / 30};{i * 2};{i}" for i in range(40)]
+    (tmp_path / "a.csv").write_text("\n".join(["time;X.hip;Y.hip", *rows]))
+    code = "import kineme; found = kineme.read('a.csv'); print(found, found.provenance.format)"
+    shown = python("-c", code)
+    assert "Motion of 40 frames" in shown
+    assert "axis first" in shown
 
 
 def test_its_methods_are_scored_by_its_score_on_its_recordings(kineme_all, folder: Path) -> None:

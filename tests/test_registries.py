@@ -12,6 +12,7 @@ import pytest
 from kineme._registry import Registry
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.evaluation.score import SCORES
+from kineme.formats.dialects import DIALECTS
 from kineme.formats.registry import FORMATS
 from kineme.labels.registry import FORMATS as LABEL_FORMATS
 from kineme.methods.presets import PRESETS
@@ -106,7 +107,7 @@ def test_all_threads_see_the_whole_registry(plugin) -> None:
     assert lengths == [50] * 8
 
 
-@pytest.mark.parametrize("registry", [FORMATS, LABEL_FORMATS, PRESETS, SCORES])
+@pytest.mark.parametrize("registry", [FORMATS, DIALECTS, LABEL_FORMATS, PRESETS, SCORES])
 def test_the_packages_own_are_there_by_their_names(registry) -> None:
     assert all(name == one.name for name, one in registry.items())
     name, one = next(iter(registry.items()))

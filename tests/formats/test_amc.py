@@ -9,7 +9,7 @@ from format_samples import AMC, ASF
 import naive
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read
-from kineme.formats.skeletons.amc_frames import _compiled_rows, _Layout
+from kineme.formats.skeletons.amc import _compiled_rows, _Layout
 from kineme.recordings import Motion
 
 CMU_UNIT = 0.0254 / 0.45

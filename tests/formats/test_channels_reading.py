@@ -17,8 +17,8 @@ from scipy.io import savemat
 
 from kineme import Motion, Signals, bundled_recording, read, segment
 from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
-from kineme.formats.channels.sensors import hold_channels
 from kineme.formats.channels.writing import write_signals
+from kineme.formats.dialects import hold_channels
 
 MOT = (
     "Coordinates\nversion=1\nnRows=3\nnColumns=3\ninDegrees=yes\n\nendheader\n"

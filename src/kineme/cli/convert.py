@@ -40,12 +40,12 @@ def _is_recording(path: Path) -> bool:
 def _names_channels(path: Path) -> bool:
     """Whether a text file is a table of channels: these name columns, labels begin with a time."""
     from kineme.errors import ReadError
-    from kineme.formats.channels.sensors import hold_channels
-    from kineme.formats.channels.text import TextTable
+    from kineme.formats.delimited import sniff
+    from kineme.formats.dialects import hold_channels
     from kineme.formats.files import load
 
     try:
-        table = TextTable.of(load(path))
+        table = sniff(load(path)).numbered()
     except ReadError:
         return False
     return hold_channels(table.names) and table.names[0] != "1" and bool(table.numeric())

@@ -1,7 +1,7 @@
 """Segments as clips: a folder with a file each, and a manifest of them.
 
 A clip of a motion is a BVH; a CSV of joint positions where it has no rotations
-(see `kineme.formats.tables.text`). A clip of signals is rows of their own file
+(see `kineme.formats.tables`). A clip of signals is rows of their own file
 (see `kineme.formats.channels.writing`). Clips are called
 ``RECORDING_NUMBER_TEXT``, with the text of
 `kineme.labels.spans` and ``_`` for what file systems dislike.

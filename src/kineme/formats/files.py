@@ -120,10 +120,10 @@ def numbers(words: Sequence[str | bytes]) -> list[float]:
         values = list(map(float, words))
     except ValueError:
         wrong = next(word for word in words if not _is_number(word))
-        raise ValueError(f"{_shown(wrong)} is not a number") from None
+        raise ValueError(f"{_excerpt(wrong)} is not a number") from None
     if not all(map(isfinite, values)):
         wrong = next(word for word, value in zip(words, values, strict=True) if not isfinite(value))
-        raise ValueError(f"{_shown(wrong)} is not a finite number")
+        raise ValueError(f"{_excerpt(wrong)} is not a finite number")
     return values
 
 
@@ -155,13 +155,13 @@ def spelled(path: Path, names: Sequence[str], spelling: Callable[[str], str]) ->
     for name in names:
         if not is_text(name):
             raise WriteError(path, f"the name {name!r:.60} cannot be written: it is not text")
-    given = unique(map(spelling, names))
-    changed = [pair for pair in zip(names, given, strict=True) if pair[0] != pair[1]]
+    spellings = unique(map(spelling, names))
+    changed = [pair for pair in zip(names, spellings, strict=True) if pair[0] != pair[1]]
     if changed:
         name, new = changed[0]
         more = f", and {len(changed) - 1} more" if len(changed) > 1 else ""
         warn(f"{path.name}: the name {name!r:.60} is written as {new!r:.60}{more}")
-    return given
+    return spellings
 
 
 def in_a_cell(name: str) -> str:
@@ -171,15 +171,15 @@ def in_a_cell(name: str) -> str:
 
 def unique(names: Iterable[str]) -> list[str]:
     """The names, those that repeat an earlier one with a number behind them."""
-    given: dict[str, None] = {}
+    distinct: dict[str, None] = {}
     tried: dict[str, int] = {}  # the last number behind each name
     for name in names:
         new = name
-        while not new or new in given:
+        while not new or new in distinct:
             tried[name] = tried.get(name, 1) + 1
             new = f"{name}_{tried[name]}"
-        given[new] = None
-    return list(given)
+        distinct[new] = None
+    return list(distinct)
 
 
 def _is_number(word: str | bytes) -> bool:
@@ -190,6 +190,6 @@ def _is_number(word: str | bytes) -> bool:
     return True
 
 
-def _shown(word: str | bytes) -> str:
+def _excerpt(word: str | bytes) -> str:
     text = word.decode("ascii", errors="backslashreplace") if isinstance(word, bytes) else word
     return repr(text if len(text) <= 40 else text[:40] + "...")

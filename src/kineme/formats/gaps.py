@@ -51,8 +51,8 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
         long = np.asarray((lengths > longest) | (lengths == len(points)))
         at = np.concatenate([np.arange(*span) for span in spans[~long]] or [np.empty(0, np.intp)])
         if len(at):
-            seen = np.flatnonzero(~missing[:, point])
-            points[at, point] = _between(seen, points[seen, point], at)
+            visible = np.flatnonzero(~missing[:, point])
+            points[at, point] = _between(visible, points[visible, point], at)
             gaps.filled[point] = len(at)
         if long.any():
             gaps.open[point] = spans[long]
@@ -107,11 +107,11 @@ def spans_of(mask: NDArray[np.bool_]) -> Spans:
     return edges.reshape(-1, 2)
 
 
-def _between(seen: NDArray[np.intp], values: Floats, at: NDArray[np.intp]) -> Floats:
+def _between(visible: NDArray[np.intp], values: Floats, at: NDArray[np.intp]) -> Floats:
     """(at, 3): the values at frames that were not seen."""
-    if len(seen) == 1:
+    if len(visible) == 1:
         return np.repeat(values, len(at), axis=0)
     from scipy.interpolate import PchipInterpolator
 
-    inside = np.clip(at, seen[0], seen[-1])
-    return np.asarray(PchipInterpolator(seen, values)(inside), np.float64)
+    inside = np.clip(at, visible[0], visible[-1])
+    return np.asarray(PchipInterpolator(visible, values)(inside), np.float64)

@@ -17,7 +17,6 @@ the reason; it never ends the listing.
 from __future__ import annotations
 
 import os
-import re
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -25,9 +24,13 @@ from pathlib import Path
 
 from kineme._counts import counted
 from kineme._files import head_of, tail_of
-from kineme.formats.columns import is_timing, joint_names
+from kineme.errors import ReadError
+from kineme.formats.columns import joint_names
+from kineme.formats.delimited import sniff
+from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import frame_files
 from kineme.formats.registry import speaks, supported_formats
+from kineme.formats.timing import is_timing
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""
@@ -85,7 +88,7 @@ def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
     for place, names, files in os.walk(folder, onerror=closed):
         names[:] = sorted(name for name in names if not name.startswith("."))
         here = Path(place)
-        recordings = list(_judged(here, files, found))
+        recordings = list(_recordings_among(here, files, found))
         try:
             frames = frame_files(here)
         except OSError as error:
@@ -128,7 +131,7 @@ def holds_recording(path: Path) -> bool:
         return False
 
 
-def _judged(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
+def _recordings_among(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
     """The recordings among files; what cannot be judged is noted in ``found``."""
     for name in sorted(names):
         path = folder / name
@@ -145,23 +148,26 @@ def _judged(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
 
 def _is_recording(path: Path) -> bool:
     suffix = path.suffix.lower()
-    formats = [known for known in supported_formats() if known.read and suffix in known.suffixes]
+    formats = [each for each in supported_formats() if each.read and suffix in each.suffixes]
     if not formats or suffix in _SKELETONS:
         return False
     if suffix in _ANYTHING:
         ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
-        return any(speaks(known, ends) for known in formats)
+        return any(speaks(each, ends) for each in formats)
     if suffix in (".csv", ".tsv"):
-        return not _names_spans(head_of(path))
+        return not _names_spans(path)
     if suffix == ".parquet":
         tail = tail_of(path)
         return not any(name in tail for name in SPANS[:2])
     return suffix != ".npz" or _names_motion(path)
 
 
-def _names_spans(head: bytes) -> bool:
-    first = head.removeprefix(b"\xef\xbb\xbf").split(b"\n", 1)[0].lower()
-    return any(name.strip(b' "\r') in SPANS for name in re.split(rb"[,;\t]", first))
+def _names_spans(path: Path) -> bool:
+    try:
+        names = sniff(FileContent(path, head_of(path))).names
+    except ReadError:  # not a line: an error for who reads it
+        return False
+    return any(name.lower().encode() in SPANS for name in names)
 
 
 def _names_motion(path: Path) -> bool:

@@ -174,8 +174,8 @@ def of_one_subject(names: Sequence[str], wanted: str | None = None) -> tuple[lis
     chosen = names[0].rpartition(":")[0] if len(points) == 1 else ""
     if subjects:
         chosen = wanted if wanted in subjects else subjects[0]
-    mine = set(points.get(chosen, ()))
-    return [short[i] if i in mine else name for i, name in enumerate(names)], subjects
+    members = set(points.get(chosen, ()))
+    return [short[i] if i in members else name for i, name in enumerate(names)], subjects
 
 
 def described(body: Mapping[str, Iterable[int]], names: Sequence[str]) -> str:

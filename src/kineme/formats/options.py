@@ -61,8 +61,8 @@ class ReadOptions:
             raise ParameterError(f"fps is {self.fps!r:.60}: give frames per second, above 0")
         if isinstance(self.unit, str):
             if self.unit not in UNITS:
-                known = ", ".join(UNITS)
-                raise ParameterError(f"unit is {self.unit!r}: give metres or one of {known}")
+                names = ", ".join(UNITS)
+                raise ParameterError(f"unit is {self.unit!r}: give metres or one of {names}")
         elif self.unit is not None and not (is_number(self.unit) and self.unit > 0):
             raise ParameterError(f"unit is {self.unit!r:.60}: give the metres in one unit, above 0")
         if self.up is not None and not is_one_of(self.up, AXES):

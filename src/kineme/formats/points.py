@@ -23,9 +23,8 @@ from kineme._counts import counted
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
-from kineme.formats.inferred import scale_of, up_axis
 from kineme.formats.marker_sets import PARENTS, described, find_body, of_one_subject
-from kineme.formats.units import upright
+from kineme.formats.units import scale_of, up_axis, upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 
 Floats = NDArray[np.float64]
@@ -80,7 +79,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     names, subjects = of_one_subject(given, points.person)
     names = unique(names)
     if len(subjects) > 1:
-        provenance = provenance.noted(_said_of_subjects(path, subjects, points.person))
+        provenance = provenance.noted(_subjects_note(path, subjects, points.person))
     positions = np.array(points.positions, np.float64)
     gaps = fill_gaps(positions, points.fps)
     body = _least_broken(names, gaps, len(positions))
@@ -94,8 +93,8 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
         which = _listed([names[i] for i in sorted(used & gaps.open.keys())])
         raise ReadError(path, f"the body is whole in no frame: {which} are never seen together")
     kept = sorted([*kept, *_gone_with_the_body(positions, gaps, used, seen, points.fps)])
-    notes = _said_of_gaps(names, gaps, kept, len(positions))
-    notes += _said_of_splits(names, gaps, used, missing, points.fps)
+    notes = _gaps_notes(names, gaps, kept, len(positions))
+    notes += _splits_note(names, gaps, used, missing, points.fps)
     visible = positions if seen.all() else positions[seen]
     scale, note = scale_of(points.unit, visible if len(kept) == len(names) else visible[:, kept])
     notes += note
@@ -111,11 +110,11 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)
 
 
-def _said_of_subjects(path: str, subjects: list[str], person: str | None) -> Note:
+def _subjects_note(path: str, subjects: list[str], person: str | None) -> Note:
     """Whose body it is; SeveralPeopleError for somebody who is not there."""
     if person is None:
-        said = f"{len(subjects)} subjects: the body is that of {subjects[0]!r}"
-        return Note(f"{said}; person= (--person) takes another", "warning")
+        sentence = f"{len(subjects)} subjects: the body is that of {subjects[0]!r}"
+        return Note(f"{sentence}; person= (--person) takes another", "warning")
     if person not in subjects:
         reason = f"there is no person {person!r}: choose from {', '.join(subjects)}"
         raise SeveralPeopleError(path, reason, subjects)
@@ -166,7 +165,7 @@ def _missing(body: Body, hidden: dict[int, NDArray[np.bool_]]) -> int:
     return int(np.logical_or.reduce(masks).sum()) if masks else 0
 
 
-def _said_of_splits(
+def _splits_note(
     names: list[str], gaps: Gaps, used: set[int], missing: Spans, fps: float
 ) -> list[str]:
     if not missing:
@@ -180,7 +179,7 @@ def _said_of_splits(
     return [Note(note, "warning")]
 
 
-def _said_of_gaps(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) -> list[str]:
+def _gaps_notes(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) -> list[str]:
     notes: list[str] = []
     if gaps.filled:
         most = max(gaps.filled, key=lambda point: gaps.filled[point])
@@ -194,10 +193,10 @@ def _said_of_gaps(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) 
         notes.append(f"never seen, left out: {_listed([names[p] for p in never])}")
     broken = [p for p in gaps.open if p not in never and p not in kept]
     if broken:
-        said = [
+        parts = [
             f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken
         ]
-        left_out = f"left out for gaps above {LONGEST_S} s: {_listed(said)}"
+        left_out = f"left out for gaps above {LONGEST_S} s: {_listed(parts)}"
         notes.append(Note(left_out, "warning"))
     return notes
 

@@ -84,8 +84,8 @@ def read(
     who = None if person is None else str(person)
     options = ReadOptions(skeleton, fps, unit, up, who, confidence, columns, emg)
     recording = read_quietly(path, options)
-    if said := recording.provenance.warnings:
-        warn(f"{path}: {'; '.join(said)}")
+    if remarks := recording.provenance.warnings:
+        warn(f"{path}: {'; '.join(remarks)}")
     return recording
 
 
@@ -127,11 +127,11 @@ def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
         if Path(path).is_dir():
             return None
         content = load(path)
-        known = recognise(content)
-        if known.read is None or not known.analog:
+        candidate = recognise(content)
+        if candidate.read is None or not candidate.analog:
             return None
         try:
-            found = known.read(content, replace(options, columns=()))
+            found = candidate.read(content, replace(options, columns=()))
         except ReadError:  # it has none
             return None
         return found if isinstance(found, Signals) else None
@@ -157,8 +157,8 @@ def sketch(path: AnyPath, options: ReadOptions, most: int) -> Sketch | None:
         if Path(path).is_dir():
             return None
         content = load(path)
-        known = recognise(content)
-        return known.sketch(content, options, most) if known.sketch else None
+        candidate = recognise(content)
+        return candidate.sketch(content, options, most) if candidate.sketch else None
 
 
 def read_motion(path: AnyPath, **options: Any) -> Motion:
@@ -203,10 +203,10 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
     check_path(path, "write")
     target = Path(path)
     writers: dict[str, Callable[[Any, Path], None]] = {}
-    for known in supported_formats():
-        writer = known.write if isinstance(recording, Motion) else known.write_signals
+    for candidate in supported_formats():
+        writer = candidate.write if isinstance(recording, Motion) else candidate.write_signals
         if writer is not None:
-            writers |= {s: writer for s in known.suffixes if s not in writers}
+            writers |= {s: writer for s in candidate.suffixes if s not in writers}
     if target.suffix.lower() not in writers:
         kind = "a motion" if isinstance(recording, Motion) else "signals"
         raise WriteError(
@@ -220,24 +220,24 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
 def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
     if _BLANK.match(content.data):
         raise content.error("the file is empty")
-    known = recognise(content)
-    if known.read is None:
+    candidate = recognise(content)
+    if candidate.read is None:
         raise content.error("this format can be written but not read")
-    if options.channels and not known.channels:
+    if options.channels and not candidate.channels:
         raise content.error(
-            f"is {known.name}, which is not read as channels (columns, emg): load them as an "
+            f"is {candidate.name}, which is not read as channels (columns, emg): load them as an "
             "array and give it to kineme.Signals"
         )
-    recording: object = known.read(content, options)  # of another package, perhaps
+    recording: object = candidate.read(content, options)  # of another package, perhaps
     if not isinstance(recording, Motion | Signals):
-        given = type(recording).__name__
-        raise content.error(f"the reader of {known.name} gave no Motion or Signals, but {given}")
+        kind = type(recording).__name__
+        raise content.error(f"the reader of {candidate.name} gave no Motion or Signals, but {kind}")
     return recording
 
 
 def _read_folder(path: Path, options: ReadOptions) -> Motion | Signals:
-    for known in supported_formats():
-        recording = known.read_folder(path, options) if known.read_folder else None
+    for candidate in supported_formats():
+        recording = candidate.read_folder(path, options) if candidate.read_folder else None
         if recording is not None:
             return recording
     raise ReadError(

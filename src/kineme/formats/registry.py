@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Protocol
 
 from kineme._checks import check_suffixes
 from kineme._files import HEAD
@@ -89,6 +90,15 @@ class Format:
         check_suffixes(self.suffixes, self.name)
 
 
+class Candidate(Protocol):
+    """What a file may be in."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def recognises(self) -> Callable[..., bool]: ...
+
+
 _EXPORT = "export BVH or C3D from the program that made it"
 _UNPACK = "unpack it first"
 INSTEAD = {
@@ -111,10 +121,7 @@ FORMATS: Registry[Format] = Registry(
         "arrays.mat:FORMAT",
         "arrays.numpy_files:NPY",
         "arrays.numpy_files:NPZ",
-        "tables.parquet:FORMAT",
-        "tables.text:FORMAT",
-        "tables.text:TEXT",
-        "channels.opensim:FORMAT",
+        "tables:FORMATS",
         "markers.trc:FORMAT",
         "markers.c3d:FORMAT",
         "skeletons.bvh:FORMAT",
@@ -178,10 +185,10 @@ def recognise(content: FileContent) -> Format:
     )
 
 
-def speaks(candidate: Format, head: bytes) -> bool:
-    """Whether a file's first bytes look like a format; one that cannot tell costs itself only."""
+def speaks(candidate: Candidate, *evidence: Any) -> bool:
+    """Whether a file looks like a format or dialect; one that cannot tell costs itself only."""
     try:
-        return candidate.recognises(head)
+        return candidate.recognises(*evidence)
     except Exception as error:  # noqa: BLE001 (whatever a stranger's format raises)
         reason = f"{type(error).__name__}: {error}"
         warn(f"the format {candidate.name} is passed over, it cannot tell its files: {reason:.200}")

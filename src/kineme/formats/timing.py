@@ -1,5 +1,9 @@
 """What a column of times tells of a recording: its frame rate, and where it pauses.
 
+Columns of times are called ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or
+``seconds``, with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``; those with
+a rate in every row ``fps`` or ``rate``.
+
 The rows of a file are the frames of the recording, whatever their times: none is
 added, left out or moved. The rate is that of the ordinary steps from row to row.
 Clocks do worse than that: they are set while they run, they give several rows one time
@@ -15,7 +19,7 @@ tells: those of the years 2001 to 2100 in one unit are none of these years in an
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, time
 from typing import Any, NamedTuple
 
@@ -35,16 +39,27 @@ UNEVEN = 0.1
 UNITS_OF_TIME = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "μs": 1e6, "ns": 1e9}
 """How many of each make a second."""
 
+RATE = "fps"
+"""A column that tells a rate, as it is written."""
+
 NO_TIMES = "holds neither numbers nor ISO dates such as 2026-01-31T09:30:00.25"
-"""What is said of a column that is called as times are, and tells none."""
+"""Of a column that is called as times are, and tells none."""
 
 _ORDINARY = 0.5  # share of the median step by which an ordinary step differs from it at most
 _MOST = 2 / 3  # share of steps that are ordinary, else the rate is that of the whole duration
 _ADDS_UP = 0.1  # share by which steps of whole periods may miss the duration
 _SHUFFLED = 0.25  # share of steps backward from which on the rows are in no order of time
 _EPOCH = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
+_SLOWEST = 1.0  # frames per second: at or below, a column of times is hardly in seconds
+_FINER = {"milliseconds": 1e3, "microseconds": 1e6, "nanoseconds": 1e9}
 
-
+_TIME = re.compile(
+    r"((?:unix|epoch|utc|sensor|elapsed)?[\s_]*time(?:[\s_]*stamp)?|t|date[\s_]*time|elapsed|"
+    rf"seconds?(?:[\s_]*elapsed)?|epoch?(?=[\s_]*[\[(]?[mun]?s\b))[\s_]*(?:[\[(]?({'|'.join(UNITS_OF_TIME)})?[\])]?|"
+    r"[\[(]?(?:utc|iso|[+-]\d{2}:?\d{2})[\])]?)",
+    re.IGNORECASE,
+)
+_RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
 _LEAP = re.compile(r"(?<=:\d\d:)60(?!\d)")
 
 
@@ -59,6 +74,64 @@ class Timing(NamedTuple):
     gaps: tuple[tuple[int, int], ...] = ()
     notes: tuple[str, ...] = ()
     clock: Clock | None = None
+
+
+def is_timing(column: str) -> bool:
+    """Whether a column of this name tells a time or a rate."""
+    return any(pattern.fullmatch(column.strip()) for pattern in (_TIME, _RATE))
+
+
+def is_rate(column: str) -> bool:
+    """Whether a column of this name tells a rate."""
+    return _RATE.fullmatch(column.strip()) is not None
+
+
+def date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
+    """Which columns of a text table tell the time by dates, as their first cells do."""
+    pairs = enumerate(zip(names, cells, strict=False))
+    return [i for i, (name, cell) in pairs if _TIME.fullmatch(name.strip()) and is_date(cell)]
+
+
+def table_timing(
+    content: FileContent, columns: Mapping[str, ArrayLike], fps: float | None = None
+) -> Timing:
+    """Frames per second, pauses, and what was seen of the times.
+
+    Parameters
+    ----------
+    columns : mapping of str to array_like
+        (rows,) each, by their names; one of them tells the time or the rate.
+    fps : float, optional
+        In place of what the columns tell.
+
+    Raises
+    ------
+    ReadError
+        Nothing tells the rate, or what does contradicts itself.
+    """
+    if fps:
+        return Timing(fps)
+    for column in columns:
+        if is_rate(column):
+            return Timing(_one_rate(content, numbers_in(content, columns, column)))
+    for column in columns:
+        if match := _TIME.fullmatch(column.strip()):
+            timing = timing_of(content, _times(content, columns, column, match[2]))
+            return _in_seconds(content, timing)
+    raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
+
+
+def numbers_in(
+    content: FileContent, columns: Mapping[str, ArrayLike], name: str, rows: int | None = None
+) -> Floats:
+    """(rows,): a column as numbers; ReadError where it holds others, or is of another length."""
+    try:
+        values = np.asarray(columns[name], np.float64)
+    except (ValueError, TypeError):
+        raise content.error(f"column {name!r} does not hold numbers") from None
+    if values.ndim != 1 or len(values) == 0 or len(values) != (rows or len(values)):
+        raise content.error(f"column {name!r} has shape {values.shape}, not one value per row")
+    return values
 
 
 def timing_of(content: FileContent, times: Floats) -> Timing:
@@ -77,11 +150,11 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
     ReadError
         Times stand still, are in no order, or are too few to tell a rate.
     """
-    known = np.isfinite(times)
-    if known.sum() < 2 or known.mean() < 0.5:
+    finite = np.isfinite(times)
+    if finite.sum() < 2 or finite.mean() < 0.5:
         raise content.error("the times are too few or not numbers: give fps= (--fps)")
     rows = np.arange(len(times))
-    times = np.interp(rows, rows[known], times[known])
+    times = np.interp(rows, rows[finite], times[finite])
     steps = np.diff(times)
     if not (steps > 0).any():
         row = int(steps.argmin()) + 1
@@ -104,9 +177,9 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
     jumps &= np.abs(steps - period) > 0.75 * period  # at low rates a frame may come late
     doubt = 2 * np.spacing(np.abs(times).max()) / (period * len(steps))
     fps = _rounded(len(steps) / duration if even else 1 / period, max(1e-6, float(doubt)))
-    notes = [] if even else [_said(steps, jumps, period, fps)]
-    if not known.all():
-        untimed = counted(int((~known).sum()), "row")
+    notes = [] if even else [_unevenness(steps, jumps, period, fps)]
+    if not finite.all():
+        untimed = counted(int((~finite).sum()), "row")
         notes.append(f"{untimed} without a time counted as frames")
     gaps = tuple((start, stop) for start, stop in spans_of(jumps).tolist())
     return Timing(fps, gaps, tuple(notes), Clock.of(times, fps))
@@ -129,13 +202,13 @@ def seconds(values: ArrayLike, unit: str | None = None) -> Floats:
     TypeError
         The same.
     """
-    given = np.asarray(values)
-    if given.dtype.kind in "mM":
-        whole = given.astype(f"{given.dtype.kind}8[ns]")
+    times = np.asarray(values)
+    if times.dtype.kind in "mM":
+        whole = times.astype(f"{times.dtype.kind}8[ns]")
         return np.where(np.isnat(whole), np.nan, whole.astype(np.int64) / 1e9)
-    if given.dtype.kind in "OUS" and any(isinstance(value, str) for value in given.ravel()[:9]):
-        return np.array([_nan_or_date(value) for value in given.tolist()])
-    numbers = np.asarray(given, np.float64)
+    if times.dtype.kind in "OUS" and any(isinstance(value, str) for value in times.ravel()[:9]):
+        return np.array([_nan_or_date(value) for value in times.tolist()])
+    numbers = np.asarray(times, np.float64)
     return numbers / UNITS_OF_TIME[unit or _unit_since_1970(numbers)]
 
 
@@ -164,6 +237,38 @@ def date_seconds(text: str) -> float:
     return (when if when.tzinfo else when.replace(tzinfo=UTC)).timestamp()
 
 
+def _times(
+    content: FileContent, columns: Mapping[str, ArrayLike], name: str, unit: str | None
+) -> Floats:
+    """(rows,): a column of times in seconds."""
+    try:
+        times = seconds(columns[name], unit and unit.lower())
+    except (ValueError, TypeError) as error:
+        raise content.error(f"column {name!r} does not tell times: {error}") from None
+    return numbers_in(content, {name: times}, name)
+
+
+def _in_seconds(content: FileContent, timing: Timing) -> Timing:
+    """What the times tell, refused where they are so far apart that they are hardly seconds."""
+    rate = timing.fps
+    if rate <= _SLOWEST:
+        unit = next((unit for unit in _FINER if rate * _FINER[unit] > _SLOWEST), "milliseconds")
+        raise content.error(
+            f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
+            f"(--fps; {rate * _FINER[unit]:g} for {unit})"
+        )
+    return timing
+
+
+def _one_rate(content: FileContent, rates: Floats) -> float:
+    rate = float(rates[0])
+    if not (np.isfinite(rate) and rate > 0) or np.ptp(rates) > 0:
+        raise content.error(
+            f"the frame rate is not one positive number ({rate:g} first): give fps= (--fps)"
+        )
+    return rate
+
+
 def _nan_or_date(value: Any) -> float:
     """As `date_seconds`; NaN for None and empty text."""
     return date_seconds(value.strip()) if value and value.strip() else np.nan
@@ -177,8 +282,8 @@ def _time_of_day(text: str) -> time:
 
 
 def _unit_since_1970(numbers: Floats) -> str:
-    known = numbers[np.isfinite(numbers)]
-    middle = float(np.median(known)) if len(known) else 0.0
+    finite = numbers[np.isfinite(numbers)]
+    middle = float(np.median(finite)) if len(finite) else 0.0
     units = ("ms", "us", "ns")
     return next((u for u in units if _EPOCH[0] <= middle / UNITS_OF_TIME[u] < _EPOCH[1]), "s")
 
@@ -216,22 +321,22 @@ def _period(steps: Floats, jumps: NDArray[np.bool_]) -> float:
     return float(used.mean()) if len(used) else 0.0
 
 
-def _said(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: float) -> str:
+def _unevenness(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: float) -> str:
     """One sentence on uneven times."""
-    seen: Sequence[tuple[int, str, str]] = [
+    counts: Sequence[tuple[int, str, str]] = [
         (int((steps == 0).sum()), "row", "with the time of the row before"),
         (int((steps < 0).sum()), "step", "back in time"),
         (int((steps > 1.5 * period).sum()), "step", "longer than a frame and a half"),
     ]
-    parts = [f"{counted(n, one)} {what}" for n, one, what in seen if n]
-    said = f"times are uneven ({', '.join(parts) or 'jitter'}): rows are frames, at {fps:g} Hz"
+    parts = [f"{counted(n, one)} {what}" for n, one, what in counts if n]
+    sentence = f"times are uneven ({', '.join(parts) or 'jitter'}): rows are frames, at {fps:g} Hz"
     if not jumps.any():
-        return said
+        return sentence
     at = np.flatnonzero(jumps)
     shown = [f"{steps[i]:.4g} s after frame {i}" for i in at[:4].tolist()]
     more = f" and {len(at) - 4} more" if len(at) > 4 else ""
     return (
-        f"{said}; times jump {', '.join(shown)}{more}: the recording is split there, "
+        f"{sentence}; times jump {', '.join(shown)}{more}: the recording is split there, "
         "and seconds count frames"
     )
 

@@ -8,7 +8,7 @@ inferred is said in the motion's provenance.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from math import ceil, floor
 
@@ -20,6 +20,7 @@ from kineme.recordings import Note, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
 
 Floats = NDArray[np.float64]
+Body = Mapping[str, tuple[int, ...]]
 
 INCH = 0.0254
 
@@ -45,12 +46,16 @@ _TO_Y = {
 
 AXES = tuple(_TO_Y)
 
-_HEAD = re.compile("head", re.IGNORECASE)
-_FOOT = re.compile("foot|feet|toe|ankle", re.IGNORECASE)
-
-
 BLOCK = 2048
 """Frames."""
+
+SPREADS = (0.3, 3.0)
+"""Metres over which markers on a person spread, in the middle of the recording:
+a factor of ten, as between two of m, cm and mm."""
+
+_HEAD = re.compile("head", re.IGNORECASE)
+_FOOT = re.compile("foot|feet|toe|ankle", re.IGNORECASE)
+_HEIGHT = 1.7  # metres, given to a body measured in pixels
 
 
 def blocks(n_frames: int) -> Iterator[slice]:
@@ -71,8 +76,8 @@ def unit_named(word: str) -> str | None:
     longer = {
         f"{p}met{e}{s}": u for p, u in prefixes.items() for e in ("er", "re") for s in ("", "s")
     }
-    known = {"m": "m", "cm": "cm", "mm": "mm", "in": "inch", "inch": "inch", "inches": "inch"}
-    return (longer | known).get(word)
+    short = {"m": "m", "cm": "cm", "mm": "mm", "in": "inch", "inch": "inch", "inches": "inch"}
+    return (longer | short).get(word)
 
 
 def upright(points: Floats, up: str) -> Floats:
@@ -104,11 +109,11 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
         return unit, Note(f"unit {unit} inferred: the skeleton is then about {tall:.2f} m tall")
     off = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
     unit = list(UNITS)[int(np.abs(off).argmin())]
-    said = (
+    remark = (
         f"in no unit is this skeleton, about {height:.3g} units tall, of human size: "
         f"{unit} assumed; give unit= (--unit)"
     )
-    return unit, Note(said, "warning")
+    return unit, Note(remark, "warning")
 
 
 def height_of(skeleton: Skeleton, means: Floats) -> float:
@@ -173,3 +178,43 @@ def _longest_path(skeleton: Skeleton, lengths: Floats) -> float:
             longest = max(longest, reach[parent] + branch)
             reach[parent] = max(reach[parent], branch)
     return longest
+
+
+def scale_of(unit: str | float | None, positions: Floats) -> tuple[float, list[str]]:
+    """Metres in one unit of the positions, and what was inferred."""
+    if unit is not None and unit != "pixel":
+        return metres(unit), []
+    spread = float(np.median(np.ptp(positions, axis=1).max(axis=1)))
+    if unit == "pixel":
+        return _HEIGHT / (spread or 1.0), [
+            f"no unit: {spread:.3g}, the larger side of the body, taken as {_HEIGHT} m"
+        ]
+    sizes = {name: UNITS[name] for name in ("m", "cm", "mm")}
+    fits = [name for name, size in sizes.items() if SPREADS[0] <= spread * size < SPREADS[1]]
+    if fits:
+        found = fits[0]
+    else:
+        found = "m" if spread < 1 else "mm"
+        remark = (
+            f"markers {spread:.3g} units apart are in no unit those of a person: "
+            f"{found} assumed; give unit= (--unit)"
+        )
+        return sizes[found], [Note(remark, "warning")]
+    return sizes[found], [
+        f"unit {found} inferred: the points then spread over {spread * sizes[found]:.2f} m"
+    ]
+
+
+def up_axis(usual: str, positions: Floats, body: Body) -> tuple[str, list[str]]:
+    """The axis from the feet to the head, else the usual one; and what was inferred."""
+    head = list(body.get("head", ()))
+    feet = [i for joint in ("left_ankle", "right_ankle") for i in body.get(joint, ())]
+    if head and feet:
+        trunk = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
+        length = np.linalg.norm(trunk, axis=1, keepdims=True)
+        along = np.median(trunk / np.where(length > 0, length, 1), axis=0)
+        axis = int(np.abs(along).argmax())
+        if abs(along[axis]) > 0.7:
+            up = ("-" if along[axis] < 0 else "") + "xyz"[axis]
+            return up, [f"up axis {up} inferred: head and feet lie along it"]
+    return usual, [f"up axis {usual} assumed; give up= if it is another"]

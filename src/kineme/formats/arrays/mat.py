@@ -20,9 +20,14 @@ import numpy as np
 from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
 from kineme.formats.arrays.mat_file import parse_mat
 from kineme.formats.arrays.named_arrays import Array, Arrays, arrays_to_motion
-from kineme.formats.channels.reading import to_signals
-from kineme.formats.channels.sensors import hold_channels
-from kineme.formats.channels.table import ChannelTable, asked_for, channel_table, wanted_columns
+from kineme.formats.channels.reading import (
+    ChannelTable,
+    asked_for,
+    channel_table,
+    to_signals,
+    wanted_columns,
+)
+from kineme.formats.dialects import hold_channels
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
@@ -130,8 +135,8 @@ def channels_of(
     if columns is None and others:
         note = f"of another length, left out: {', '.join(others)}"
         table = replace(table, notes=(*table.notes, note))
-    known = rate is not None and np.isfinite(rate) and rate > 0
-    return replace(table, rate=rate) if known else table
+    has_rate = rate is not None and np.isfinite(rate) and rate > 0
+    return replace(table, rate=rate) if has_rate else table
 
 
 def _hold_channels(arrays: Arrays) -> bool:

@@ -58,15 +58,16 @@ def positions_to_motion(
     if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
         raise content.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
     fps = options.fps or _rate(content, arrays)
-    own = "parents" in arrays and "names" in arrays  # in metres with y up
-    if own and options.unit in (None, "m", 1) and options.up in (None, "y"):
+    complete = "parents" in arrays and "names" in arrays  # in metres with y up
+    if complete and options.unit in (None, "m", 1) and options.up in (None, "y"):
         return _whole(content, name, arrays, positions, fps)
     usual = [f"joint{i}" for i in range(positions.shape[1])]
     names = list(map(str, arrays["names"].ravel())) if "names" in arrays else usual
     if len(names) != len(usual):
         raise content.error(f"{len(names)} names for {len(usual)} joints")
     positions = np.where(np.isfinite(positions), positions, np.nan)
-    unit, up = options.unit or ("m" if own else None), options.up or ("y" if own else None)
+    unit = options.unit or ("m" if complete else None)
+    up = options.up or ("y" if complete else None)
     points = Points(names, positions, fps, unit, up, person=options.person)
     return to_motion(points, content.provenance(name, []))
 

@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import MissingDependencyError, ReadError
-from kineme.formats.channels.table import (
+from kineme.formats.channels.reading import (
     ChannelTable,
     asked_for,
     channel_table,
-    named,
     wanted_columns,
 )
-from kineme.formats.columns import is_timing
+from kineme.formats.delimited import named
 from kineme.formats.files import FileContent
+from kineme.formats.timing import is_timing
 
 
 def parquet_file(content: FileContent) -> Any:
@@ -83,7 +83,7 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
             file = parquet.ParquetFile(pa.BufferReader(content.data), read_dictionary=texts)
         # A thread that lets go of the bytes while Python ends would make it abort.
         table = file.read(columns=list(columns), use_threads=False)
-        content.claim(sum(map(_spread_out, table.columns)), "texts that repeat")
+        content.claim(sum(map(_expanded_size, table.columns)), "texts that repeat")
         plain = [
             pa.field(field.name, field.type.value_type) if _is_coded(field.type) else field
             for field in table.schema
@@ -125,7 +125,7 @@ def parquet_channels(
         name
         for name in names
         if any(kind(types[name]) for kind in kinds)
-        or (is_timing(name) and _tells_dates(types[name]))
+        or (is_timing(name) and _may_be_dates(types[name]))
     ]
     columns = asked_for(content, names, columns, numeric)
     wanted = wanted_columns(columns, numeric)
@@ -142,7 +142,7 @@ def parquet_channels(
     return channel_table(content, names, values, columns)
 
 
-def _tells_dates(kind: Any) -> bool:
+def _may_be_dates(kind: Any) -> bool:
     import pyarrow as pa
 
     return bool(pa.types.is_timestamp(kind) or pa.types.is_string(kind))
@@ -161,7 +161,7 @@ def _is_coded(kind: Any) -> bool:
     return bool(pa.types.is_dictionary(kind))
 
 
-def _spread_out(column: Any) -> int:
+def _expanded_size(column: Any) -> int:
     """Bytes of a column, with every row's text by itself."""
     if not _is_coded(column.type):
         return int(column.nbytes)

@@ -5,7 +5,7 @@ CSV, TSV, text names in the first line, or numbers only (channels 1, 2, …);
                between commas, tabs, semicolons or blanks
 Parquet        one channel per column
 MOT, STO       OpenSim's coordinates, forces or other channels
-C3D            the analog channels, or those of muscles, see `kineme.formats.markers.muscles`
+C3D            the analog channels, or those of muscles, see `kineme.formats.markers.c3d`
 MAT            vectors, and columns of matrices, of the length that most have
 ============== ==================================================================
 
@@ -18,10 +18,74 @@ are gaps of the recording.
 
 from __future__ import annotations
 
-from kineme.formats.channels.gaps import without_gaps
-from kineme.formats.channels.table import ChannelTable
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fnmatch import fnmatchcase
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kineme._counts import counted
+from kineme._interpolation import bridge_line
+from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import FileContent
+from kineme.formats.gaps import LONGEST_S, covered, spans_of
+from kineme.formats.timing import NO_TIMES, Timing, is_timing, table_timing
 from kineme.recordings import Signals
+
+Floats = NDArray[np.float64]
+
+COUNTERS = frozenset(
+    {"frame", "frames", "frame#", "index", "idx", "sample", "row", "id", "unnamed: 0"}
+    | {"__index_level_0__"}
+)
+"""Names of columns that count rows."""
+
+LABELS = frozenset(
+    {"label", "labels", "class", "annotation", "ground_truth"} | {"class_id", "label_id"}
+)
+"""Names of columns in which people say what is done."""
+WILD = frozenset("*?[")
+"""Characters by which a pattern is told from a name."""
+
+CLOCK_ROWS = 200
+"""Rows from which on a column that rises evenly is a clock or a count, and no channel."""
+
+
+@dataclass(frozen=True)
+class ChannelTable:
+    """Columns of numbers.
+
+    Parameters
+    ----------
+    names : list of str
+        Of the channels.
+    values : ndarray, shape (rows, channels)
+        NaN where there is nothing.
+    timing : mapping of str to array_like
+        Columns that tell times or a rate.
+    rate : float, optional
+        The file's own.
+    notes : tuple of str
+        On what was left out.
+    hint : str
+        On what may tell the rate, where nothing does.
+    """
+
+    names: list[str]
+    values: Floats
+    timing: Mapping[str, ArrayLike]
+    rate: float | None = None
+    notes: tuple[str, ...] = ()
+    hint: str = ""
+
+    def timed(self, content: FileContent, fps: float | None) -> Timing:
+        """Frames per second, pauses, and what was seen of the times."""
+        if fps or self.rate:
+            return Timing(fps or self.rate or 0.0)
+        if not self.timing:
+            raise content.error(f"nothing in it tells the frame rate: give fps (--fps){self.hint}")
+        return table_timing(content, self.timing)
 
 
 def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float | None) -> Signals:
@@ -50,3 +114,166 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
     values, gaps, filled = without_gaps(content, table.values, timing, table.names)
     provenance = content.provenance(name, [*table.notes, *timing.notes, *filled])
     return Signals(values, timing.fps, table.names, gaps, provenance.timed(timing.clock))
+
+
+def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
+    """The channels of a text table: those wanted, or all that hold numbers.
+
+    Parameters
+    ----------
+    text : DelimitedText
+    columns : sequence of str or None
+        By name or pattern, in this order.
+
+    Returns
+    -------
+    ChannelTable
+
+    Raises
+    ------
+    ReadError
+        There is no such column, a cell is no number, or nothing is a channel.
+    """
+    text = text.numbered()
+    text.refuse_interleaved()
+    names, numeric = list(text.names), text.numeric()
+    columns = asked_for(text.content, names, columns, numeric)
+    wanted = wanted_columns(columns, numeric)
+    places = {name: i for i, name in enumerate(names)}  # each is there once
+    values = text.numbers([places[name] for name in wanted])
+    table = channel_table(text.content, names, dict(zip(wanted, values.T, strict=True)), columns)
+    return replace(table, notes=(*text.remarks, *table.notes))
+
+
+def asked_for(
+    content: FileContent,
+    names: Sequence[str],
+    columns: Sequence[str] | None,
+    numeric: Sequence[str],
+) -> list[str] | None:
+    """The columns that are asked for, in this order; None for all.
+
+    A name is that column. ``acc_*`` and ``gyr_?`` are all columns of numbers that they fit, in
+    the order of the file, but for times; capitals and small letters are the same.
+    """
+    if columns is None:
+        return None
+    present = set(names)
+    plain = [name for name in columns if name in present]
+    if len(set(plain)) < len(plain):
+        raise content.error("a column is asked for twice")
+    found: dict[str, None] = {}
+    for pattern in columns:
+        if pattern in present:
+            found[pattern] = None
+            continue
+        fitting = [
+            name
+            for name in numeric
+            if fnmatchcase(name.lower(), pattern.lower()) and not is_timing(name)
+        ]
+        if not (fitting and WILD & set(pattern)):
+            raise content.error(f"no column {pattern!r}; there are {', '.join(names)}")
+        found |= dict.fromkeys(fitting)
+    return list(found)
+
+
+def wanted_columns(names: Sequence[str] | None, numeric: Iterable[str]) -> list[str]:
+    """The columns to read: those asked for, or all that hold numbers, and those of times."""
+    timing = [name for name in numeric if is_timing(name)]
+    chosen = numeric if names is None else names
+    return [*dict.fromkeys([*chosen, *timing])]
+
+
+def channel_table(
+    content: FileContent,
+    names: list[str],
+    values: Mapping[str, Floats],
+    columns: Sequence[str] | None,
+) -> ChannelTable:
+    """The columns read, taken apart: channels, times, and a note of what is neither."""
+    timing = {name: column for name, column in values.items() if is_timing(name)}
+    hints = [f"; {name!r} {NO_TIMES}" for name in names if is_timing(name) and name not in timing]
+    if columns is not None:
+        chosen, notes = list(columns), []
+    else:
+        chosen = [name for name in values if name not in timing and not _is_no_channel(name)]
+        clocks = {name: None for name in chosen if _is_clock(values[name])}
+        if len(clocks) < len(chosen):
+            chosen = [name for name in chosen if name not in clocks]
+            hints += [f"; {name!r} rises by {_step(values[name]):g} a row" for name in clocks]
+        used = {*chosen, *timing}
+        left = [name for name in names if name not in used]
+        notes = [f"columns that are no channels: {', '.join(left)}"] if left else []
+    if not chosen:
+        raise content.error(f"none of its columns is a channel ({', '.join(names)})")
+    channels = np.column_stack([values[name] for name in chosen])
+    return ChannelTable(chosen, channels, timing, None, tuple(notes), "".join(hints[:1]))
+
+
+def without_gaps(
+    content: FileContent, values: Floats, timing: Timing, names: Sequence[str]
+) -> tuple[Floats, list[tuple[int, int]], list[str]]:
+    """Finite values, the spans in which a channel is missing for long, and what was done.
+
+    Parameters
+    ----------
+    values : ndarray of shape (frames, channels)
+        NaN or infinite where there is nothing.
+    timing : Timing
+        Frames per second, and the frames at which the times jump.
+    names : sequence of str
+        Of the channels.
+
+    Raises
+    ------
+    ReadError
+        The holes leave nothing.
+    """
+    missing = ~np.isfinite(values)
+    if not missing.any():
+        return values, list(timing.gaps), []
+    if missing.all(axis=0).any():
+        name = names[int(missing.all(axis=0).argmax())]
+        raise content.error(f"column {name!r} holds no number at all: name the others (--columns)")
+    filled = np.array(values)
+    long = np.zeros(len(values), np.bool_)
+    for channel in np.flatnonzero(missing.any(axis=0)).tolist():
+        bridge_line(filled[:, channel], missing[:, channel])
+        for start, stop in spans_of(missing[:, channel]).tolist():
+            if stop - start > LONGEST_S * timing.fps + 1e-9:
+                long[start:stop] = True
+    jumps = covered(timing.gaps, len(values))
+    if (long | jumps).all():
+        raise content.error("in every frame some channel is missing for long: choose columns")
+    holes = spans_of(long)
+    gaps = [(start, stop) for start, stop in spans_of(long | jumps).tolist()]
+    short = int((missing & ~long[:, None]).sum())
+    notes = [f"{counted(short, 'missing value')} filled in a straight line"] if short else []
+    if len(holes):
+        notes.append(
+            f"{counted(len(holes), 'gap')} of more than {LONGEST_S:g} s, "
+            f"{counted(int(long.sum()), 'frame')}"
+        )
+    return filled, gaps, notes
+
+
+def _is_no_channel(name: str) -> bool:
+    """Whether a column of this name counts rows, is nameless, or says what is done."""
+    plain = name.strip().lower()
+    return plain in COUNTERS or plain in LABELS or name.startswith(NAMELESS)
+
+
+def _is_clock(values: Floats) -> bool:
+    """Whether a column rises all the time, by a step from a straight line at most.
+
+    So do times and counts under names that nobody knows, and no sensor.
+    """
+    if len(values) < CLOCK_ROWS or not (np.diff(values) > 0).all():
+        return False
+    line = values[0] + _step(values) * np.arange(len(values))
+    return bool(np.abs(values - line).max() <= _step(values))
+
+
+def _step(values: Floats) -> float:
+    return float((values[-1] - values[0]) / (len(values) - 1))

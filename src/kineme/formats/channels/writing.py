@@ -26,12 +26,11 @@ import numpy as np
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ReadError, WriteError
 from kineme.formats.channels.parquet import parquet_channels, parquet_file
-from kineme.formats.channels.table import ChannelTable, named
-from kineme.formats.channels.text import TextTable, text_channels
-from kineme.formats.columns import RATE, is_rate, is_timing
-from kineme.formats.delimited import as_text, dotted
+from kineme.formats.channels.reading import ChannelTable, text_channels
+from kineme.formats.delimited import as_text, dotted, named, sniff
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import covered
+from kineme.formats.timing import RATE, is_rate, is_timing
 from kineme.recordings import Signals
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
@@ -83,10 +82,12 @@ def write_signals(
     elif suffix == ".parquet":
         _ParquetRows.of_values(signals).write(target)
     else:
-        known = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS, ".parquet")))
-        own = Path(signals.provenance.path or "").suffix.lower()
-        why = ": its own times tell another rate" if suffix and suffix == own else ""
-        raise WriteError(target, f"signals are written as {known}, not {suffix or 'that'!r}{why}")
+        suffixes = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS, ".parquet")))
+        original = Path(signals.provenance.path or "").suffix.lower()
+        why = ": its own times tell another rate" if suffix and suffix == original else ""
+        raise WriteError(
+            target, f"signals are written as {suffixes}, not {suffix or 'that'!r}{why}"
+        )
 
 
 def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
@@ -102,9 +103,10 @@ def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
     path = signals.provenance.path
     if path is not None and Path(path).is_file():
         content = load(path)
-        table = _held(content, signals) if content.digest == signals.provenance.sha256 else None
+        same = content.digest == signals.provenance.sha256
+        table = _source_table(content, signals) if same else None
         if table is not None:
-            fps = None if not alone and _tells(table, content, signals.fps) else signals.fps
+            fps = None if not alone and _has_rate(table, content, signals.fps) else signals.fps
             if signals.provenance.format == PARQUET:
                 return _ParquetRows.of(content, fps)
             rows = _TextRows.of(content, signals.n_frames)
@@ -127,14 +129,14 @@ class _TextRows:
     @classmethod
     def of(cls, content: FileContent, n_rows: int) -> _TextRows:
         """The first rows of a file, blank lines left out."""
-        table = TextTable.of(content)
+        table = sniff(content).numbered()
         text = (
             content.text
             if content.is_utf16
             else content.data.decode("utf-8", errors="surrogateescape")
         )
         lines = text.splitlines(keepends=True)
-        head, below = lines[: table.first_row - 1], lines[table.first_row - 1 :]
+        head, below = lines[: table.below], lines[table.below :]
         reader = csv.reader(table.rows, delimiter=table.separator)
         kept: list[str] = []
         start = 0
@@ -211,13 +213,13 @@ class _ParquetRows:
             yield ["" if cell is None else str(cell) for cell in row]
 
 
-def _held(content: FileContent, signals: Signals) -> ChannelTable | None:
+def _source_table(content: FileContent, signals: Signals) -> ChannelTable | None:
     """The table on disk whose rows are the frames of signals, holes aside; None for another."""
     try:
         if signals.provenance.format == PARQUET:
             table = parquet_channels(content, parquet_file(content), signals.names)
         elif signals.provenance.format in TEXT:
-            table = text_channels(content, TextTable.of(content), signals.names)
+            table = text_channels(sniff(content), signals.names)
         else:
             return None
     except ReadError:  # channels of other names
@@ -229,7 +231,7 @@ def _held(content: FileContent, signals: Signals) -> ChannelTable | None:
     return table if same else None
 
 
-def _tells(table: ChannelTable, content: FileContent, fps: float) -> bool:
+def _has_rate(table: ChannelTable, content: FileContent, fps: float) -> bool:
     """Whether a table says by itself that it is of this rate."""
     try:
         return isclose(table.timed(content, None).fps, fps)
@@ -244,7 +246,7 @@ def _at_rate(rows: _TextRows, fps: float) -> _TextRows:
     at = [i for i, name in enumerate(names) if not is_rate(name)]
     suffix = rows.suffix if rows.suffix in SEPARATORS else ".csv"
     cells = ([repr(float(fps)), *(row[i] for i in at)] for row in rows.cells())
-    return _rendered(suffix, [RATE, *(names[i] for i in at)], cells)
+    return _text_rows(suffix, [RATE, *(names[i] for i in at)], cells)
 
 
 def _of_values(signals: Signals, *, with_rate: bool) -> _TextRows:
@@ -260,24 +262,26 @@ def _values_of(signals: Signals) -> _TextRows:
         [repr(i / signals.fps), *(empty if gap else map(repr, row))]
         for i, (row, gap) in enumerate(zip(signals.values.tolist(), missing, strict=True))
     )
-    return _rendered(".csv", ["time", *signals.names], rows)
+    return _text_rows(".csv", ["time", *signals.names], rows)
 
 
 def _table(rows: Rows, suffix: str, columns: Sequence[str] | None) -> _TextRows:
     """The same cells between commas or tabs: all of them, or some columns and those of times."""
     names = rows.names
     if columns is None:
-        return _rendered(suffix, names, rows.cells())
+        return _text_rows(suffix, names, rows.cells())
     if names is None:
         at = [int(name) - 1 for name in columns]
     else:
         timing = [name for name in names if is_timing(name) and name not in columns]
         at = [names.index(name) for name in (*timing, *columns)]
         names = [names[i] for i in at]
-    return _rendered(suffix, names, ([cells[i] for i in at] for cells in rows.cells()))
+    return _text_rows(suffix, names, ([cells[i] for i in at] for cells in rows.cells()))
 
 
-def _rendered(suffix: str, names: Sequence[str] | None, rows: Iterable[Sequence[str]]) -> _TextRows:
+def _text_rows(
+    suffix: str, names: Sequence[str] | None, rows: Iterable[Sequence[str]]
+) -> _TextRows:
     separator = SEPARATORS[suffix]
     head = "" if names is None else _line([*map(as_text, names)], separator)
     lines = [_line(row, separator) for row in rows]

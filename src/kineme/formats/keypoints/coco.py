@@ -74,8 +74,8 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     if count != len(names):
         raise content.error(f"a person has {count} keypoints, not {len(names)} as in COCO")
     images = data.get("images") if is_set else None
-    known = range(len(images)) if isinstance(images, list) else ()
-    video = Video("COCO", names, people, SURE, frames=known)
+    numbers = range(len(images)) if isinstance(images, list) else ()
+    video = Video("COCO", names, people, SURE, frames=numbers)
     return video_to_motion(content, video, options)
 
 

@@ -8,9 +8,13 @@ individuals ``person`` names one. There is no frame rate in the file: ``fps`` gi
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from kineme.errors import SeveralPeopleError
 from kineme.formats.columns import columns_to_motion
-from kineme.formats.delimited import rows_of
+from kineme.formats.delimited import DelimitedText, cells_of
+from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
@@ -18,38 +22,37 @@ from kineme.recordings import Motion
 LIKELY = 0.6
 
 
-def is_deeplabcut(line: str) -> bool:
-    """Whether this first line is that of DeepLabCut."""
-    return line.lower().startswith("scorer,")
+def is_deeplabcut(names: Sequence[str]) -> bool:
+    """Whether the first row of names is that of DeepLabCut."""
+    return len(names) > 1 and names[0].lower() == "scorer"
 
 
-def read_deeplabcut(
-    content: FileContent, lines: list[str], first: int, options: ReadOptions
-) -> Motion:
-    """The motion of the keypoints in a table whose first line is ``first`` of the file."""
-    heads: dict[str, list[str]] = {}
-    for line in lines[:4]:
-        kind, *cells = [cell.strip() for cell in line.split(",")]
+def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
+    """The motion of the keypoints of one individual."""
+    content, line = table.content, table.head + 2
+    labels: dict[str, list[str]] = {}
+    for row in table.lines[table.head : table.head + 4]:
+        kind, *cells = cells_of(row, table.separator)
         if kind.lower() in ("scorer", "individuals", "bodyparts", "coords"):
-            heads[kind.lower()] = cells
-    if not {"bodyparts", "coords"} <= heads.keys():
-        raise content.error("rows 'bodyparts' and 'coords' expected under 'scorer'", first + 1)
-    parts, coords = heads["bodyparts"], heads["coords"]
-    who = heads.get("individuals", [""] * len(parts))
-    if len({len(parts), len(coords), len(who)}) > 1:
-        raise content.error("the rows of names differ in length", first + 1)
-    wanted = _wanted(content, list(dict.fromkeys(who)), options.person)
-    below = first + len(heads)
-    values = rows_of(content, lines[len(heads) :], below, ",", 1 + len(parts))[:, 1:]
+            labels[kind.lower()] = cells
+    if not {"bodyparts", "coords"} <= labels.keys():
+        raise content.error("rows 'bodyparts' and 'coords' expected under 'scorer'", line)
+    parts, coords = labels["bodyparts"], labels["coords"]
+    individuals = labels.get("individuals", [""] * len(parts))
+    if len({len(parts), len(coords), len(individuals)}) > 1:
+        raise content.error("the rows of names differ in length", line)
+    wanted = _individual(content, list(dict.fromkeys(individuals)), options.person)
+    names = ["frame", *(f"{part}_{coord}" for part, coord in zip(parts, coords, strict=True))]
+    values = replace(table, names=names, below=table.head + len(labels)).numbers()[:, 1:]
     columns = {
-        f"{part}_{coord}": column
-        for part, coord, someone, column in zip(parts, coords, who, values.T, strict=True)
-        if someone == wanted
+        name: column
+        for name, whose, column in zip(names[1:], individuals, values.T, strict=True)
+        if whose == wanted
     }
     return columns_to_motion(content, "DeepLabCut", columns, options, limit=LIKELY)
 
 
-def _wanted(content: FileContent, individuals: list[str], person: str | None) -> str:
+def _individual(content: FileContent, individuals: list[str], person: str | None) -> str:
     """The individual to read."""
     if person in individuals:
         return person
@@ -61,3 +64,8 @@ def _wanted(content: FileContent, individuals: list[str], person: str | None) ->
         reason = f"{len(individuals)} individuals are in it: choose one with person= (--person), "
         raise SeveralPeopleError(content.path, f"{reason}of {shown}", individuals)
     return individuals[0]
+
+
+DIALECT = Dialect(
+    "DeepLabCut", lambda names, _: is_deeplabcut(names), read_deeplabcut, channels=False
+)

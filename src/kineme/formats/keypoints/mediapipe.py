@@ -70,13 +70,15 @@ def read_mediapipe(content: FileContent, data: Any, options: ReadOptions) -> Mot
     people: list[Person] = []
     numbers: list[int] = []
     for i, frame in frames:
-        number = _found(frame, _NUMBER) if isinstance(frame, Mapping) else None
+        number = _first_value(frame, _NUMBER) if isinstance(frame, Mapping) else None
         numbers.append(number if isinstance(number, int) else i)
         poses = _poses(frame, world=world)
         people += [Person(numbers[-1], *_landmarks(content, i, pose)) for pose in poses]
     head = data if isinstance(data, Mapping) else {}
-    fps = _found(head, ("fps", "framerate", "frame_rate"))
-    size = [_found(head, (side, f"image{side}", f"frame{side}")) for side in ("width", "height")]
+    fps = _first_value(head, ("fps", "framerate", "frame_rate"))
+    size = [
+        _first_value(head, (side, f"image{side}", f"frame{side}")) for side in ("width", "height")
+    ]
     return landmarks_to_motion(
         content, people, options, world=world or None, fps=_positive(fps),
         size=tuple(map(_positive, size)), frames=numbers,
@@ -115,9 +117,9 @@ def landmarks_to_motion(
         middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])
         world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
     if world:
-        said = "world landmarks: metres from the middle of the hips, the place is not known"
+        note = "world landmarks: metres from the middle of the hips, the place is not known"
         video = Video(
-            "MediaPipe", NAMES, people, SURE, fps=fps, frames=frames, unit="m", notes=[*notes, said]
+            "MediaPipe", NAMES, people, SURE, fps=fps, frames=frames, unit="m", notes=[*notes, note]
         )
         return video_to_motion(content, video, options)
     width, height = size
@@ -160,7 +162,7 @@ def _poses(frame: Any, *, world: bool) -> list[Any]:
     """The poses in a frame: lists of 33 landmarks."""
     found = frame
     if isinstance(frame, Mapping) and not _by_name(frame):
-        found = _found(frame, _WORLD if world else _IMAGE)
+        found = _first_value(frame, _WORLD if world else _IMAGE)
     elif world:
         return []
     if isinstance(found, Mapping) and "landmark" in found:
@@ -200,18 +202,18 @@ def _landmarks(
     for mark in pose:
         if isinstance(mark, Mapping):
             x, y, z = mark["x"], mark["y"], mark.get("z", 0.0)
-            seen = mark.get("visibility", mark.get("score", mark.get("presence", 1.0)))
+            visibility = mark.get("visibility", mark.get("score", mark.get("presence", 1.0)))
         else:
-            x, y, z, seen = [*mark, *(0.0, 1.0)[len(mark) - 2 :]][:4]
+            x, y, z, visibility = [*mark, *(0.0, 1.0)[len(mark) - 2 :]][:4]
         try:
             points.append([float(x), float(y), float(z or 0.0)])
-            sure.append(1.0 if seen is None else float(seen))
+            sure.append(1.0 if visibility is None else float(visibility))
         except (TypeError, ValueError, OverflowError):
             raise content.error(f"frame {frame} has a landmark that is no numbers") from None
     return points, sure
 
 
-def _found(mapping: Mapping[str, Any], keys: Sequence[str]) -> Any:
+def _first_value(mapping: Mapping[str, Any], keys: Sequence[str]) -> Any:
     """The value under the first of the keys, whatever its case and underscores."""
     plain = {_plain(str(key)): value for key, value in mapping.items()}
     return next((plain[key] for key in keys if key in plain), None)

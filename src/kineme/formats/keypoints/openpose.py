@@ -62,7 +62,7 @@ def is_openpose(data: Any) -> bool:
 def read_openpose(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """The motion of one person in OpenPose's frames."""
     frames = _frames(data)
-    people = [person for number, frame in frames for person in _found(content, number, frame)]
+    people = [person for number, frame in frames for person in _people(content, number, frame)]
     return _to_motion(content, people, options, [number for number, _ in frames])
 
 
@@ -83,7 +83,7 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
         data = parsed_json(content)
         if not is_openpose(data):
             raise content.error("no 'people' in it: is it one of OpenPose's files?")
-        people += _found(content, number, data)
+        people += _people(content, number, data)
         digest.append(content.data)
     content = FileContent(path, b"".join(digest))
     return _to_motion(content, people, options, [number for number, _ in numbered])
@@ -132,7 +132,7 @@ def _is_number(key: object) -> bool:
     return isinstance(key, str) and key.isdecimal() and len(key) < 19
 
 
-def _found(content: FileContent, number: int, frame: Any) -> list[Person]:
+def _people(content: FileContent, number: int, frame: Any) -> list[Person]:
     people = frame.get("people") if isinstance(frame, Mapping) else None
     if not isinstance(people, list):
         raise content.error(f"frame {number} has no list of 'people'")
@@ -168,8 +168,8 @@ def _to_motion(
     counts = {len(person.points) for person in people}
     for count in counts:
         if count not in NAMES:
-            known = ", ".join(map(str, NAMES))
-            raise content.error(f"a person has {count} keypoints: {known} are known")
+            layouts = ", ".join(map(str, NAMES))
+            raise content.error(f"a person has {count} keypoints: {layouts} are known")
     names = NAMES[max(counts, default=25)]
     video = Video("OpenPose", names, people, SURE, frames=frames)
     if in_space:

@@ -64,7 +64,7 @@ def rows_of_person(
         if person not in people:
             raise SeveralPeopleError(
                 content.path,
-                f"there is no person {person!r}: choose from {_shown(people, found)}",
+                f"there is no person {person!r}: choose from {_listing(people, found)}",
                 people,
             )
         notes = [f"person {person} of {len(people)}"] if len(people) > 1 else []
@@ -75,7 +75,7 @@ def rows_of_person(
         raise SeveralPeopleError(
             content.path,
             f"{len(staying)} people are in it: choose one with person= (--person), "
-            f"of {_shown(staying, found)}",
+            f"of {_listing(staying, found)}",
             staying,
         )
     ((name, rows),) = staying.items()
@@ -91,7 +91,7 @@ def _people(found: Detections) -> dict[str, Rows]:
     elif len(np.unique(found.frames)) == len(found.frames):
         numbers = ["0"] * len(found.frames)
     else:
-        numbers = _followed(found)
+        numbers = _track_numbers(found)
     rows: dict[str, list[int]] = {}
     for row, number in enumerate(numbers):
         rows.setdefault(number, []).append(row)
@@ -101,7 +101,7 @@ def _people(found: Detections) -> dict[str, Rows]:
     }
 
 
-def _followed(found: Detections) -> list[str]:
+def _track_numbers(found: Detections) -> list[str]:
     """A number for each row: that of the person nearest to it a frame before, or a new one."""
     from scipy.optimize import linear_sum_assignment
 
@@ -110,15 +110,15 @@ def _followed(found: Detections) -> list[str]:
     count = 0
     starts = np.flatnonzero(np.diff(found.frames, prepend=-1))
     for start, stop in zip(starts, [*starts[1:], len(found.frames)], strict=True):
-        known = list(last)
-        before = np.array([last[who] for who in known], np.intp)
-        cost = np.full((len(known), stop - start), np.inf)
+        tracks = list(last)
+        before = np.array([last[who] for who in tracks], np.intp)
+        cost = np.full((len(tracks), stop - start), np.inf)
         for column, row in enumerate(range(start, stop)):
-            if known:
+            if tracks:
                 cost[:, column] = _strides(found, before, row)
         possible = np.where(np.isfinite(cost), cost, 1e6)
         pairs = zip(*linear_sum_assignment(possible), strict=True)
-        matched = {column: known[k] for k, column in pairs if cost[k, column] <= 1}
+        matched = {column: tracks[k] for k, column in pairs if cost[k, column] <= 1}
         for column, row in enumerate(range(start, stop)):
             if column not in matched:
                 matched[column] = count
@@ -136,8 +136,8 @@ def _strides(found: Detections, before: Rows, row: int) -> Floats:
     now = found.points[row]
     with np.errstate(all="ignore"):
         away = np.linalg.norm(found.points[before] - now, axis=2)
-        seen = np.isfinite(away)
-        mean = np.where(seen, away, 0).sum(axis=1) / seen.sum(axis=1)
+        visible = np.isfinite(away)
+        mean = np.where(visible, away, 0).sum(axis=1) / visible.sum(axis=1)
         here = now[np.isfinite(now).all(axis=1)]
         size = np.ptp(here, axis=0).max() if len(here) > 1 else 0.0
         passed = found.frames[row] - found.frames[before]
@@ -145,10 +145,10 @@ def _strides(found: Detections, before: Rows, row: int) -> Floats:
     return np.asarray(np.where(np.isfinite(strides), strides, np.inf))
 
 
-def _shown(people: dict[str, Rows], found: Detections, most: int = 8) -> str:
-    said = [
+def _listing(people: dict[str, Rows], found: Detections, most: int = 8) -> str:
+    entries = [
         f"{name} ({len(rows)} frames from {found.frames[rows[0]]} on)"
         for name, rows in people.items()
     ]
-    more = f" and {len(said) - most} more" if len(said) > most else ""
-    return ", ".join(said[:most]) + more
+    more = f" and {len(entries) - most} more" if len(entries) > most else ""
+    return ", ".join(entries[:most]) + more

@@ -1,27 +1,35 @@
-"""SLEAP: its analysis files in HDF5, and why its own projects are not read.
+"""SLEAP: its analysis files in HDF5, and its tables; why its own projects are not read.
 
 ``tracks`` (tracks, 2, nodes, frames), or (frames, tracks, nodes, 2) in newer files,
 are pixels; ``node_names``, ``track_names`` and ``point_scores`` lie beside them. Nodes
 less sure than 0.2, SLEAP's own limit for peaks, count as not seen. Of several
 tracks ``person`` names one. There is no frame rate in the file: ``fps`` gives it.
+
+Tables have ``track``, ``frame_idx``, ``instance.score`` and ``NODE.x NODE.y NODE.score``, a row
+for each animal in a frame.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
+from kineme.formats.delimited import DelimitedText
+from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.video import Person, Video, video_to_motion
+from kineme.formats.keypoints.video import Person, Video, video_to_motion, whole_numbers
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.formats.tables.pose_tables import SLEAP_SURE
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
+
+SURE = 0.2
+"""SLEAP's own limit for peaks."""
 
 
 def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
@@ -40,14 +48,42 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
     positions, sure = _arranged(content, tracks, found.get("point_scores"), old=old)
     if len(names) != len(positions):
         names = [str(i) for i in range(len(positions))]
-    seen = np.any(np.isfinite(positions).all(axis=3), axis=2)
+    visible = np.any(np.isfinite(positions).all(axis=3), axis=2)
     people = [
         Person(frame, positions[track, frame].tolist(), sure[track, frame].tolist(), names[track])
-        for track, frame in np.argwhere(seen).tolist()
+        for track, frame in np.argwhere(visible).tolist()
     ]
     frames = range(positions.shape[1])
-    video = Video("SLEAP", nodes, people, SLEAP_SURE, frames=frames)
+    video = Video("SLEAP", nodes, people, SURE, frames=frames)
     return video_to_motion(content, video, options)
+
+
+def is_sleap(names: Sequence[str]) -> bool:
+    """Whether columns of these names are SLEAP's."""
+    return "frame_idx" in names and any(name.endswith(".score") for name in names)
+
+
+def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
+    """The motion of one animal in a table of SLEAP's."""
+    names, content = list(table.names), table.content
+    nodes = [name[:-2] for name in names if name.endswith(".x") and f"{name[:-2]}.y" in names]
+    if not nodes:
+        raise content.error("no columns NODE.x and NODE.y found", table.head + 1)
+    columns = [names.index(f"{node}.{axis}") for node in nodes for axis in "xy"]
+    scores = [names.index(f"{node}.score") for node in nodes if f"{node}.score" in names]
+    rows = table.numbers([names.index("frame_idx"), *columns, *scores])
+    k = len(nodes)
+    sure = rows[:, 1 + 2 * k :] if len(scores) == k else np.ones((len(rows), k))
+    points = rows[:, 1 : 1 + 2 * k].reshape(-1, k, 2)
+    frames = whole_numbers(content, rows[:, 0]).tolist()
+    tracks = table.texts(names.index("track")) if "track" in names else []
+    tracked = any(tracks)
+    people = [
+        Person(frame, points[i].tolist(), sure[i].tolist(), tracks[i] if tracked else None)
+        for i, frame in enumerate(frames)
+    ]
+    start = [0] if 0 <= min(frames) < len(frames) else []  # where the video starts
+    return video_to_motion(content, Video("SLEAP", nodes, people, SURE, frames=start), options)
 
 
 def _arranged(
@@ -59,10 +95,11 @@ def _arranged(
     positions = tracks.transpose((0, 3, 2, 1) if old else (1, 0, 2, 3))
     sure = np.ones(positions.shape[:3])
     if isinstance(scores, np.ndarray) and scores.ndim == 3 and scores.dtype.kind in "iuf":
-        given = scores.transpose((0, 2, 1) if old else (1, 0, 2))
-        if given.shape == sure.shape:
-            sure = np.where(np.isnan(given), 1.0, given)
+        confidences = scores.transpose((0, 2, 1) if old else (1, 0, 2))
+        if confidences.shape == sure.shape:
+            sure = np.where(np.isnan(confidences), 1.0, confidences)
     return np.asarray(positions, np.float64), sure
 
 
 FORMAT = Format("SLEAP", (".h5", ".hdf5"), lambda head: head.startswith(SIGNATURE), read_sleap)
+DIALECT = Dialect("SLEAP", lambda names, _: is_sleap(names), read_sleap_table)

@@ -143,13 +143,20 @@ def in_groups(content: FileContent, values: Any, width: int) -> Floats:
     return flat.reshape(-1, width)
 
 
+def whole_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
+    """The numbers of frames as such; ReadError where they are none."""
+    if not np.isfinite(frames).all() or np.abs(frames).max(initial=0) > 2**53:
+        raise content.error("the frames have no whole numbers")
+    return np.rint(frames).astype(np.int64)
+
+
 def _numbered(content: FileContent, video: Video, found: list[int]) -> tuple[NDArray[np.intp], int]:
     """Frames counted from 0, and how many there are."""
-    known = {*found, *video.frames}
-    first, last = min(known), max(known)
-    if last - first >= MOST_FRAMES_MORE * (len(known) + 1):
+    numbers = {*found, *video.frames}
+    first, last = min(numbers), max(numbers)
+    if last - first >= MOST_FRAMES_MORE * (len(numbers) + 1):
         raise content.error(
-            f"the numbers of {len(known)} frames run from {first} to {last}: these are no frame "
+            f"the numbers of {len(numbers)} frames run from {first} to {last}: these are no frame "
             "numbers"
         )
     return np.array([frame - first for frame in found], np.intp), last - first + 1
@@ -160,15 +167,15 @@ def _stacked(content: FileContent, people: Sequence[Person], k: int) -> tuple[Fl
     points, sure = [], []
     for person in people:
         try:
-            own = np.asarray(person.points, np.float64)
+            pose = np.asarray(person.points, np.float64)
             trust = np.asarray(person.sure, np.float64)
         except (ValueError, TypeError, OverflowError):
             raise content.error(f"frame {person.frame} has keypoints that are no numbers") from None
-        if own.ndim != 2 or own.shape[1] not in (2, 3) or not k == len(own) == trust.size:
+        if pose.ndim != 2 or pose.shape[1] not in (2, 3) or not k == len(pose) == trust.size:
             raise content.error(
-                f"frame {person.frame} has keypoints of shape {own.shape}, where {k} are expected"
+                f"frame {person.frame} has keypoints of shape {pose.shape}, where {k} are expected"
             )
-        points.append(np.pad(own, ((0, 0), (0, 3 - own.shape[1]))))
+        points.append(np.pad(pose, ((0, 0), (0, 3 - pose.shape[1]))))
         sure.append(trust.ravel())
     return np.stack(points), np.stack(sure)
 

@@ -8,15 +8,24 @@ are left out. Events and the number of the first frame go into the provenance.
 
 Times count from the file's first frame, not from the start of the capture.
 Analog channels are no part of a motion: they are read as signals where they are
-asked for, see `kineme.formats.markers.c3d_analog`.
+asked for: those wanted, those of muscles, or all.
+
+A laboratory's amplifier takes everything: force plates, switches, accelerometers and
+electrodes stand side by side. A channel is a muscle's if its label or description says
+so, by ``EMG`` or the name of a muscle, or if it is in milli- or microvolts; in volts,
+the abbreviation of a muscle will do (``LTA``, ``R_GM``). None is if
+``FORCE_PLATFORM:CHANNEL`` names it, if its unit is that of something else, or if its
+label says what it is: the accelerometer of an electrode carries the muscle's name, too.
 """
 
 from __future__ import annotations
 
+import re
+
 from kineme.errors import ReadError
-from kineme.formats.files import FileContent
+from kineme.formats.channels.reading import ChannelTable, asked_for, to_signals, wanted_columns
+from kineme.formats.files import FileContent, unique
 from kineme.formats.marker_sets import is_nameless
-from kineme.formats.markers.c3d_analog import read_analog
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
@@ -25,6 +34,27 @@ from kineme.formats.units import AXES, unit_named
 from kineme.recordings import Motion, Signals
 
 _MODELLED = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
+_EMG = re.compile(r"emg|electromyo\w*|myo", re.IGNORECASE)
+_MUSCLE = re.compile(
+    r"tibialis|gastroc\w*|soleus|peron\w*|fibularis|vast(us|i)|rectus|biceps|triceps|brachi\w*|"
+    r"semitend\w*|semimemb\w*|hamstrings?|quadriceps|glut\w*|sartorius|gracilis|adductor|tensor|"
+    r"iliopsoas|erector|multifid\w*|longissimus|obliqu\w*|trapez\w*|delt\w*|pector\w*|latissimus|"
+    r"infraspin\w*|supraspin\w*|serratus|sternocleid\w*|(?:flexor|extensor)(?:\s+\w+)?",
+    re.IGNORECASE,
+)
+_ABBREVIATION = re.compile(
+    r"(?:[lr]|left|right)?[\s_.-]*(?:ta|gm|gl|mg|lg|gas|sol|rf|vm|vl|bf|st|sm|ham|es|"
+    r"gmax|gmed|glmax|glmed|add|per|pl|tfl)[\s_.-]*(?:[lr]|left|right)?",
+    re.IGNORECASE,
+)
+_OTHER = re.compile(
+    r"f[xyz]\d*|m[xyz]\d*|force\w*|moments?|torques?|cop\w*|acc\w*|gyr\w*|mag\w*|imu|pitch|roll|yaw|"
+    r"goni\w*|angles?|(?:foot)?switch\w*|sync\w*|trig\w*|clock|pedal|pressure|fsr",
+    re.IGNORECASE,
+)
+_VOLTS = frozenset({"v", "volt", "volts"})
+_SMALL_VOLTS = frozenset({"mv", "uv", "µv", "μv", "millivolt", "millivolts", "microvolts"})
+_NO_UNIT = frozenset({"", "d.u.", "du", "bits", "bit", "counts", "n/a", "%"})
 
 
 def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
@@ -81,6 +111,90 @@ def _unit(file: C3D) -> str | None:
 def _up(file: C3D) -> str | None:
     axis = "".join(file.parameters.strings("POINT", "Y_SCREEN")).lower().lstrip("+")
     return axis if axis in AXES else None
+
+
+def read_analog(content: FileContent, options: ReadOptions) -> Signals:
+    """The analog channels of a C3D: ``options.columns``, or muscles with ``emg``, or all.
+
+    Parameters
+    ----------
+    content : FileContent
+    options : ReadOptions
+
+    Returns
+    -------
+    Signals
+
+    Raises
+    ------
+    ReadError
+        It has none, or not those that were asked for.
+    """
+    file = parse_c3d(content)
+    columns, notes = options.columns or None, []
+    if options.emg and columns is None:
+        columns, note = muscles_of(content, file)
+        notes.append(note)
+    if not file.analog.size:
+        raise content.error("holds no analog channels")
+    names = unique(file.analog_labels)
+    wanted = wanted_columns(asked_for(content, names, columns, names), names)
+    values = file.analog[:, [names.index(name) for name in wanted]]
+    table = ChannelTable(wanted, values, {}, file.analog_rate or None, tuple(notes))
+    return to_signals(content, "C3D", table, options.fps)
+
+
+def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
+    """The names of the channels that are muscles', and a sentence on what was taken.
+
+    Raises
+    ------
+    ReadError
+        Nothing tells that a channel is one.
+    """
+    names = unique(file.analog_labels)
+    plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
+    described = file.parameters.strings("ANALOG", "DESCRIPTIONS")
+    described = [*described, *[""] * len(names)]
+    muscles = [
+        name
+        for number, (name, label, text, unit) in enumerate(
+            zip(names, file.analog_labels, described, file.analog_units, strict=False), 1
+        )
+        if number not in plates and is_muscle(label, text, unit)
+    ]
+    if not muscles:
+        raise content.error(
+            "nothing tells which of its analog channels are muscles: name them with "
+            f"--columns (columns=), of {', '.join(names)}"
+        )
+    others = [name for name in names if name not in muscles]
+    left = f"; left out: {', '.join(others)}" if others else ""
+    return muscles, f"channels taken for muscles: {', '.join(muscles)}{left}"
+
+
+def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
+    """Whether an analog channel is a muscle's, as far as its own words tell.
+
+    Examples
+    --------
+    >>> is_muscle("L Tibialis", unit="V"), is_muscle("L Tibialis: ACC X", unit="g")
+    (True, False)
+    """
+    unit = unit.strip().lower()
+    words = _words(f"{label} {description}")
+    if unit not in _VOLTS | _SMALL_VOLTS | _NO_UNIT or any(map(_OTHER.fullmatch, words)):
+        return False
+    if unit in _SMALL_VOLTS or any(_EMG.match(w) or _MUSCLE.fullmatch(w) for w in words):
+        return True
+    return unit in _VOLTS and _ABBREVIATION.fullmatch(label.strip()) is not None
+
+
+def _words(text: str) -> list[str]:
+    """The words of a name: ``RTibialisAnt.EMG1`` has four."""
+    return re.findall(
+        r"[A-Z]?[a-z]+|[A-Z]+\d*(?![a-z])", re.sub(r"([A-Z])(?=[A-Z][a-z])", r"\1 ", text)
+    )
 
 
 FORMAT = Format(

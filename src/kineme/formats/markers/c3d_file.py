@@ -12,6 +12,10 @@ or saturated. Frames: the largest of the counts given that the file has room
 for. Labels beyond the 255th: in LABELS2, LABELS3 and so on. A parameter may be
 an integer where the manual has a float, and the other way round.
 
+A record of the parameter section is the length of its name, the number of its group (negative:
+it is the group), the name, the distance to the next record, and for a parameter its type,
+dimensions and values. Values are looked at when they are asked for.
+
 Nothing is allocated that the file does not hold.
 
 Why this is no wrapper of ezc3d, with which the tests compare it: a damaged
@@ -23,22 +27,22 @@ Source: Motion Lab Systems, "The C3D file format: a technical user guide" (2021)
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import count
+from math import prod
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme.formats.files import FileContent
-from kineme.formats.markers.c3d_layout import Layout, Stored, read_header
-from kineme.formats.markers.c3d_parameters import (
-    Parameters,
-    as_float32,
-    number_type,
-    read_parameters,
-    string,
-)
 
 Floats = NDArray[np.float64]
+Stored = NDArray[Any]
+"""Float32 or int16."""
+
+BLOCK = 512
+INTEL, DEC, MIPS = 84, 85, 86
 _HEADER_EVENTS = 12345  # marks a header whose events have labels of four letters
 
 
@@ -92,8 +96,8 @@ def parse_c3d(content: FileContent) -> C3D:
     file = Layout(content, parameters, read_header(content, parameters))
     raw = file.frames()
     n = file.n_points
-    points, seen = _points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
-    points[~seen] = np.nan
+    points, visible = _points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
+    points[~visible] = np.nan
     analog = _analog(file, raw[:, 4 * n :])
     return C3D(
         labels=_labels(parameters, "POINT", n, "point"),
@@ -126,8 +130,8 @@ def _analog(file: Layout, raw: Stored) -> Floats:
 
 
 def _per_channel(parameters: Parameters, name: str, channels: int, usual: float) -> Floats:
-    given = parameters.numbers("ANALOG", name, signed=True)[:channels]
-    return np.array(given + [usual] * (channels - len(given)))
+    values = parameters.numbers("ANALOG", name, signed=True)[:channels]
+    return np.array(values + [usual] * (channels - len(values)))
 
 
 def _events(file: Layout) -> tuple[tuple[float, str], ...]:
@@ -165,8 +169,8 @@ def _points(quads: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
     positions = quads[:, :, :3].astype(np.float64)
     if quads.dtype.kind == "i":
         positions *= scale
-    seen = (quads[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
-    return positions, seen & positions.any(axis=2)
+    visible = (quads[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
+    return positions, visible & positions.any(axis=2)
 
 
 def _labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]:
@@ -181,3 +185,252 @@ def _labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]
 
 def _padded(labels: list[str], n: int) -> list[str]:
     return labels[:n] + [""] * (n - len(labels))
+
+
+@dataclass(frozen=True)
+class Header:
+    """The first block, as far as it is used."""
+
+    points: int
+    analog_per_frame: int
+    first_frame: int
+    last_frame: int
+    scale: float
+    data_block: int
+    samples_per_frame: int
+    rate: float
+
+
+def read_header(content: FileContent, parameters: Parameters) -> Header:
+    """The header, in the numbers of the processor that the parameters name."""
+    kind = parameters.processor
+    words = np.frombuffer(content.data, number_type(kind, real=False), 12)
+    words = words.view(words.dtype.str.replace("i", "u"))
+    reals = np.frombuffer(content.data, number_type(kind, real=True), 6)
+    scale, rate = as_float32(reals, kind)[[3, 5]].tolist()
+    _, points, analog, first, last, _, _, _, block, per_frame, _, _ = words.tolist()
+    return Header(points, analog, first, last, scale, block, per_frame, rate)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where frames stand in a file, and how many; see `kineme.formats.markers.c3d_file`."""
+
+    content: FileContent
+    parameters: Parameters
+    header: Header
+
+    @cached_property
+    def n_points(self) -> int:
+        return self.counts[0]
+
+    @cached_property
+    def counts(self) -> tuple[int, int]:
+        """Points and analog samples of a frame.
+
+        The header and the parameters count both. Where they differ, the counts hold with
+        which the declared frames fill the file, whose last block may be padded.
+        """
+        header = (self.header.points, self.header.analog_per_frame)
+        used = int(self.parameters.number("POINT", "USED", header[0]))
+        per_frame = max(self.header.samples_per_frame, 1)
+        channels = int(self.parameters.number("ANALOG", "USED", -1))
+        samples = channels * per_frame if channels >= 0 else header[1]
+        if used == header[0] and samples == header[1]:
+            return header
+        pairs = dict.fromkeys((n, m) for n in (used, header[0]) for m in (header[1], samples))
+        fitting = [pair for pair in pairs if any(pair) and self._fills(*pair)]
+        remark = (
+            f"the header counts {header[0]} points and {header[1]} analog samples in a frame, "
+            f"the parameters {used} and {samples}"
+        )
+        widths = {4 * n + m for n, m in fitting}
+        if len(fitting) == 1 or (fitting and used == header[0] and len(widths) == 1):
+            n, m = fitting[0]
+            self.content.warn(f"{remark}: {n} and {m} are taken, which fit the length of the file")
+            return fitting[0]
+        if used == header[0] and not fitting:  # as header and length of a cut file would
+            self.content.warn(f"{remark}: those of the header are taken")
+            return header
+        which = "either fits" if fitting else "neither fits"
+        raise self.content.error(f"{remark}, and {which} the length of the file: it is damaged")
+
+    def _fills(self, n_points: int, per_frame: int) -> bool:
+        """Whether a declared number of frames, so wide, ends in the last block of the file."""
+        width = (4 * n_points + per_frame) * self._kind.itemsize
+        size = len(self.content.data) - self._start
+        ends = (frames * width for frames in self._declared_frames())
+        return any(end <= size < (end // BLOCK + 2) * BLOCK for end in ends if end)
+
+    @cached_property
+    def _kind(self) -> np.dtype[Any]:
+        return number_type(self.parameters.processor, real=self.scale < 0)
+
+    @cached_property
+    def _start(self) -> int:
+        """Where the data begin, in bytes."""
+        block = self.header.data_block or int(self.parameters.number("POINT", "DATA_START", 0))
+        if block < 2:
+            raise self.content.error("the header names no place for the data, or no points in it")
+        return (block - 1) * BLOCK
+
+    @cached_property
+    def scale(self) -> float:
+        return self.parameters.number("POINT", "SCALE", self.header.scale) or self.header.scale
+
+    @cached_property
+    def rate(self) -> float:
+        rate = self.parameters.number("POINT", "RATE", self.header.rate) or self.header.rate
+        return rate if np.isfinite(rate) and rate > 0 else 0.0
+
+    @cached_property
+    def first_frame(self) -> int:
+        return self._long("ACTUAL_START_FIELD") or self.header.first_frame
+
+    def frames(self) -> Stored:
+        """(frames, numbers): the data section as stored."""
+        start, kind = self._start, self._kind
+        width = 4 * self.n_points + self.counts[1]
+        if width == 0:
+            raise self.content.error("the header names no place for the data, or no points in it")
+        room = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
+        declared = self._declared_frames()
+        n = max((frames for frames in declared if 0 < frames <= room), default=room)
+        if n == 0:
+            raise self.content.error(
+                f"less than one frame of {self.n_points} points: the file is truncated"
+            )
+        if n not in declared:
+            self.content.warn(f"{max(declared)} frames declared, {n} found and kept")
+        raw = np.frombuffer(self.content.data, kind, n * width, start).reshape(n, width)
+        return as_float32(raw, self.parameters.processor) if self.scale < 0 else raw
+
+    def _declared_frames(self) -> set[int]:
+        start, stop = self._long("ACTUAL_START_FIELD"), self._long("ACTUAL_END_FIELD")
+        counts = {
+            self.header.last_frame - self.header.first_frame + 1,
+            int(self.parameters.number("POINT", "FRAMES", 0)),
+            int(self.parameters.number("POINT", "LONG_FRAMES", 0)),
+            stop - start + 1 if start and stop else 0,
+        }
+        return {frames for frames in counts if frames > 0} or {0}
+
+    def _long(self, name: str) -> int:
+        """A count in two words, the low one first; 0 if there is none."""
+        low, *high = self.parameters.numbers("TRIAL", name)[:2] or [0.0]
+        return int(low) + (int(high[0]) << 16 if high else 0)
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """The values of a C3D file by group and name, both in upper case."""
+
+    content: FileContent
+    processor: int
+    places: dict[tuple[str, str], int]
+
+    def number(self, group: str, name: str, usual: float) -> float:
+        """The first of the values as a finite number, ``usual`` if there is none."""
+        values = self.numbers(group, name)
+        return values[0] if values and np.isfinite(values[0]) else usual
+
+    def numbers(self, group: str, name: str, *, signed: bool = False) -> list[float]:
+        """The values as numbers, none if they are text; integers are counts unless signed."""
+        kind, _, data = self._stored(group, name)
+        if kind == 4:
+            reals = np.frombuffer(data, number_type(self.processor, real=True))
+            return list(map(float, as_float32(reals, self.processor)))
+        if kind not in (1, 2):
+            return []
+        integers = np.frombuffer(
+            data, "i1" if kind == 1 else number_type(self.processor, real=False)
+        )
+        if not signed:
+            integers = integers.view(integers.dtype.str.replace("i", "u"))
+        return list(map(float, integers))
+
+    def strings(self, group: str, name: str) -> list[str]:
+        """The values as text, none if they are numbers."""
+        kind, shape, data = self._stored(group, name)
+        width = shape[0] if shape else 1
+        if kind != -1 or width == 0:
+            return []
+        return [string(data[at : at + width]) for at in range(0, len(data), width)]
+
+    def _stored(self, group: str, name: str) -> tuple[int, list[int], bytes]:
+        """Type, dimensions and bytes of a parameter; nothing where it is not whole."""
+        at = self.places.get((group, name))
+        data = self.content.data
+        if at is None or at + 2 > len(data):
+            return 0, [], b""
+        kind = int.from_bytes(data[at : at + 1], signed=True)
+        shape = list(data[at + 2 : at + 2 + data[at + 1]])
+        start = at + 2 + data[at + 1]
+        size = abs(kind) * prod(shape)
+        if start + size > len(data):
+            return 0, [], b""
+        return kind, shape, data[start : start + size]
+
+
+def read_parameters(content: FileContent) -> Parameters:
+    """Where each parameter of the file is.
+
+    Raises
+    ------
+    ReadError
+        There is no parameter section, or its processor is unknown.
+    """
+    data = content.data
+    start = (max(data[0], 1) - 1) * BLOCK if data else 0
+    if len(data) < max(start + 4, BLOCK):
+        raise content.error("the file ends before its parameters: it is truncated, or no C3D file")
+    processor = data[start + 3]
+    if processor not in (INTEL, DEC, MIPS):
+        raise content.error(
+            f"processor type {processor} is none of Intel ({INTEL}), DEC ({DEC}) and MIPS "
+            f"({MIPS}): the file is damaged, or no C3D file"
+        )
+    order = "big" if processor == MIPS else "little"
+    groups: dict[int, str] = {}
+    found: list[tuple[int, str, int]] = []
+    at = start + 4
+    while at + 2 <= len(data):
+        length = abs(int.from_bytes(data[at : at + 1], signed=True))
+        group = int.from_bytes(data[at + 1 : at + 2], signed=True)
+        after = at + 2 + length
+        step = int.from_bytes(data[after : after + 2], order)  # type: ignore[arg-type]
+        if length == 0 or group == 0:
+            break
+        name = string(data[at + 2 : after]).upper()
+        if group < 0:
+            groups[-group] = name
+        else:
+            found.append((group, name, after + 2))
+        if step == 0:
+            break
+        at = after + step
+    places = {(groups.get(group, ""), name): place for group, name, place in found}
+    return Parameters(content, processor, places)
+
+
+def number_type(processor: int, *, real: bool) -> np.dtype[Any]:
+    """How a number is stored; DEC's floats need `as_float32` besides."""
+    return np.dtype((">" if processor == MIPS else "<") + ("f4" if real else "i2"))
+
+
+def as_float32(values: NDArray[Any], processor: int) -> NDArray[np.float32]:
+    """The values, with DEC's floats (words exchanged, exponents larger by two) made IEEE's."""
+    if processor != DEC:
+        return values
+    words = np.ascontiguousarray(values).view("<u2")
+    exchanged = words.reshape(-1, 2)[:, ::-1].copy().view("<f4").reshape(values.shape)
+    return np.asarray(exchanged / 4, np.float32)
+
+
+def string(data: bytes) -> str:
+    """Text padded with blanks or zeros; UTF-8, else Latin-1 as older programs write."""
+    data = data.partition(b"\0")[0]
+    try:
+        return data.decode().strip()
+    except UnicodeDecodeError:
+        return data.decode("latin-1").strip()

@@ -19,10 +19,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from kineme._counts import counted
-from kineme._files import HEAD
-from kineme.formats.delimited import rows_of, separator_of
+from kineme.formats.delimited import DelimitedText, cells_of, separator_of
+from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
-from kineme.formats.layout import cells_of
 from kineme.formats.marker_sets import is_nameless
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
@@ -32,17 +31,15 @@ from kineme.recordings import Motion
 CHAPTERS = ("trajectories", "devices", "model outputs", "joints", "segments", "events")
 """First lines of Nexus's tables, in lower case."""
 
-_MARKERS = re.compile(rb'^[ ",;\t]*trajectories[ ",;\t\r]*$', re.IGNORECASE | re.MULTILINE)
+_MARKERS = re.compile(r'[ ",;\t]*trajectories[ ",;\t]*', re.IGNORECASE)
 
 
 @dataclass(frozen=True)
-class CaptureTable:
-    """Where the columns of a table stand, and what is said above them.
+class Capture:
+    """Where the columns of a table stand, and what stands above them.
 
     Parameters
     ----------
-    program : str
-        That wrote it.
     axes : int
         The line of the axes, counted from 0.
     below : int
@@ -53,7 +50,6 @@ class CaptureTable:
         As they are written.
     """
 
-    program: str
     axes: int
     below: int
     columns: dict[str, int]
@@ -61,76 +57,95 @@ class CaptureTable:
     unit: str
 
 
-def is_capture_table(data: bytes) -> bool:
-    """Whether a file is one of these tables; one of devices alone holds channels as others do."""
-    first = data[:HEAD].removeprefix(b"\xef\xbb\xbf").lstrip().split(b"\n", 1)[0].lower()
-    plain = first.strip(b' "\r,;\t').decode("ascii", errors="replace")
-    if plain in CHAPTERS:
-        return _MARKERS.search(data) is not None
-    return plain.startswith("format version,")
+def is_nexus(lines: Sequence[str]) -> bool:
+    """Whether a file is Nexus's; one of devices alone holds channels as others do."""
+    return _first_line(lines) in CHAPTERS and any(map(_MARKERS.fullmatch, lines))
 
 
-def read_capture_table(content: FileContent, options: ReadOptions) -> Motion:
-    """The motion of the markers in such a table, or of the bones where there are none."""
-    lines = content.text.splitlines()
-    motive = "format version" in next(filter(str.strip, lines)).lower()
-    table = _motive(content, lines) if motive else _nexus(content, lines)
-    separator = separator_of(lines[table.axes])
-    width = lines[table.axes].count(separator) + 1
-    names = [name for name in table.columns if not is_nameless(name)] or [*table.columns]
-    wanted = [table.columns[name] + axis for name in names for axis in range(3)]
-    end = next((i for i in range(table.below, len(lines)) if not lines[i].strip(" ,;\t")), None)
-    rows = lines[table.below : end]
-    values = rows_of(content, rows, table.below + 1, separator, width, wanted)
-    notes = []
-    if left := len(table.columns) - len(names):
+def is_motive(lines: Sequence[str]) -> bool:
+    """Whether a file is Motive's."""
+    return _first_line(lines).startswith("format version,")
+
+
+def read_nexus(table: DelimitedText, options: ReadOptions) -> Motion:
+    """The motion of the markers in a table of Nexus's."""
+    return _motion(table, _nexus(table.content, table.lines), options, NEXUS.name, usual_up="z")
+
+
+def read_motive(table: DelimitedText, options: ReadOptions) -> Motion:
+    """The motion of the markers in a table of Motive's, or of the bones where there are none."""
+    return _motion(table, _motive(table.content, table.lines), options, MOTIVE.name, usual_up="y")
+
+
+def _motion(
+    table: DelimitedText, capture: Capture, options: ReadOptions, program: str, *, usual_up: str
+) -> Motion:
+    content, lines, columns = table.content, table.lines, capture.columns
+    separator = separator_of(lines[capture.axes])
+    names = [name for name in columns if not is_nameless(name)] or [*columns]
+    wanted = [columns[name] + axis for name in names for axis in range(3)]
+    below = range(capture.below, len(lines))
+    end = next((i for i in below if not lines[i].strip(" ,;\t")), None)
+    axes = cells_of(lines[capture.axes], separator)
+    rows = DelimitedText(content, lines[:end], axes, capture.axes, capture.below, separator)
+    values = rows.numbers(wanted)
+    notes = list(rows.remarks)
+    if left := len(columns) - len(names):
         notes.append(f"{counted(left, 'point')} without a name left out")
     points = Points(
         names,
         values.reshape(len(values), -1, 3),
-        options.fps or _rate(content, table),
-        options.unit or unit_named(table.unit),
+        options.fps or _rate(content, capture),
+        options.unit or unit_named(capture.unit),
         options.up,
-        usual_up="y" if motive else "z",
+        usual_up=usual_up,
         person=options.person,
     )
-    return to_motion(points, content.provenance(f"{table.program} table", notes))
+    return to_motion(points, content.provenance(f"{program} table", notes))
 
 
-def _nexus(content: FileContent, lines: Sequence[str]) -> CaptureTable:
-    at = next(i for i, line in enumerate(lines) if _MARKERS.match(line.encode()))
+def _first_line(lines: Sequence[str]) -> str:
+    first = next(filter(str.strip, lines), "")
+    return first.lower().strip(' "\r,;\t')
+
+
+def _nexus(content: FileContent, lines: Sequence[str]) -> Capture:
+    at = next(i for i, line in enumerate(lines) if _MARKERS.fullmatch(line))
     axes = _line_of_axes(content, lines, at)
     if axes < at + 3 or axes + 1 >= len(lines):
         raise content.error("rate and names expected under 'Trajectories', units under 'Frame'")
     separator = separator_of(lines[axes])
     names = cells_of(lines[axes - 1], separator)
-    columns = _named(content, names, cells_of(lines[axes], separator), axes)
+    columns = _columns(content, names, cells_of(lines[axes], separator), axes)
     cells = cells_of(lines[axes + 1], separator)
     units = [cell for first in columns.values() for cell in cells[first : first + 3] if cell]
     if len(set(units)) > 1:
-        said = " and ".join(sorted(set(units)))
-        raise content.error(f"markers are in {said}: export all of them in one unit", axes + 2)
+        listed = " and ".join(sorted(set(units)))
+        raise content.error(f"markers are in {listed}: export all of them in one unit", axes + 2)
     rate = cells_of(lines[at + 1], separator)[0]
-    return CaptureTable("Nexus", axes, axes + 2, columns, rate, units[0] if units else "")
+    return Capture(axes, axes + 2, columns, rate, units[0] if units else "")
 
 
-def _motive(content: FileContent, lines: Sequence[str]) -> CaptureTable:
+def _motive(content: FileContent, lines: Sequence[str]) -> Capture:
     axes = _line_of_axes(content, lines, 0)
     separator = separator_of(lines[axes])
-    said = [cells_of(line, separator) for line in lines[:axes] if line.strip()]
-    facts = {key.lower(): value for key, value in zip(said[0][::2], said[0][1::2], strict=False)}
-    if len(said) < 4:
+    above = [cells_of(line, separator) for line in lines[:axes] if line.strip()]
+    pairs = zip(above[0][::2], above[0][1::2], strict=False)
+    facts = {key.lower(): value for key, value in pairs}
+    if len(above) < 4:
         raise content.error("kinds, names and 'Position' expected above the axes", axes + 1)
-    kinds, names, what = said[1], said[2], said[-1]
+    kinds, names, quantities = above[1], above[2], above[-1]
     kinds = [kind.lower() for kind in kinds]
-    taken = next(({kind} for kind in ("marker", "bone") if kind in kinds), set(kinds))
-    above = zip(cells_of(lines[axes], separator), kinds, what, strict=False)
+    points = next(({kind} for kind in ("marker", "bone") if kind in kinds), set(kinds))
     places = [
-        axis if kind in taken and of.lower() == "position" else "" for axis, kind, of in above
+        axis if kind in points and quantity.lower() == "position" else ""
+        for axis, kind, quantity in zip(
+            cells_of(lines[axes], separator), kinds, quantities, strict=False
+        )
     ]
-    columns = _named(content, names, places, axes)
+    columns = _columns(content, names, places, axes)
     rate = facts.get("export frame rate") or facts.get("capture frame rate", "")
-    return CaptureTable("Motive", axes, axes + 1, columns, rate, facts.get("length units", ""))
+    return Capture(axes, axes + 1, columns, rate, facts.get("length units", ""))
 
 
 def _line_of_axes(content: FileContent, lines: Sequence[str], start: int) -> int:
@@ -140,7 +155,7 @@ def _line_of_axes(content: FileContent, lines: Sequence[str], start: int) -> int
     raise content.error("no line 'Frame' with the axes of its columns", start + 1)
 
 
-def _named(
+def _columns(
     content: FileContent, names: Sequence[str], axes: Sequence[str], line: int
 ) -> dict[str, int]:
     """The column of x of each point with y and z beside it."""
@@ -153,7 +168,7 @@ def _named(
     return found
 
 
-def _rate(content: FileContent, table: CaptureTable) -> float:
+def _rate(content: FileContent, table: Capture) -> float:
     try:
         rate = float(table.rate)
     except ValueError:
@@ -161,3 +176,7 @@ def _rate(content: FileContent, table: CaptureTable) -> float:
     if not 0 < rate < float("inf"):
         raise content.error(f"{table.rate[:40]!r} is no frame rate: give fps= (--fps)")
     return rate
+
+
+NEXUS = Dialect("Nexus", lambda _, lines: is_nexus(lines), read_nexus)
+MOTIVE = Dialect("Motive", lambda _, lines: is_motive(lines), read_motive)

@@ -14,10 +14,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.formats.delimited import dotted, rows_of, separator_of
+from kineme.formats.delimited import DelimitedText, dotted, separator_of
 from kineme.formats.files import FileContent, in_a_cell, numbers, save, spelled
 from kineme.formats.gaps import split_at, unseen
-from kineme.formats.layout import COMMAS, has_commas
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
@@ -40,9 +39,9 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     names = _names(lines[3].split(separator)[2:])
     if not names:
         raise content.error("no marker is named after 'Frame#' and 'Time'", 4)
-    rows, width = lines[_HEADER_LINES:], 2 + 3 * len(names)
-    comma = has_commas(rows, separator)
-    table = rows_of(content, rows, _HEADER_LINES + 1, separator, width, comma=comma)
+    columns = ["frame", "seconds", *(f"{name}_{axis}" for name in names for axis in "xyz")]
+    text = DelimitedText(content, lines, columns, 3, _HEADER_LINES, separator)
+    table = text.numbers()
     head = _header(lines[1], lines[2], separator_of(lines[1]))
     declared = head.get("NumFrames", "")
     if declared.isdigit() and int(declared) != len(table):
@@ -51,7 +50,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     timing = _rate(content, options, head, table[:, 1])
     unit = options.unit or unit_named(head.get("Units", ""))
     points = Points(names, positions, timing.fps, unit, options.up, person=options.person)
-    notes = [*timing.notes, *([COMMAS] if comma else [])]
+    notes = [*timing.notes, *text.remarks]
     provenance = content.provenance("TRC", notes).timed(timing.clock)
     return split_at(to_motion(points, provenance), timing.gaps)
 

@@ -10,14 +10,21 @@ Bones may come in any order, and without values where the ASF gives them no
 degree of freedom. An AMC names neither its skeleton nor its frame rate: see
 `find_skeleton`; 120 Hz, the rate of the CMU database, is assumed.
 
+Where all frames are laid out as the first, the text is taken in pieces of whole frames, so
+that no more than its numbers is held.
+
 Source: Acclaim Advanced Technologies, ASF/AMC definition.
 """
 
 from __future__ import annotations
 
 import re
+import sys
+from collections.abc import Iterator
+from itertools import chain, islice, pairwise, repeat, starmap
 from math import radians
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,10 +34,8 @@ from kineme.errors import ReadError
 from kineme.formats.files import FileContent, load, numbers
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.formats.skeletons.amc_frames import read_frames
 from kineme.formats.skeletons.amc_writer import write_amc
-from kineme.formats.skeletons.asf import Figure, read_asf
-from kineme.formats.skeletons.asf_bones import ROOT
+from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks, metres
 from kineme.recordings import Motion
@@ -38,9 +43,13 @@ from kineme.recordings import Motion
 Floats = NDArray[np.float64]
 
 FPS = 120.0
+PIECE = 1 << 20
+"""Bytes of text that are split into words at a time."""
+
 _FPS_COMMENT = re.compile(rb"^# fps ([0-9.e+-]+)\s*$", re.MULTILINE)
 _KEYWORD = re.compile(rb"^[ \t]*:(FULLY-SPECIFIED|DEGREES|RADIANS)\b", re.MULTILINE | re.IGNORECASE)
-_FIRST_FRAME = re.compile(rb"^[ \t]*\d+[ \t]*\r?$", re.MULTILINE)
+_COMMENT = re.compile(rb"^[ \t]*#.*$", re.MULTILINE)
+_FRAME = re.compile(rb"^[ \t]*\d+[ \t]*\r?$", re.MULTILINE)
 
 
 def read_amc(content: FileContent, options: ReadOptions) -> Motion:
@@ -48,11 +57,11 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     asf = options.skeleton or find_skeleton(content.path)
     figure = read_asf(load(asf), None if options.unit is None else metres(options.unit))
     head = _head(content)
-    said = [word.lower() for word in _KEYWORD.findall(head)]
-    turn = 1.0 if b"radians" in said else radians(1) if b"degrees" in said else figure.turn
+    keywords = [word.lower() for word in _KEYWORD.findall(head)]
+    turn = 1.0 if b"radians" in keywords else radians(1) if b"degrees" in keywords else figure.turn
     values = read_frames(content, len(head), figure)
     notes = [f"skeleton from {asf}"]
-    fps = options.fps or _written_rate(head)
+    fps = options.fps or _comment_rate(head)
     if fps is None:
         fps = FPS
         notes.append(f"frame rate {FPS:g} Hz assumed: AMC files do not store one")
@@ -75,7 +84,7 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
 
 def _head(content: FileContent) -> bytes:
     """What stands before the first frame."""
-    start = _FIRST_FRAME.search(content.data)
+    start = _FRAME.search(content.data)
     if start is None:
         raise content.error("no frame found: an AMC has a line with a number before each")
     return content.data[: start.start()]
@@ -91,7 +100,7 @@ def find_skeleton(path: Path) -> Path:
     """
     parts = path.stem.split("_")
     stems = ["_".join(parts[:n]).lower() for n in range(len(parts), 0, -1)]
-    seen: list[Path] = []
+    candidates: list[Path] = []
     for folder in (path.parent, path.parent / "asf", path.parent.parent / "asf"):
         found = sorted(p for p in folder.glob("*") if p.suffix.lower() == ".asf")
         by_stem = {p.stem.lower(): p for p in found}
@@ -100,23 +109,23 @@ def find_skeleton(path: Path) -> Path:
                 return by_stem[stem]
         if len(found) == 1:
             return found[0]
-        seen += found
-    if not seen:
+        candidates += found
+    if not candidates:
         raise ReadError(
             path, "no ASF skeleton found beside it: name one with skeleton= (--skeleton)"
         )
     raise ReadError(
         path,
-        f"none of the {len(seen)} ASF files beside it has its name: "
+        f"none of the {len(candidates)} ASF files beside it has its name: "
         f"name one with skeleton= (--skeleton)",
     )
 
 
-def _written_rate(head: bytes) -> float | None:
+def _comment_rate(head: bytes) -> float | None:
     """The frame rate in the comment that `write_amc` leaves, if it is there."""
-    said = _FPS_COMMENT.search(head)
+    comment = _FPS_COMMENT.search(head)
     try:
-        return numbers([said.group(1)])[0] if said else None
+        return numbers([comment.group(1)])[0] if comment else None
     except ValueError:
         return None
 
@@ -162,6 +171,198 @@ def _recognises(head: bytes) -> bool:
 def refuse_asf(content: FileContent, options: ReadOptions) -> Motion:  # noqa: ARG001
     """Nothing: a skeleton alone does not move."""
     raise content.error("is a skeleton without a motion: give the AMC file that belongs to it")
+
+
+def read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
+    """Each bone's values, (frames, dofs), from the bytes after ``start``, its first frame."""
+    return _quickly(content, start, figure) or _line_by_line(content, start, figure)
+
+
+class _Layout(NamedTuple):
+    """How many values each bone of a frame has, in the order of the file."""
+
+    counts: dict[str, int]
+
+
+def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floats] | None:
+    """The values if every frame is laid out as the first, else None."""
+    blocks: list[Floats] = []
+    layout: _Layout | None = None
+    following = np.nan
+    for piece in _pieces(content.data, start):
+        text = _COMMENT.sub(b"", piece) if b"#" in piece else piece
+        layout = layout or _layout(text, figure)
+        rows = None if layout is None else _rows(text, layout)
+        if rows is None:
+            return None
+        labels = rows[:, 0]
+        first = following if blocks else labels[0]
+        following = first + len(labels)
+        if not np.array_equal(labels, np.arange(first, following)):
+            return None
+        blocks.append(rows)
+    return None if layout is None else _by_bone(blocks, layout, figure)
+
+
+def _pieces(data: bytes, start: int) -> Iterator[bytes]:
+    """The text from ``start`` on, in pieces of whole frames."""
+    while start < len(data):
+        after = _FRAME.search(data, start + PIECE)
+        stop = after.start() if after else len(data)
+        yield data[start:stop]
+        start = stop
+
+
+def _layout(text: bytes, figure: Figure) -> _Layout | None:
+    """That of the first frame; None where a bone is unknown, named twice, or missing."""
+    first, second = islice(chain(_FRAME.finditer(text), repeat(None)), 2)
+    if first is None:
+        return None
+    words = text[first.end() : None if second is None else second.start()].split()
+    counts: dict[str, int] = {}
+    at = 0
+    while at < len(words):
+        name = words[at].decode("utf-8", "replace")
+        if name not in figure.bones or name in counts:
+            return None
+        counts[name] = len(figure.bones[name].dof)
+        at += 1 + counts[name]
+    whole = all(name in counts or not bone.dof for name, bone in figure.bones.items())
+    return _Layout(counts) if whole else None
+
+
+def _rows(text: bytes, layout: _Layout) -> Floats | None:
+    """A row per frame: its number, and the values of its bones; None where it is laid out else.
+
+    By compiled code where there is some already: to load it takes longer than a recording.
+    """
+    if "numba" in sys.modules:
+        rows = _compiled_rows(text, layout)
+        if rows is not None:
+            return rows
+    words = text.split()
+    n_words = 1 + sum(1 + count for count in layout.counts.values())
+    if len(words) % n_words:
+        return None
+    rows = np.empty((len(words) // n_words, 1 + sum(layout.counts.values())))
+    try:
+        rows[:, 0] = list(map(int, words[::n_words]))
+        at, column = 1, 1
+        for name, count in layout.counts.items():
+            if words[at::n_words].count(name.encode()) != len(rows):
+                return None
+            for i in range(count):
+                rows[:, column + i] = list(map(float, words[at + 1 + i :: n_words]))
+            at, column = at + 1 + count, column + count
+    except (ValueError, OverflowError):
+        return None
+    return rows if np.isfinite(rows).all() else None
+
+
+def _compiled_rows(text: bytes, layout: _Layout) -> Floats | None:
+    """The same, unless there are numbers among them that only ``float`` reads."""
+    from kineme.formats.skeletons._amc_kernels import read_rows
+
+    counts = np.array([*layout.counts.values()], np.int64)
+    names = [name.encode() for name in layout.counts]
+    shortest = 2 * (1 + len(names) + int(counts.sum()))  # a word is a sign and a space at least
+    rows = np.empty((len(text) // shortest + 1, 1 + int(counts.sum())))
+    found = read_rows(
+        np.frombuffer(bytearray(b"\n" + text + b"\n"), np.uint8),
+        np.frombuffer(bytearray(b"".join(names)), np.uint8),
+        np.cumsum([len(name) for name in names], dtype=np.int64),
+        counts,
+        rows,
+    )
+    return rows[:found].copy() if found > 0 else None
+
+
+def _by_bone(blocks: list[Floats], layout: _Layout, figure: Figure) -> dict[str, Floats]:
+    """The values of each bone, none where it is not named."""
+    ends = np.cumsum([1, *layout.counts.values()])
+    columns = dict(zip(layout.counts, starmap(slice, pairwise(ends.tolist())), strict=True))
+    return {
+        name: np.concatenate([rows[:, columns.get(name, slice(0))] for rows in blocks])
+        for name in figure.bones
+    }
+
+
+def _line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
+    """As `_quickly`, for any layout, and with an error that names the line.
+
+    A fault in the very last line, or bones missing from the last frame, is
+    what a truncated file looks like: that frame is left out with a warning.
+    Anything else that cannot be understood is an error.
+    """
+    frames: list[dict[str, list[float]]] = []
+    first = content.line_at(start)
+    lines = content.data[start:].rstrip().splitlines()
+    last = first + len(lines) - 1
+    began, label = first, 0
+    fault: ReadError | None = None
+    for number, line in enumerate(lines, first):
+        words = line.split()
+        if not words or words[0].startswith(b"#"):
+            continue
+        if len(words) == 1 and words[0].isdigit():
+            if frames:
+                _check_complete(content, frames, began)
+            before, label = label, _frame_number(content, words[0], number)
+            if frames and label != before + 1:
+                content.warn(f"frame {label} follows {before}", number)
+            began = number
+            frames.append({})
+            continue
+        try:
+            _add_bone(frames[-1], words, figure)
+        except ValueError as error:
+            fault = content.error(str(error), number)
+            if number < last:
+                raise fault from None
+    try:
+        _check_complete(content, frames, began)
+    except ReadError as error:
+        fault = fault or error
+    if fault is not None:
+        if len(frames) == 1:
+            raise fault
+        frames.pop()
+        content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
+    absent = [n for n, bone in figure.bones.items() if bone.dof and n not in frames[0]]
+    if absent:
+        content.warn(f"no values for {', '.join(absent)}: taken to be 0")
+    return {
+        name: np.array([frame.get(name, [0.0] * len(bone.dof)) for frame in frames])
+        for name, bone in figure.bones.items()
+    }
+
+
+def _frame_number(content: FileContent, word: bytes, line: int) -> int:
+    if len(word) > 18:
+        raise content.error(f"{word[:18].decode()}... is the number of no frame", line)
+    return int(word)
+
+
+def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure) -> None:
+    name = words[0].decode("utf-8", "replace")
+    if name not in figure.bones:
+        raise ValueError(f"bone {name[:40]!r} is not in the skeleton: is it the wrong ASF?")
+    if name in frame:
+        raise ValueError(f"bone {name!r} stands twice in one frame")
+    values = numbers(words[1:])
+    dof = figure.bones[name].dof
+    if len(values) != len(dof):
+        raise ValueError(
+            f"bone {name!r} has {len(values)} values, the skeleton asks for {len(dof)}"
+        )
+    frame[name] = values
+
+
+def _check_complete(content: FileContent, frames: list[dict[str, list[float]]], line: int) -> None:
+    """ReadError if the newest frame is empty or lacks a bone that the first one has."""
+    missing = [name for name in frames[0] if name not in frames[-1]]
+    if missing or not frames[-1]:
+        raise content.error(f"a frame without {missing[0] if missing else 'any bone'}", line)
 
 
 SKELETON = Format("ASF", (".asf",), lambda _: False, refuse_asf)

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from kineme import _rotations as rot
 from kineme.errors import WriteError
 from kineme.formats.files import save, spelled, table
-from kineme.formats.skeletons.asf_bones import ROOT
+from kineme.formats.skeletons.asf import ROOT
 from kineme.formats.skeletons.bvh_writer import RIGID
 from kineme.formats.units import UNITS
 from kineme.recordings import Motion, Skeleton

@@ -21,17 +21,21 @@ University of Sheffield CS-01-11, 2001, section 3.
 from __future__ import annotations
 
 import re
+from array import array
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme import _rotations as rot
+from kineme._counts import counted
+from kineme.errors import ReadError
 from kineme.formats.files import FileContent, numbers
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format, Sketch
-from kineme.formats.skeletons.bvh_frames import read_frames, read_some
-from kineme.formats.skeletons.bvh_hierarchy import Joint, read_joints
 from kineme.formats.skeletons.bvh_writer import write_bvh
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, place
 from kineme.formats.units import blocks, rate_from_period
@@ -39,9 +43,14 @@ from kineme.recordings import Motion, Provenance, Skeleton
 
 Floats = NDArray[np.float64]
 
+PIECE = 1 << 20
+"""Bytes of text that are split into words at a time."""
+
 _HIERARCHY = re.compile(rb"^(\xef\xbb\xbf)?\s*HIERARCHY\s", re.IGNORECASE | re.MULTILINE)
 _MOTION = re.compile(rb"\bMOTION\s+Frames\s*:", re.IGNORECASE)
 _HEADER = re.compile(rb"[ \t]*(\d{1,18})\s+Frame\s*Time\s*:[ \t]*(\S*)[^\r\n]*", re.IGNORECASE)
+_CHANNEL = re.compile(r"([xyz])(position|rotation)", re.IGNORECASE)
+_GLUED = re.compile(rb"(?<=[0-9.])-")
 
 
 def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
@@ -168,6 +177,210 @@ def _rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | No
     if not 1e-6 < period < 1e6:
         raise content.error(f"Frame Time is {period:g} s: give fps= (--fps)", line)
     return rate_from_period(word.decode())
+
+
+@dataclass
+class Joint:
+    """A joint as its file has it; ``channels`` are ("x", "rotation") and so on."""
+
+    name: str
+    parent: int
+    line: int
+    end: bool
+    offset: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    channels: list[tuple[str, str]] = field(default_factory=list)
+
+
+def read_joints(content: FileContent, stop: int) -> list[Joint]:
+    """The joints, parents first, from the bytes before ``stop``."""
+    return _Hierarchy(content, stop).joints
+
+
+class _Hierarchy:
+    """The joints of the HIERARCHY section, parents first."""
+
+    def __init__(self, content: FileContent, stop: int):
+        self.content = content
+        text = content.data[:stop].decode("utf-8", "replace").removeprefix("\ufeff")
+        lines = enumerate(text.replace("{", " { ").replace("}", " } ").splitlines(), 1)
+        self.words = [(word, number) for number, line in lines for word in line.split()]
+        self.at = 0
+        self.joints: list[Joint] = []
+        open_joints: list[int] = []
+        if not self.words or self.words[0][0].upper() != "HIERARCHY":
+            raise content.error("a BVH file begins with the word HIERARCHY", 1)
+        self.at = 1
+        while self.at < len(self.words):
+            word, line = self._next()
+            key = word.upper()
+            if key in ("ROOT", "JOINT", "END"):
+                parent = open_joints[-1] if open_joints else -1
+                if (key == "ROOT") != (parent < 0):
+                    raise content.error(
+                        f"{word} {'outside' if parent < 0 else 'inside'} a joint", line
+                    )
+                open_joints.append(len(self.joints))
+                self.joints.append(Joint(self._name(line), parent, line, key == "END"))
+            elif not open_joints:
+                raise content.error(f"ROOT expected, found {word[:40]!r}", line)
+            elif key == "}":
+                open_joints.pop()
+            elif key == "OFFSET":
+                self.joints[open_joints[-1]].offset = self._offset(line)
+            elif key == "CHANNELS":
+                self.joints[open_joints[-1]].channels = self._channels(line)
+            else:
+                raise content.error(
+                    f"OFFSET, CHANNELS, JOINT or '}}' expected, found {word[:40]!r}", line
+                )
+        if not self.joints:
+            raise content.error("the hierarchy has no ROOT")
+        if open_joints:
+            name = self.joints[open_joints[-1]].name
+            raise content.error(
+                f"the '}}' of joint {name!r} is missing before MOTION", self.words[-1][1]
+            )
+        self._name_end_sites()
+
+    def _next(self) -> tuple[str, int]:
+        if self.at >= len(self.words):
+            raise self.content.error("the hierarchy breaks off", self.words[-1][1])
+        self.at += 1
+        return self.words[self.at - 1]
+
+    def _name(self, line: int) -> str:
+        """All words up to the brace, which has to come before the next line's end."""
+        words = []
+        while (word := self._next())[0] != "{":
+            if word[1] > line and word[0].upper() in ("OFFSET", "CHANNELS", "JOINT", "END"):
+                raise self.content.error("'{' expected after a joint's name", word[1])
+            words.append(word[0])
+        if not words:
+            raise self.content.error("a joint without a name", line)
+        return " ".join(words)
+
+    def _offset(self, line: int) -> list[float]:
+        words = [self._next()[0] for _ in range(3)]
+        try:
+            return numbers(words)
+        except ValueError as error:
+            raise self.content.error(f"OFFSET: {error}", line) from None
+
+    def _channels(self, line: int) -> list[tuple[str, str]]:
+        declared = self._next()[0]
+        if not declared.isdecimal() or len(declared) > 18:
+            raise self.content.error(f"CHANNELS needs a number, found {declared[:40]!r}", line)
+        channels = []
+        for _ in range(int(declared)):
+            word = self._next()[0]
+            match = _CHANNEL.fullmatch(word)
+            if match is None:
+                raise self.content.error(f"unknown channel {word[:40]!r} of {declared}", line)
+            channels.append((match.group(1).lower(), match.group(2).lower()))
+        places = [channel for channel in channels if channel[1] == "position"]
+        if len(set(places)) != len(places):
+            raise self.content.error("a position channel is named twice", line)
+        return channels
+
+    def _name_end_sites(self) -> None:
+        """End sites are called after their parent; all names are unique."""
+        names: set[str] = set()
+        for joint in self.joints:
+            joint.end = joint.end and not joint.channels
+            if not joint.end:
+                if joint.name in names:
+                    raise self.content.error(f"a second joint is called {joint.name!r}", joint.line)
+                names.add(joint.name)
+        tried: dict[str, int] = {}  # the last number behind each name
+        for joint in self.joints:
+            if joint.end:
+                stem = joint.name = f"{self.joints[joint.parent].name}_end"
+                while joint.name in names:
+                    tried[stem] = tried.get(stem, 1) + 1
+                    joint.name = f"{stem}{tried[stem]}"
+                names.add(joint.name)
+
+
+def read_frames(content: FileContent, start: int, width: int, declared: int) -> Floats:
+    """Channel values, (frames, width), from the bytes after ``start``.
+
+    The last line may break off, which is warned about. Lines laid out otherwise than one per
+    frame are taken as one stream of numbers, if exactly the declared frames come of it.
+    """
+    if width == 0:
+        raise content.error("no joint has a channel, so there is no motion")
+    values = array("d")
+    odd: list[tuple[int, int]] = []
+    fault: ReadError | None = None
+    glued = 0
+    last = number = content.line_at(start)
+    for number, line in enumerate(_lines(content.data, start), last):
+        last = number
+        if fault is not None:  # which is pardoned in the last line alone
+            raise fault
+        try:
+            row, apart = _row(line)
+        except ValueError as error:
+            fault = content.error(str(error), number)
+            continue
+        glued += apart
+        values.extend(row)
+        if row and len(row) != width:
+            odd.append((number, len(row)))
+    if odd and (fault or len(values) != width * declared):
+        number, found = odd[0]
+        fault = content.error(f"{found} values, but the hierarchy has {width} channels", number)
+        if number < last or found > width:
+            raise fault
+        del values[-found:]
+    if not values:
+        raise fault or content.error("the file ends before its first frame: there is no motion")
+    if fault is not None:
+        content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
+    if glued:
+        content.warn(
+            f"blanks before minus signs are missing in {counted(glued, 'frame')}: put there"
+        )
+    return np.frombuffer(values).reshape(-1, width)
+
+
+def read_some(data: bytes, start: int, width: int, every: int) -> Floats | None:
+    """The values of each ``every``-th frame only; None where lines are not one per frame."""
+    lines = (line for line in _lines(data, start) if line.strip())
+    try:
+        rows = [numbers(line.split()) for line in islice(lines, 0, None, every)]
+    except ValueError:
+        return None
+    return np.array(rows) if rows and all(len(row) == width for row in rows) else None
+
+
+def _lines(data: bytes, start: int) -> Iterator[bytes]:
+    """The lines from ``start`` on, without the blank ones at the end; a piece at a time."""
+    stop = _end(data, start)
+    while start < stop:
+        cut = min(data.find(b"\n", start + PIECE) + 1 or stop, stop)
+        yield from data[start:cut].splitlines()
+        start = cut
+
+
+def _end(data: bytes, start: int) -> int:
+    """Where blanks and empty lines follow only."""
+    for at in range(len(data), start, -PIECE):
+        first = max(start, at - PIECE)
+        if kept := data[first:at].rstrip():
+            return first + len(kept)
+    return start
+
+
+def _row(line: bytes) -> tuple[list[float], bool]:
+    """The numbers of a line, and whether some were not apart (``0.0-7.5``, as SlimeVR wrote)."""
+    try:
+        return numbers(line.split()), False
+    except ValueError:
+        apart = _GLUED.sub(b" -", line)
+        if apart == line:
+            raise
+        return numbers(apart.split()), True
 
 
 FORMAT = Format(

@@ -1,0 +1,103 @@
+"""Dialects of delimited text: tables of joints that one program writes in its own way.
+
+A table whose columns are ``JOINT_x JOINT_y JOINT_z`` needs none, see `kineme.formats.columns`.
+A dialect is told by the names of the columns or by the first lines, and has a reader of its
+own. It is one module that ends in one `Dialect`. Other packages name theirs as entry points
+of the group ``kineme.table_dialects``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from kineme._registry import Registry
+from kineme.formats.columns import joint_names
+from kineme.formats.delimited import DelimitedText
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import speaks
+from kineme.recordings import Motion
+from kineme.recordings.coordinates import is_body
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """How one program writes tables of joints.
+
+    Parameters
+    ----------
+    name : str
+        As people call it.
+    recognises : callable
+        From the names of the columns and the lines of the file to whether a table is of this
+        dialect; there are no lines where a table is no text.
+    read : callable
+        From the table and `ReadOptions` to the motion in it.
+    channels : bool
+        Whether its columns can be read as channels, where these are asked for.
+    """
+
+    name: str
+    recognises: Callable[[Sequence[str], Sequence[str]], bool]
+    read: Callable[[DelimitedText, ReadOptions], Motion]
+    channels: bool = True
+
+
+DIALECTS: Registry[Dialect] = Registry(
+    Dialect,
+    "dialect of tables",
+    "kineme.table_dialects",
+    home="kineme.formats",
+    builtins=(
+        "markers.capture_tables:NEXUS",
+        "markers.capture_tables:MOTIVE",
+        "keypoints.deeplabcut:DIALECT",
+        "keypoints.sleap:DIALECT",
+        "keypoints.mediapipe_tables:WIDE",
+        "keypoints.mediapipe_tables:LONG",
+    ),
+    newest_first=True,
+)
+"""In the order in which they are tried: those of others ahead of the package's own."""
+
+
+def dialect_of(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | None:
+    """The dialect that a table is in, if any.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Of its columns.
+    lines : sequence of str
+        Of its file, where it is text.
+
+    Returns
+    -------
+    Dialect or None
+    """
+    return next((each for each in DIALECTS.values() if speaks(each, names, lines)), None)
+
+
+def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
+    """Whether none of a table's columns is a coordinate of a joint or keypoint.
+
+    A table whose columns are coordinates of joints is a motion. Sensors have coordinates, too:
+    ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Of its columns.
+    lines : sequence of str
+        Of its file, where it is text.
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> hold_channels(["time", "acc_x", "acc_y"]), hold_channels(["time", "hip_x", "hip_y"])
+    (True, False)
+    """
+    return dialect_of(names, lines) is None and not any(map(is_body, joint_names(names)))

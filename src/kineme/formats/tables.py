@@ -1,0 +1,131 @@
+"""Tables of joint positions or of channels: CSV, TSV, MOT, STO and Parquet; and CSV out.
+
+Where a table begins and what parts its cells: `kineme.formats.delimited`; what the columns of
+joints may be called: `kineme.formats.columns`; tables of single programs:
+`kineme.formats.dialects`. MOT and STO, OpenSim's tables of joint angles, forces or other
+channels, tell no positions without the model that they belong to, so they are signals,
+whatever their columns are called.
+
+Written are ``time`` in seconds and ``JOINT_x JOINT_y JOINT_z`` in metres, y up, empty in gaps;
+the skeleton is not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from kineme.formats.channels.parquet import parquet_channels, parquet_columns, parquet_file
+from kineme.formats.channels.reading import text_channels, to_signals
+from kineme.formats.channels.writing import write_signals
+from kineme.formats.columns import columns_to_motion, is_used
+from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, named, sniff
+from kineme.formats.dialects import dialect_of, hold_channels
+from kineme.formats.files import FileContent, in_a_cell, save, spelled, unique
+from kineme.formats.gaps import unseen
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
+from kineme.formats.timing import NO_TIMES, RATE, is_date, is_timing
+from kineme.recordings import Motion, Signals
+
+
+def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
+    """The joints or keypoints in a text table, or its channels where there are none."""
+    table = sniff(content)
+    dialect = dialect_of(table.names, table.lines)
+    if options.channels:
+        if dialect and not dialect.channels:
+            raise content.error(f"is a {dialect.name} table of joints, which is a motion")
+    elif dialect:
+        return dialect.read(table, options)
+    elif not hold_channels(table.names):
+        return _read_joints(table, options)
+    channels = text_channels(table, options.columns or None)
+    return to_signals(content, TABLE.name, channels, options.fps)
+
+
+def read_mot(content: FileContent, options: ReadOptions) -> Signals:
+    """The channels in a MOT or STO file."""
+    channels = text_channels(sniff(content), options.columns or None)
+    return to_signals(content, OPENSIM.name, channels, options.fps)
+
+
+def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals:
+    """The joint positions in a Parquet table, or its channels where there are none."""
+    file = parquet_file(content)
+    stored = file.schema_arrow.names
+    if options.channels or hold_channels(named(stored)):
+        table = parquet_channels(content, file, options.columns or None)
+        return to_signals(content, PARQUET.name, table, options.fps)
+    used = parquet_columns(content, file, [name for name in stored if is_used(name)])
+    columns = dict.fromkeys(unique(stored), np.empty(0)) | {
+        name: np.asarray(column.to_numpy())
+        for name, column in zip(unique(used.column_names), used.columns, strict=True)
+    }
+    return columns_to_motion(content, PARQUET.name, columns, options)
+
+
+def write_csv(motion: Motion, path: Path) -> None:
+    """Leave the joints' positions in a CSV file, in metres with y up."""
+    joints = spelled(path, motion.skeleton.names, lambda n: in_a_cell(n.replace('"', "'")))
+    rate = [RATE] if motion.n_frames < 2 else []  # which the time of one row does not tell
+    names = [*rate, "time", *(f"{joint}_{axis}" for joint in joints for axis in "xyz")]
+    head = ",".join(f'"{name}"' if "," in name else name for name in map(as_text, names)) + "\n"
+    first = "".join(f"{motion.fps!r}," for _ in rate)
+    cells = 3 * len(joints)
+    row = f"{first}%.9f{',%.9f' * cells}\n"
+    empty = f"{first}%.9f{',' * cells}\n"
+    values = motion.positions.reshape(motion.n_frames, -1).tolist()
+    rows = zip(motion.times.tolist(), values, unseen(motion), strict=True)
+    save(path, [head, *(empty % t if gap else row % (t, *line) for t, line, gap in rows)])
+
+
+def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
+    """The motion of the joints whose coordinates the columns are."""
+    table.refuse_interleaved()
+    names, content = table.names, table.content
+    timeless = options.fps is not None
+    used = [i for i, n in enumerate(names) if is_used(n) and not (timeless and is_timing(n))]
+    for i in used:
+        if i < len(table.first_cells) and _lacks_time(names[i], table.first_cells[i]):
+            reason = f"column {names[i]!r} {NO_TIMES}: give fps= (--fps)"
+            raise content.error(reason, table.below + 1)
+    values = table.numbers(used)
+    columns = {names[i]: column for i, column in zip(used, values.T, strict=True)}
+    return columns_to_motion(content, TABLE.name, columns, options).noted(*table.remarks)
+
+
+def _lacks_time(name: str, cell: str) -> bool:
+    """Whether a column is called as times are, and its first cell is none."""
+    return is_timing(name) and not (is_number(cell) or is_date(cell) or cell.lower() in EMPTY)
+
+
+TABLE = Format(
+    "table",
+    (".csv", ".tsv"),
+    lambda _: False,
+    read_table,
+    write_csv,
+    write_signals,
+    channels=True,
+)
+TEXT = replace(TABLE, name="text table", suffixes=(".txt", ".dat"), write=None)
+OPENSIM = Format(
+    "MOT/STO",
+    (".mot", ".sto"),
+    lambda head: b"\nendheader" in head.lower(),
+    read_mot,
+    write_signals=write_signals,
+    channels=True,
+)
+PARQUET = Format(
+    "Parquet table",
+    (".parquet",),
+    lambda head: head.startswith(b"PAR1"),
+    read_parquet,
+    write_signals=write_signals,
+    channels=True,
+)
+FORMATS = (PARQUET, TABLE, TEXT, OPENSIM)

@@ -1,1 +1,0 @@
-"""Tables whose columns are coordinates of joints."""

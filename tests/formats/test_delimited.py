@@ -1,0 +1,151 @@
+"""One look at delimited text, whoever reads it: joints, channels, programs with a dialect."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_capture_tables import nexus
+
+import kineme
+from kineme.errors import KinemeWarning, ReadError
+from kineme.formats.columns import columns_to_motion
+from kineme.formats.delimited import sniff
+from kineme.formats.dialects import DIALECTS, Dialect
+from kineme.formats.files import FileContent
+from kineme.formats.listing import recordings_in
+
+ROWS = [(i / 50, i * 0.25, 1.5 - i * 0.125, i * 0.5) for i in range(12)]
+
+
+def text(*head: str, separator: str = ",", comma: bool = False) -> str:
+    rows = [separator.join(map(str, row)) for row in ROWS]
+    rows = [row.replace(".", ",") for row in rows] if comma else rows
+    return "\n".join([*head, *rows, ""])
+
+
+LAYOUTS = {
+    "commas": (",", False, []),
+    "tabs": ("\t", False, []),
+    "blanks": (" ", False, []),
+    "semicolons": (";", True, []),
+    "sep": (";", False, ["sep=;"]),
+    "logger": (",", False, ["Logger 3", "Date,2026-01-31"]),
+    "comment": (",", False, ["# made by hand, twice"]),
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize("joint", ["hüfte", "acc"])
+def test_joints_and_channels_may_stand_in_the_same_layouts(
+    tmp_path: Path, layout: str, encoding: str, joint: str
+) -> None:
+    separator, comma, above = LAYOUTS[layout]
+    names = separator.join(["time", *(f"{joint}_{axis}" for axis in "xyz")])
+    path = tmp_path / "a.csv"
+    path.write_text(text(*above, names, separator=separator, comma=comma), encoding=encoding)
+    found = kineme.read(path, **({} if joint == "acc" else {"unit": "m", "up": "y"}))
+    expected = np.array(ROWS)[:, 1:]
+    if isinstance(found, kineme.Signals):
+        assert (joint, found.names) == ("acc", ("acc_x", "acc_y", "acc_z"))
+        np.testing.assert_array_equal(found.values, expected)
+    else:
+        assert (joint, found.skeleton.names) == ("hüfte", ("hüfte",))
+        np.testing.assert_allclose(found.positions[:, 0], expected)
+    assert found.fps == 50
+
+
+def test_a_separator_between_quotes_is_part_of_a_name(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(text('time,"force, left",b,c'))
+    signals = kineme.read(path)
+    assert signals.names == ("force, left", "b", "c")
+    kineme.write(signals, tmp_path / "b.tsv")
+    assert kineme.read(tmp_path / "b.tsv").names == signals.names
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_keypoints_of_deeplabcut_may_stand_between_anything(tmp_path: Path, separator: str) -> None:
+    head = ["scorer,net,net,net", "bodyparts,tail,tail,tail", "coords,x,y,likelihood"]
+    rows = [f"{i},{i * 2.0},{100 - i},0.9" for i in range(12)]
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join([*head, *rows]).replace(",", separator))
+    motion = kineme.read(path, fps=30)
+    assert (motion.provenance.format, motion.skeleton.names) == ("DeepLabCut", ("tail",))
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_capture_tables_may_be_saved_again_by_a_spreadsheet(tmp_path: Path, encoding: str) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(nexus(), encoding=encoding)
+    motion = kineme.read(path)
+    assert motion.provenance.format == "Nexus table"
+    assert "head" in motion.skeleton.names
+
+
+def test_what_was_sniffed_is_there_to_look_at() -> None:
+    content = FileContent(Path("a.csv"), text("Logger", "t;a;b;c", separator=";").encode())
+    table = sniff(content)
+    assert table.names == ["t", "a", "b", "c"]
+    assert (table.head, table.below, table.separator) == (1, 2, ";")
+    assert table.numeric() == table.names
+    assert table.remarks == ("1 line above the names passed over",)
+    bare = sniff(FileContent(Path("a.csv"), text().encode()))
+    assert bare.headless
+    assert bare.numbered().names == ["1", "2", "3", "4"]
+    np.testing.assert_array_equal(bare.numbered().numbers(), ROWS)
+
+
+@pytest.fixture
+def axis_first() -> Iterator[Dialect]:
+    """A dialect of somebody's: ``X.hip`` in place of ``hip_x``."""
+
+    def read(table, options):
+        columns = dict(zip(table.names, table.numbers().T, strict=True))
+        named = {
+            f"{name[2:]}_{name[0].lower()}" if name[1] == "." else name: column
+            for name, column in columns.items()
+        }
+        return columns_to_motion(table.content, "axis first", named, options)
+
+    dialect = Dialect("axis first", lambda names, _: "X.hip" in names, read, channels=False)
+    DIALECTS.register(dialect)
+    yield dialect
+    DIALECTS.remove(dialect.name)
+
+
+def test_a_dialect_of_somebody_else_is_read(tmp_path: Path, axis_first: Dialect) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(text("time,X.hip,Y.hip,Z.hip"))
+    motion = kineme.read(path, unit="m", up="y")
+    assert (motion.provenance.format, motion.skeleton.names) == (axis_first.name, ("hip",))
+    np.testing.assert_allclose(motion.positions[:, 0], np.array(ROWS)[:, 1:])
+    with pytest.raises(ReadError, match="is a axis first table of joints, which is a motion"):
+        kineme.read(path, columns=[])
+
+
+def test_a_dialect_that_cannot_tell_its_files_costs_itself_only(tmp_path: Path) -> None:
+    def recognises(names, lines):
+        raise KeyError(names[0])
+
+    DIALECTS.register(Dialect("broken", recognises, lambda table, options: None))
+    path = tmp_path / "a.csv"
+    path.write_text(text("time,acc_x,acc_y,acc_z"))
+    try:
+        with pytest.warns(KinemeWarning, match="broken is passed over, it cannot tell its files"):
+            assert kineme.read(path).n_frames == len(ROWS)
+    finally:
+        DIALECTS.remove("broken")
+
+
+@pytest.mark.parametrize("head", ["start_s;stop_s;label", "Observer,Ann\nstart_s,stop_s,label,n"])
+def test_a_folder_passes_over_tables_of_spans_in_any_layout(tmp_path: Path, head: str) -> None:
+    names = head.splitlines()[-1]
+    separator = ";" if ";" in names else ","
+    row = separator.join(["0.5", "1.5", "walk", "3"][: names.count(separator) + 1])
+    (tmp_path / "labels.csv").write_text(f"{head}\n{row}\n{row}\n{row}\n")
+    (tmp_path / "take.csv").write_text(text("time,acc_x,acc_y,acc_z"))
+    assert [path.name for path in recordings_in(tmp_path).recordings] == ["take.csv"]
