@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kineme.methods.kineme.borders import to_the_frame
-from kineme.methods.kineme.preset import SENSORS
+from kineme.methods.kineme.preset import KINEME, SENSORS
 
 FPS = round(SENSORS.working_fps)
 SECOND = round(SENSORS.averaging * FPS)
@@ -27,8 +28,8 @@ def test_a_border_moves_towards_where_quiet_ends(seed, late) -> None:
     true = 6 * FPS
     channels = quiet_and_loud(seed, [true, 12 * FPS])
     borders = np.array([0, true + late, 12 * FPS])
-    moved = to_the_frame(channels, borders, SENSORS)
-    assert abs(moved[1] - (true + (1 - SENSORS.border_shift) * late)) <= 2
+    starts, _ = to_the_frame(channels, borders, SENSORS)
+    assert abs(starts[1] - (true + (1 - SENSORS.border_shift) * late)) <= 2
 
 
 @given(seed=st.integers(0, 99), lengths=st.lists(st.integers(1, 200), min_size=1, max_size=8))
@@ -37,15 +38,37 @@ def test_no_segment_comes_or_goes(seed, lengths) -> None:
     ends = np.cumsum(lengths).tolist()
     borders = np.array([0, *ends])
     channels = quiet_and_loud(seed, ends)
-    moved = to_the_frame(channels, borders, SENSORS)
-    assert (moved[[0, -1]] == borders[[0, -1]]).all()
-    assert (np.diff(moved) > 0).all()
-    assert (np.abs(moved - borders) <= SECOND).all()
-    assert (moved == to_the_frame(-8 * channels[:, ::-1] + 64, borders, SENSORS)).all()
+    for preset in (SENSORS, KINEME.replace(transition_cost=1e-9)):
+        starts, stops = to_the_frame(channels, borders, preset)
+        assert starts[0] == 0
+        assert stops[-1] == borders[-1]
+        assert (starts < stops).all()
+        assert (stops[:-1] <= starts[1:]).all()
+        assert (np.abs(starts - borders[:-1]) <= SECOND).all()
+        assert (np.abs(stops - borders[1:]) <= SECOND).all()
+        again = to_the_frame(-8 * channels[:, ::-1] + 64, borders, preset)
+        assert (starts == again[0]).all()
+        assert (stops == again[1]).all()
+
+
+@pytest.mark.parametrize("off", [-6, 0, 6])
+def test_what_neither_side_explains_is_a_transition(off: int) -> None:
+    """Half a second from one pose to another; a border where only one of them begins is none."""
+    fps = round(KINEME.working_fps)
+    noise = 0.05 * np.random.default_rng(0).standard_normal((12 * fps, 4))
+    at = np.arange(12 * fps)
+    going = np.clip((at - 5.75 * fps) / (0.5 * fps), 0, 1)[:, None]
+    borders = np.array([0, 6 * fps + off, 12 * fps])
+    starts, stops = to_the_frame(noise + going, borders, KINEME)
+    assert abs(stops[0] - 5.75 * fps) <= 4
+    assert abs(starts[1] - 6.25 * fps) <= 4
+    starts, stops = to_the_frame(noise + (at >= 6 * fps)[:, None], borders, KINEME)
+    assert starts[1] == stops[0]
 
 
 def test_too_short_a_side_tells_nothing() -> None:
     ends = [3 * FPS, 3 * FPS + SECOND, 7 * FPS]
     borders = np.array([0, *ends])
     borders[1] += 10
-    assert (to_the_frame(quiet_and_loud(0, ends), borders, SENSORS) == borders).all()
+    starts, stops = to_the_frame(quiet_and_loud(0, ends), borders, SENSORS)
+    assert [*starts, stops[-1]] == [0, *stops] == borders.tolist()

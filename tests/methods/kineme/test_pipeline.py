@@ -223,7 +223,8 @@ def test_what_never_comes_back_repeats_nothing(seconds: int) -> None:
     found = analyze(np.arange(30 * seconds)[:, None] * [0.01, 0.02], KINEME)
     assert_whole(found, 30 * seconds)
     assert (found.segments.counts <= 1).all()
-    assert len(set(found.segments.labels.tolist())) == len(found.segments.labels)
+    activities = found.segments.labels[found.segments.labels >= 0]
+    assert len(set(activities.tolist())) == len(activities)
 
 
 @st.composite

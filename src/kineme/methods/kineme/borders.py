@@ -1,11 +1,14 @@
-"""Borders to the frame: part of the way to where a segment becomes less likely than the next.
+"""Borders to the frame, and the transitions between two activities.
 
 Statistics are averaged over a second, so borders of the tree lie where half of that second is
 loud: late where somebody starts, early where somebody stops. Frames as they are tell more. Each
 channel on either side is a normal distribution with a mean and a variance of its own, learnt
-where nothing of the other side is averaged in, and the border is where the two together explain
-most (Gaussian likelihood). That is on the quiet side instead: what a quiet segment never does
-ends it at once. People mark what lies between, and so is the border set.
+where nothing of the other side is averaged in. The channels of the whole recording are a third one.
+
+A *transition* is what neither side explains: a stretch about the border, shorter than what is
+averaged over, that the whole recording tells better than either side. Where there is none, the
+border is where both sides together explain most. That is on the quiet side: what a quiet segment
+never does ends it at once. People put it a little farther, and so is the border set.
 
 Only the time that is averaged over is asked, and no segment comes or goes.
 """
@@ -23,6 +26,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Frames = NDArray[np.int64]
+Spans = tuple[Frames, Frames]
 
 LEARNT = 4.0
 """Seconds of a side at most that tell how it moves."""
@@ -32,8 +36,8 @@ SHARE = 3
 """A border is looked for in one part of so many of a segment at most."""
 
 
-def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> Frames:
-    """The borders, each moved towards where the two segments beside it explain most.
+def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> Spans:
+    """Where each segment begins, and where it ends; what lies between two is a transition.
 
     Parameters
     ----------
@@ -42,15 +46,19 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
     borders : (segments + 1,) array
         Frames, from 0 to the end.
     preset : KinemeConstants
+
+    Returns
+    -------
+    starts, stops : (segments,) array
     """
     averaged = max(1, preset.frames(preset.averaging))
     learnt = max(1, preset.frames(LEARNT))
     centred = channels - channels.mean(axis=0)
     deviations = np.sqrt((centred**2).mean(axis=0))
     scaled = centred / np.where(deviations > 0, deviations, 1.0)
-    moved = borders.copy()
+    starts, stops = borders[:-1].copy(), borders[1:].copy()
     for i in range(1, len(borders) - 1):
-        start, at, stop = borders[i - 1 : i + 2]
+        start, at, stop = borders[i - 1 : i + 2].tolist()
         # Half of what is averaged over is mixed with what lies beyond the border.
         own = slice(max(start + averaged // 2 * (i > 1), at - learnt), at - averaged // 2)
         last = stop - averaged // 2 * (i < len(borders) - 2)
@@ -59,10 +67,29 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
             continue
         first = at - min(averaged, (at - start) // SHARE)
         near = scaled[first : at + min(averaged, (stop - at) // SHARE)]
-        gains = _likelihoods(near, scaled[own]) - _likelihoods(near, scaled[after])
-        likeliest = first + int(np.argmax(np.concatenate([[0.0], np.cumsum(gains)])))
-        moved[i] = at + round(preset.border_shift * (likeliest - int(at)))
-    return moved
+        anything = -0.5 * (near**2).mean(axis=1)
+        before = np.append(0.0, np.cumsum(_likelihoods(near, scaled[own]) - anything))
+        gains = _likelihoods(near, scaled[after]) - anything
+        behind = np.append(np.cumsum(gains[::-1])[::-1], 0.0)
+        likeliest = int(np.argmax(before + behind))
+        left, right = _apart(before, behind, averaged - 1)
+        gained = before[left] + behind[right] - before[likeliest] - behind[likeliest]
+        if gained > preset.transition_cost * preset.working_fps:
+            stops[i - 1], starts[i] = first + left, first + right
+        else:
+            moved = at + round(preset.border_shift * (first + likeliest - at))
+            stops[i - 1] = starts[i] = moved
+    return starts, stops
+
+
+def _apart(before: Floats, behind: Floats, longest: int) -> tuple[int, int]:
+    """Where to end the first side and to begin the second, so that both explain most."""
+    rights = np.arange(len(before))
+    firsts = np.maximum(rights - longest, 0)
+    spans = zip(firsts.tolist(), rights.tolist(), strict=True)
+    lefts = np.array([first + int(np.argmax(before[first : right + 1])) for first, right in spans])
+    right = int(np.argmax(before[lefts] + behind))
+    return int(lefts[right]), right
 
 
 def _likelihoods(rows: Floats, side: Floats) -> Floats:

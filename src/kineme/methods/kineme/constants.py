@@ -141,6 +141,10 @@ class KinemeConstants(Preset):
         "how far a border is moved from where means over `averaging` put it to where frames do",
         limits=SHARE, fine=True, default=0.6,
     )  # fmt: skip
+    transition_cost: float = constant(
+        "what a transition must gain over a border: log-likelihood times seconds, of each channel",
+        unit="s", limits=SOME_FACTOR, fine=True, default=0.1,
+    )  # fmt: skip
     # Repetitions.
     counting_fps: float = constant(
         "frames per second at which repetitions and events are found, at most", unit="Hz",

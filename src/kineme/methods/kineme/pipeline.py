@@ -6,7 +6,7 @@ Nothing here knows what a skeleton or a sensor is: any array of frames x dims wi
 2. *segments*: a tree of each view, and of it the level of the shortest description. A segment is
    told by its samples staying alike, or by repeating itself. Of several views that is taken
    which all agree with most.
-3. *borders*: to the frame.
+3. *borders*: to the frame, and transitions, which neither side explains.
 4. *repetitions*: how often each segment repeats itself, and where the first and the last one end.
 5. *events*: what recurs elsewhere, now and then.
 6. *confidence*: statistics by which it is told how sure all that is. Nothing above reads them.
@@ -103,11 +103,13 @@ def _analyze(
     with stage("segments"):
         features, unit, level = _agreed(statistics.views, statistics.halves, slower, preset)
     with stage("borders"):
-        frames = _in_frames(level.borders, preset, len(rows))
-        frames = to_the_frame(rows, frames, preset)
+        starts, stops = to_the_frame(rows, _in_frames(level.borders, preset, len(rows)), preset)
+        frames = np.append(starts, len(rows))
     with stage("repetitions"):
-        edges = np.append(frames[:-1] // step, len(slower))
-        segments = with_repetitions(slower, edges, level.labels, level.preference, counting)
+        stops = np.append(stops[:-1] // step, len(slower))
+        segments = with_repetitions(
+            slower, starts // step, stops, level.labels, level.preference, counting
+        )
         if preset.same < 1:
             segments = with_clusters(slower, segments, counting)
     if preset.event_scale:

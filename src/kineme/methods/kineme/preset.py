@@ -47,6 +47,7 @@ OF_SENSORS: Mapping[str, Any] = {
     "centering": 0.4,
     "same": 1.0,
     "event_scale": 0.0,
+    "transition_cost": 1000.0,  # people who label sensors leave nothing between two activities
 }
 """What is another for signals: no one view fits all of them, and their lengths mean nothing."""
 

@@ -6,7 +6,6 @@ All in frames at which repetitions are counted.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,7 +30,7 @@ Rows = NDArray[np.float32]
 
 
 def with_repetitions(
-    rows: Rows, borders: Frames, labels: Frames, own: Floats, preset: KinemeConstants
+    rows: Rows, starts: Frames, stops: Frames, labels: Frames, own: Floats, preset: KinemeConstants
 ) -> Segments:
     """Segments and their repetitions, the first and the last of which end where they fit.
 
@@ -39,7 +38,8 @@ def with_repetitions(
     ----------
     rows : (frames, dims) array
         At the rate at which repetitions are counted.
-    borders : (segments + 1,) array
+    starts, stops : (segments,) array
+        What lies between two segments is a transition.
     labels : (segments,) array
         Cluster of each.
     own : (segments,) array
@@ -50,8 +50,9 @@ def with_repetitions(
     def count(span: tuple[int, int]) -> Repetitions:
         return repetitions(rows, *span, preset)
 
-    cuts = [each.cuts for each in map_threads(count, list(pairwise(borders.tolist())))]
-    ends = fitted_ends(rows, borders[:-1], borders[1:], labels, cuts, preset)
+    spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
+    cuts = [each.cuts for each in map_threads(count, spans)]
+    ends = fitted_ends(rows, starts, stops, labels, cuts, preset)
     borders, segment = _tiled(len(rows), ends.starts, ends.stops)
     primitives, repeated = _tiled(len(rows), ends.firsts, ends.lasts, [borders, *cuts])
     labels, own = np.append(labels, -1), np.append(own, np.nan)
@@ -70,13 +71,18 @@ def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Se
         With repetitions.
     preset : KinemeConstants
     """
-    labels = linked(segments.labels, mean_repetitions(rows, segments, preset), preset.same)
+    movements = mean_repetitions(rows, segments, preset)
+    labels = linked(segments.labels, movements, preset.same)
     if (labels == segments.labels).all():
         return segments
-    first = np.flatnonzero(np.diff(labels, prepend=-1))
-    borders = np.append(segments.borders[first], segments.borders[-1])
-    own = np.array([part.mean() for part in np.split(segments.own, first[1:])])
-    return with_repetitions(rows, borders, by_first_appearance(labels[first]), own, preset)
+    known = np.flatnonzero(labels >= 0)
+    first = np.flatnonzero(np.diff(labels[known], prepend=-1))
+    starts = segments.borders[:-1][known[first]]
+    stops = segments.borders[1:][known[np.append(first[1:], len(known)) - 1]]
+    own = np.array([part.mean() for part in np.split(segments.own[known], first[1:])])
+    return with_repetitions(
+        rows, starts, stops, by_first_appearance(labels[known[first]]), own, preset
+    )
 
 
 def explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
