@@ -12,9 +12,7 @@ import numpy as np
 
 from kineme.library.constants import VOCABULARY
 from kineme.library.executors.here import Here
-from kineme.library.vocabulary.comparing import Crowd, Word
-from kineme.library.vocabulary.crowds import clusters_in
-from kineme.library.vocabulary.joining import Joined
+from kineme.library.vocabulary.joining import Crowd, Joined, Word, clusters_in
 
 KINDS, RECORDINGS = 6, 30
 RARE = 3

@@ -32,10 +32,10 @@ from kineme.library.storage.layout import (
     read_json,
     write_json,
 )
-from kineme.library.storage.left import parted, read_left, write_left
 from kineme.library.storage.pieces import has_piece
 from kineme.library.storage.places import lies_in, place, reaching, remove_folder
 from kineme.library.storage.tables import read_table, write_tables
+from kineme.library.vocabulary.numbering import read_removed, removed_after, write_removed
 
 Head = Mapping[str, Any]
 """What ``library.json`` says; nothing where there is none yet."""
@@ -228,14 +228,16 @@ def _written(
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)
         known = activities_in(plan.folder, head.get("tables"))
-        left = read_left(plan.folder)
-        back = {name: left[key] for name, _, key in entries if key in left and name not in known}
+        removed = read_removed(plan.folder)
+        back = {
+            name: removed[key] for name, _, key in entries if key in removed and name not in known
+        }
         made, following = compiled(
             plan.folder, entries, {**back, **known}, following, executor, progress
         )
         pieces = dict(before.values())
         owned = {pieces[name]: spans for name, spans in known.items() if name in pieces}
-        write_left(plan.folder, parted(left, owned, (key for _, _, key in entries)))
+        write_removed(plan.folder, removed_after(removed, owned, (key for _, _, key in entries)))
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())
     now = {**wanted, "following": following, "tables": tables}

@@ -18,7 +18,7 @@ from kineme.library.progress import Progress
 from kineme.library.storage.layout import BODIES, EMBEDDED, PIECES, arrow, as_array, as_column
 from kineme.library.storage.pieces import Piece, read_piece
 from kineme.library.storage.tables import read_table, table_of
-from kineme.library.vocabulary.crowds import clusters_in
+from kineme.library.vocabulary.joining import clusters_in
 from kineme.library.vocabulary.numbering import Spans, lasting_numbers
 from kineme.library.vocabulary.words import Place, crowd_of, places_in
 from kineme.segments.table import COLUMNS

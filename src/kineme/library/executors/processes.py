@@ -16,7 +16,7 @@ from kineme.library.executors.here import Here
 SHARED = (
     "kineme.library.work",
     "kineme.library.making",
-    "kineme.library.vocabulary.crowds",
+    "kineme.library.vocabulary.joining",
     "kineme.formats.skeletons._amc_kernels",
     "kineme.methods.kineme.pipeline",
     "kineme.methods.kineme.found",

@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 
 from kineme.library.executors import Executor
 from kineme.library.storage.pieces import Piece, read_moments
-from kineme.library.vocabulary.comparing import results
-from kineme.library.vocabulary.joining import Joined
+from kineme.library.vocabulary.joining import Joined, results
 from kineme.library.vocabulary.words import Place
 from kineme.transfer.moments import Units
 
@@ -89,8 +88,8 @@ def clusters_of_moments(
         words[place.recording].append(place.spans)
     blocks = [numbers[first : first + AT_ONCE] for first in range(0, len(numbers), AT_ONCE)]
     tasks = [
-        _Search(folder, [keys[i] for i in own], [words[i] for i in own], units, centres)
-        for own in blocks
+        _Search(folder, [keys[i] for i in block], [words[i] for i in block], units, centres)
+        for block in blocks
     ]
     found = dict(results(executor, _distances, tasks, len(numbers) // PER_WORKER))
     distances = np.concatenate([found[task] for task in tasks])
