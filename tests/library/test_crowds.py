@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from crowds import KINDS, bytes_of, crowd, joined, once_deadly
-from kineme.library.executors.processes import processes
+from kineme.library.executors import processes
 from kineme.library.vocabulary import joining
 
 

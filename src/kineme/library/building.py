@@ -10,16 +10,12 @@ from typing import Any
 from kineme._checks import check_type, is_number
 from kineme._version import __version__
 from kineme.errors import ParameterError
-from kineme.library.constants import VOCABULARY
 from kineme.library.edits import read_edits
-from kineme.library.executors import Executor
-from kineme.library.executors.cluster import connected
-from kineme.library.executors.processes import processes
+from kineme.library.executors import Executor, Progress, connected, processes
 from kineme.library.gathering import gather
 from kineme.library.index.kept import write_index
 from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, opened, plan_of
-from kineme.library.progress import Progress
-from kineme.library.settings import Settings
+from kineme.library.settings import VOCABULARY, Settings
 from kineme.library.sources import listed, names_of
 from kineme.library.storage.layout import (
     HEAD,

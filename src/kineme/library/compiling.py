@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.library.constants import VOCABULARY
-from kineme.library.executors import Executor
+from kineme.library.executors import Executor, Progress
 from kineme.library.planning import Entry
-from kineme.library.progress import Progress
+from kineme.library.settings import VOCABULARY
 from kineme.library.storage.layout import BODIES, EMBEDDED, PIECES, arrow, as_array, as_column
 from kineme.library.storage.pieces import Piece, read_piece
 from kineme.library.storage.tables import read_table, table_of

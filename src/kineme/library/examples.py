@@ -13,10 +13,10 @@ from kineme.formats.files import warn
 from kineme.library.descriptions import Description, describe
 from kineme.library.opened import OpenTables
 from kineme.library.searching import Example, Hit, Named
+from kineme.library.sources import read_at
 from kineme.library.storage.layout import PIECES
 from kineme.library.storage.pieces import read_features
 from kineme.library.storage.places import place
-from kineme.library.storage.recordings import read_at
 from kineme.recordings import Motion, Signals
 
 AnyPath = str | PathLike[str]

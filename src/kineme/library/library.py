@@ -14,7 +14,7 @@ from kineme.errors import ParameterError
 from kineme.library.clusters import Cluster, Word, clusters_of, numbers_of, unsure_words
 from kineme.library.editing import merge_clusters, name_cluster, split_cluster
 from kineme.library.examples import as_examples
-from kineme.library.executors.cluster import connected
+from kineme.library.executors import connected
 from kineme.library.exporting import answer, table_called, write_hits, write_table
 from kineme.library.finding import hits_like, typical_examples
 from kineme.library.opened import OpenTables

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError, ReadError
 from kineme.library.edits import Edits, edited, read_edits
 from kineme.library.settings import Settings
+from kineme.library.sources import read_at
 from kineme.library.storage.layout import LOCK_EDITS, as_array, held, read_head
 from kineme.library.storage.places import place
-from kineme.library.storage.recordings import read_at
 from kineme.library.storage.tables import DESCRIBED, read_table
 from kineme.recordings import Motion, Signals
 

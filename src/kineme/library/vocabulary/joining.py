@@ -38,9 +38,8 @@ from threadpoolctl import threadpool_limits
 
 from kineme._threads import map_threads
 from kineme.errors import KinemeError
-from kineme.library.constants import VocabularyConstants
-from kineme.library.executors import Executor, Outcome, Task
-from kineme.library.progress import Progress, Watch
+from kineme.library.executors import Executor, Outcome, Progress, Task, Watch
+from kineme.library.settings import VocabularyConstants
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

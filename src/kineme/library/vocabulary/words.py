@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.library.constants import VOCABULARY, VocabularyConstants
+from kineme.library.settings import VOCABULARY, VocabularyConstants
 from kineme.library.storage.pieces import Piece, read_spans
 from kineme.library.vocabulary.joining import Crowd, Word
 from kineme.segments.table import SegmentTable
