@@ -15,8 +15,8 @@ from kineme.library import Settings
 from kineme.library.compiling import compiled
 from kineme.library.descriptions import make_piece
 from kineme.library.executors import InProcess
-from kineme.library.index.kept import write_index
 from kineme.library.settings import VOCABULARY
+from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import HEAD, PIECES, SCHEMA, write_json
 from kineme.library.storage.pieces import Piece, has_piece, write_piece
 from kineme.library.storage.tables import write_tables

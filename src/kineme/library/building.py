@@ -13,10 +13,10 @@ from kineme.errors import ParameterError
 from kineme.library.edits import read_edits
 from kineme.library.executors import Executor, Progress, connected, processes
 from kineme.library.gathering import gather
-from kineme.library.index.kept import write_index
 from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, opened, plan_of
 from kineme.library.settings import VOCABULARY, Settings
 from kineme.library.sources import listed, names_of
+from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import (
     HEAD,
     LOCK_EDITS,
@@ -35,7 +35,7 @@ from kineme.library.vocabulary.numbering import read_removed, removed_after, wri
 
 Head = Mapping[str, Any]
 """What ``library.json`` says; nothing where there is none yet."""
-Known = Mapping[Path, tuple[str, str]]
+Former = Mapping[Path, tuple[str, str]]
 """Name and piece of recordings that the library has."""
 
 NOT_THERE = "there is no such file or folder"
@@ -150,17 +150,17 @@ def build(
 def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Built:
     """The library brought up to date, for one that holds it."""
     progress("looking for recordings")
-    before = _before(plan.folder, head)
+    before = _former_recordings(plan.folder, head)
     found = listed(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
     gone = [source for source in plan.sources if not source.exists()]
-    unseen = {path: known for path, known in before.items() if path not in found}
-    kept = _kept(plan, unseen, gone)
+    unseen = {path: entry for path, entry in before.items() if path not in found}
+    absent = _without_source(plan, unseen, gone)
     gathered = gather(plan, list(found), executor, progress)
     failed = dict.fromkeys(gone, GONE) | gathered.failed
     keys = {path: plan.settings.key(digest) for path, digest in gathered.digests.items()}
-    keys |= {path: before[path][1] for path in kept}
+    keys |= {path: before[path][1] for path in absent}
     names = names_of(
-        {path: source for path, source in {**found, **kept}.items() if path in keys},
+        {path: source for path, source in {**found, **absent}.items() if path in keys},
         {path: name for path, (name, _) in before.items()},
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
@@ -177,7 +177,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     )
 
 
-def _before(folder: Path, head: Head) -> Known:
+def _former_recordings(folder: Path, head: Head) -> Former:
     """The recordings that the library has."""
     if not head:
         return {}
@@ -186,7 +186,7 @@ def _before(folder: Path, head: Head) -> Known:
     return {place(path): (name, key) for path, name, key in zip(*columns, strict=True)}
 
 
-def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
+def _without_source(plan: Plan, unseen: Former, gone: Sequence[Path]) -> dict[Path, Path]:
     """Recordings of sources that are gone, by source: as on a disk that is not there now."""
     return {
         path: source
@@ -199,7 +199,7 @@ def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
 def _written(
     plan: Plan,
     head: Head,
-    before: Known,
+    before: Former,
     entries: Sequence[Entry],
     failed: Mapping[Path, str],
     executor: Executor,
@@ -223,16 +223,16 @@ def _written(
 
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)
-        known = activities_in(plan.folder, head.get("tables"))
+        former = activities_in(plan.folder, head.get("tables"))
         removed = read_removed(plan.folder)
         back = {
-            name: removed[key] for name, _, key in entries if key in removed and name not in known
+            name: removed[key] for name, _, key in entries if key in removed and name not in former
         }
         made, following = compiled(
-            plan.folder, entries, {**back, **known}, following, executor, progress
+            plan.folder, entries, {**back, **former}, following, executor, progress
         )
         pieces = dict(before.values())
-        owned = {pieces[name]: spans for name, spans in known.items() if name in pieces}
+        owned = {pieces[name]: spans for name, spans in former.items() if name in pieces}
         write_removed(plan.folder, removed_after(removed, owned, (key for _, _, key in entries)))
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())

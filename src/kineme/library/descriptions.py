@@ -5,7 +5,8 @@ described by their posture and energy (`kineme.methods.kineme.statistics`), in h
 deviation of each in the recording, so that one threshold serves both, whatever the number of
 channels; they compare with recordings of the same channels only.
 
-Everything of the library that knows what features are is here.
+Everything of the library that knows what features are is here. What segments and what finds moments
+is imported by who makes a piece: who searches only does not wait for it.
 """
 
 from __future__ import annotations
@@ -29,8 +30,6 @@ from kineme.methods.kineme.preset import SENSORS
 from kineme.methods.kineme.statistics import channel_statistics
 from kineme.recordings import Motion, Signals
 from kineme.segmentation.channels import at_rate, standardized
-from kineme.segmentation.segmenter import segment
-from kineme.transfer.moments import moments_of
 
 Float32s = NDArray[np.float32]
 Floats = NDArray[np.float64]
@@ -183,6 +182,8 @@ def make_piece(
     moments : (moments, 1 + 2 · channels) array, or None
         Of signals: the second of each, means and deviations.
     """
+    from kineme.segmentation.segmenter import segment
+
     emg = settings.options().emg
     found = segment(
         recording,
@@ -212,6 +213,8 @@ def make_piece(
 
 
 def _moments(signals: Signals) -> NDArray[np.float32]:
+    from kineme.transfer.moments import moments_of
+
     found = moments_of(signals)
     columns = np.column_stack([found.frames / signals.fps, found.means, found.deviations])
     clipped: NDArray[np.float32] = np.clip(columns, -LARGEST_MOMENT, LARGEST_MOMENT).astype(

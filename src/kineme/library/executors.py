@@ -78,6 +78,8 @@ class InProcess:
 PRELOADED = (
     "kineme.library.gathering",
     "kineme.library.descriptions",
+    "kineme.segmentation.segmenter",
+    "kineme.transfer.moments",
     "kineme.library.vocabulary.joining",
     "kineme.formats.skeletons._amc_kernels",
     "kineme.methods.kineme.pipeline",

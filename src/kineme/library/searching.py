@@ -115,8 +115,8 @@ def spans_like(
         shared = np.minimum(found.stops[:, None], others.stops[None]) - first
         covers = shared >= REFUSED * (found.stops - found.starts)[:, None]
         nearer = others.distances[None] < found.distances[:, None]
-        kept = np.flatnonzero(~(covers & nearer).any(axis=1))
-        found = _picked(found, kept)
+        rows = np.flatnonzero(~(covers & nearer).any(axis=1))
+        found = _picked(found, rows)
     return _picked(found, slice(top))
 
 

@@ -89,8 +89,8 @@ def reaching(path: Path) -> Iterator[None]:
     except Exception as error:
         if not is_remote(path):
             raise
-        said = " ".join(str(error).split())[:200] or type(error).__name__
-        raise ReadError(path, f"cannot be reached: {said}") from error
+        reason = " ".join(str(error).split())[:200] or type(error).__name__
+        raise ReadError(path, f"cannot be reached: {reason}") from error
 
 
 @contextmanager
@@ -115,8 +115,8 @@ def written(path: Path) -> Iterator[Path]:
         try:
             there.fs.put_file(str(draft), there.path)
         except Exception as error:
-            said = " ".join(str(error).split())[:200]
-            raise WriteError(path, f"cannot be written: {said}") from error
+            reason = " ".join(str(error).split())[:200]
+            raise WriteError(path, f"cannot be written: {reason}") from error
 
 
 def near(path: Path) -> Path:
