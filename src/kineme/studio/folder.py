@@ -12,7 +12,7 @@ from pathlib import Path
 
 from kineme.formats.listing import files_in, holds_recording
 from kineme.labels import holds_labels
-from kineme.studio.kept.storage import usual_tables
+from kineme.studio.storage.tables import usual_tables
 
 
 def file_id(path: Path) -> str:

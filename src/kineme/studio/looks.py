@@ -10,8 +10,8 @@ from kineme.segments import editing
 from kineme.segments.editing.carrying import names_of
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.kept.records import Step
 from kineme.studio.loading import LoadedRecording
+from kineme.studio.storage.journal import Step
 from kineme.web.messages import Preview, Version
 from kineme.web.requests import PreviewRequest
 

@@ -21,14 +21,18 @@ from kineme.errors import KinemeError, ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
 from kineme.studio.first_segments import FirstSegments
-from kineme.studio.kept.journal import Change, Journal
-from kineme.studio.kept.reading_of_one import notes_on_reading, said_of
-from kineme.studio.kept.storage import ChangedOnDiskError, saved_table
-from kineme.studio.kept.videos import notes_on_video, video_message
-from kineme.studio.kept.vocabulary import notes_on_labels
 from kineme.studio.loading import LoadedRecording, digest_in
 from kineme.studio.looks import preview_of, versions_of
 from kineme.studio.reading import RecordingCache
+from kineme.studio.storage.journal import Change, Journal
+from kineme.studio.storage.sidecars import (
+    notes_on_labels,
+    notes_on_reading,
+    notes_on_video,
+    options_of,
+    video_message,
+)
+from kineme.studio.storage.tables import ChangedOnDiskError, saved_table
 from kineme.web.edits import Edit, Redo, Undo
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
 from kineme.web.requests import PreviewRequest
@@ -144,7 +148,7 @@ class OpenRecording:
                 ids=self._journal.ids.of(self._table),
                 saved=self._saved,
                 video=video_message(self.path),
-                reading=said_of(self.path),
+                reading=options_of(self.path),
                 finding=self.finding,
                 warnings=[*shown.warnings, *self._notes, *self._side_notes()],
             )
@@ -202,7 +206,7 @@ class OpenRecording:
     def versions(self) -> list[Version]:
         """The tables that were replaced, the latest first."""
         with self._lock:
-            kept = self._journal.kept()
+            kept = self._journal.versions()
             tables = {number: self._journal.table(number) for number in kept}
         return versions_of(kept, tables)
 
@@ -211,7 +215,7 @@ class OpenRecording:
         from kineme.web.page_data import segments_message
 
         with self._lock:
-            at = self._journal.kept()[number].at if number in self._journal.kept() else ""
+            at = self._journal.versions()[number].at if number in self._journal.versions() else ""
             table = self._version(number)
         return Comparison(name=at, segmentation=segments_message(table), scores={})
 
@@ -226,7 +230,7 @@ class OpenRecording:
         return change, outcome.notes
 
     def _version(self, number: int) -> Segmentation:
-        if number not in self._journal.kept():
+        if number not in self._journal.versions():
             raise ParameterError(f"there is no version {number} of this table")
         return self._journal.table(number)
 

@@ -14,10 +14,10 @@ from msgspec import UNSET
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.choices import same_again
 from kineme.studio.folder import Folder
-from kineme.studio.kept.reading_of_one import keep_options, said_of
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.reading import ReadingOptions, RecordingCache
 from kineme.studio.sketches import OF_SKETCH, Sketched, sketched
+from kineme.studio.storage.sidecars import keep_options, options_of
 from kineme.web.messages import Edited, Recording
 from kineme.web.requests import EditRequest
 
@@ -198,7 +198,7 @@ class OpenRecordings:
             It cannot be read so, and is read as before.
         """
         path = _found(self.folder.recordings(), name, "recording")
-        before = said_of(path)
+        before = options_of(path)
         keep_options(path, said)
         try:
             self._cache.read(path)

@@ -9,8 +9,8 @@ from pathlib import Path
 from kineme.errors import KinemeError
 from kineme.labels import read_segments
 from kineme.segments.editing.marks import marked
-from kineme.studio.kept.storage import usual_table
 from kineme.studio.reading import stamp_of
+from kineme.studio.storage.tables import usual_table
 
 MOST_KNOWN = 10_000
 """Tables whose counts stay in memory."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats import ReadOptions, read_analog, read_quietly
-from kineme.studio.kept.reading_of_one import read_options
+from kineme.studio.storage.sidecars import read_options
 
 if TYPE_CHECKING:
     from kineme.features import Names

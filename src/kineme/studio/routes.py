@@ -30,10 +30,10 @@ from kineme.studio.http.uploads import (
     Upload,
     recording_suffixes,
 )
-from kineme.studio.kept.vocabulary import shared_labels
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.pictures import Pictures
 from kineme.studio.progress import progress
+from kineme.studio.storage.sidecars import shared_labels
 from kineme.studio.whole import Whole
 from kineme.web.encoding import from_json
 from kineme.web.folder_messages import FileChoice, Listing, State

@@ -9,9 +9,8 @@ from msgspec import Struct
 
 from kineme.errors import KinemeError
 from kineme.formats import sketch
-from kineme.studio.kept.reading_of_one import read_options, said_of
-from kineme.studio.kept.videos import video_message
 from kineme.studio.loading import one_segment
+from kineme.studio.storage.sidecars import options_of, read_options, video_message
 from kineme.web.messages import MatrixHead, Recording
 
 if TYPE_CHECKING:
@@ -71,7 +70,7 @@ def sketched(name: str, path: Path, options: ReadingOptions) -> Sketched | None:
         segmentation=segments_message(table),
         levels=[],
         video=video_message(path),
-        reading=said_of(path),
+        reading=options_of(path),
         revision=OF_SKETCH,
         can_undo=False,
         can_redo=False,

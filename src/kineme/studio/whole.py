@@ -20,10 +20,9 @@ from kineme.segments.table import Level
 from kineme.studio.http.answers import MessageResponse, file_response
 from kineme.studio.http.bodies import body
 from kineme.studio.http.uploads import safe_name
-from kineme.studio.kept.videos import set_offset, video_of
-from kineme.studio.kept.vocabulary import share_labels
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.progress import progress
+from kineme.studio.storage.sidecars import set_offset, share_labels, video_of
 from kineme.web.encoding import from_json
 from kineme.web.folder_messages import FileChoice
 from kineme.web.requests import (

@@ -15,9 +15,9 @@ from kineme.labels import read_segments
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 from kineme.studio.folder import file_id
-from kineme.studio.kept.storage import usual_table
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.reading import stamp_of
+from kineme.studio.storage.tables import usual_table
 from kineme.web.edits import NameSegment
 from kineme.web.library_messages import NamedHits, Span
 from kineme.web.requests import EditRequest

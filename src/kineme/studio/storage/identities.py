@@ -83,7 +83,7 @@ class Identities:
         Identities
         """
         edit = edit[:LONGEST_ORIGIN]
-        mine = dict(zip(map(_key, before), self.of(before), strict=True))
+        identities = dict(zip(map(_key, before), self.of(before), strict=True))
         if replaced:
             spans = {span_of(row) for row in before}
             same = {_key(row): _key(row) for row in now if span_of(row) in spans}
@@ -95,8 +95,8 @@ class Identities:
         origin = edit if replaced else self.origin
         others = {}
         for row in now:
-            known = same.get(_key(row))
-            identity = _identity(edit, row) if known is None else mine[known]
+            former = same.get(_key(row))
+            identity = _identity(edit, row) if former is None else identities[former]
             if identity != _identity(origin, row):
                 others[_place(row)] = identity
         return Identities(origin, others)
