@@ -18,7 +18,7 @@ from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
-from kineme.studio.http.uploads import safe_name
+from kineme.studio.http.bodies import safe_name
 from kineme.studio.open_recording import OpenRecording
 from kineme.web.page_data import Shown
 
