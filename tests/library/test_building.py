@@ -352,9 +352,9 @@ def test_a_full_disk_ends_the_build_and_leaves_what_was_there(
 
 
 def test_one_build_at_a_time(folder: Path) -> None:
-    from kineme.library.storage.layout import held
+    from kineme.library.storage.layout import writer_lock
 
-    with held(folder, "build"), pytest.raises(WriteError, match="another process"):
+    with writer_lock(folder, "build"), pytest.raises(WriteError, match="another process"):
         build((), folder)
 
 

@@ -24,9 +24,9 @@ from kineme.library.storage.layout import (
     SCHEMA,
     TABLES,
     arrow,
-    held,
     read_json,
     write_json,
+    writer_lock,
 )
 from kineme.library.storage.pieces import has_piece
 from kineme.library.storage.places import lies_in, place, reaching, remove_folder
@@ -141,7 +141,7 @@ def build(
     with processes(int(jobs)) if client is None else connected(client) as executor:
         named, gone = as_paths(sources), as_paths(remove)
         folder = opened(into, [*named, *gone])
-        with held(folder, "build"), reaching(folder):
+        with writer_lock(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
             plan = plan_of(folder, head, named, gone, recursive, settings)
             return _built(plan, head, executor, progress or (lambda _: None))
@@ -152,11 +152,11 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     progress("looking for recordings")
     before = _former_recordings(plan.folder, head)
     found = listed(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
-    gone = [source for source in plan.sources if not source.exists()]
-    unseen = {path: entry for path, entry in before.items() if path not in found}
-    absent = _without_source(plan, unseen, gone)
+    missing_sources = [source for source in plan.sources if not source.exists()]
+    not_found = {path: entry for path, entry in before.items() if path not in found}
+    absent = _without_source(plan, not_found, missing_sources)
     gathered = gather(plan, list(found), executor, progress)
-    failed = dict.fromkeys(gone, GONE) | gathered.failed
+    failed = dict.fromkeys(missing_sources, GONE) | gathered.failed
     keys = {path: plan.settings.key(digest) for path, digest in gathered.digests.items()}
     keys |= {path: before[path][1] for path in absent}
     names = names_of(
@@ -164,7 +164,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
         {path: name for path, (name, _) in before.items()},
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
-    with held(plan.folder, "build", LOCK_EDITS):
+    with writer_lock(plan.folder, "build", LOCK_EDITS):
         tables = _written(plan, head, before, entries, failed, executor, progress)
     _clean(plan.folder, {key for _, _, key in entries}, tables)
     return Built(
@@ -186,12 +186,14 @@ def _former_recordings(folder: Path, head: Head) -> Former:
     return {place(path): (name, key) for path, name, key in zip(*columns, strict=True)}
 
 
-def _without_source(plan: Plan, unseen: Former, gone: Sequence[Path]) -> dict[Path, Path]:
-    """Recordings of sources that are gone, by source: as on a disk that is not there now."""
+def _without_source(
+    plan: Plan, not_found: Former, missing_sources: Sequence[Path]
+) -> dict[Path, Path]:
+    """Recordings of sources that are not there, by source: as on a disk that was taken out."""
     return {
         path: source
-        for path, (_, key) in unseen.items()
-        for source in gone
+        for path, (_, key) in not_found.items()
+        for source in missing_sources
         if lies_in(path, source) and has_piece(plan.pieces, key)
     }
 
@@ -206,7 +208,7 @@ def _written(
     progress: Progress,
 ) -> str:
     """The name of the tables of these recordings, which the head of the library tells now."""
-    wanted = {
+    content = {
         "schema": SCHEMA,
         "kineme": __version__,
         "settings": plan.settings.to_json(),
@@ -216,7 +218,7 @@ def _written(
         "failed": {str(path): reason for path, reason in sorted(failed.items())},
     }
     same = {path: (name, key) for name, path, key in entries} == before
-    if same and all(head.get(name) == wanted[name] for name in ("kineme", "vocabulary")):
+    if same and all(head.get(name) == content[name] for name in ("kineme", "vocabulary")):
         following, tables = head["following"], head["tables"]
     else:
         from kineme.library.compiling import activities_in, compiled
@@ -225,18 +227,18 @@ def _written(
         following = max(head.get("following", 0), read_edits(plan.folder).following)
         former = activities_in(plan.folder, head.get("tables"))
         removed = read_removed(plan.folder)
-        back = {
+        returned = {
             name: removed[key] for name, _, key in entries if key in removed and name not in former
         }
         made, following = compiled(
-            plan.folder, entries, {**back, **former}, following, executor, progress
+            plan.folder, entries, {**returned, **former}, following, executor, progress
         )
         pieces = dict(before.values())
-        owned = {pieces[name]: spans for name, spans in former.items() if name in pieces}
-        write_removed(plan.folder, removed_after(removed, owned, (key for _, _, key in entries)))
+        by_piece = {pieces[name]: spans for name, spans in former.items() if name in pieces}
+        write_removed(plan.folder, removed_after(removed, by_piece, (key for _, _, key in entries)))
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())
-    now = {**wanted, "following": following, "tables": tables}
+    now = {**content, "following": following, "tables": tables}
     if now != head:
         write_json(plan.folder / HEAD, now)
     return str(tables)

@@ -154,15 +154,15 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
     if not signals.gaps:
         return found
     n = int((signals.n_frames - 1) / signals.fps * preset.rate + 1e-9) + 1
-    laid = np.full((n, found.shape[1]), NOWHERE, np.float32)
+    features = np.full((n, found.shape[1]), NOWHERE, np.float32)
     first = 0.0  # seconds recorded before the span
     for start, stop in spans:
         at = np.arange(np.ceil(start / signals.fps * preset.rate), n)
         at = at[at / preset.rate < stop / signals.fps].astype(np.int64)
         sample = np.rint((at / preset.rate - start / signals.fps + first) * preset.rate)
-        laid[at] = found[np.minimum(sample.astype(np.int64), len(found) - 1)]
+        features[at] = found[np.minimum(sample.astype(np.int64), len(found) - 1)]
         first += (stop - start) / signals.fps
-    return laid
+    return features
 
 
 def make_piece(

@@ -158,21 +158,21 @@ def search_parts(task: Task) -> dict[int, Matches]:
     parts, sought = task.parts, task.sought
     lasts = parts.stops - parts.starts
     firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
-    laid = np.full((firsts[-1], sought.examples[0].shape[1]), APART, np.float32)
+    features = np.full((firsts[-1], sought.examples[0].shape[1]), APART, np.float32)
     for row, key in sorted(task.pieces.items()):
         at = np.flatnonzero(parts.rows == row)
         spans = zip(firsts[at].tolist(), (firsts[at] + lasts[at]).tolist(), strict=True)
-        read_parts(task.folder, key, parts.starts[at].tolist(), [laid[a:b] for a, b in spans])
+        read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
     matches = spans_like(
-        laid,
+        features,
         sought.examples,
         sought.counterexamples,
         threshold=sought.threshold,
         top=sought.top,
     )
     which = np.searchsorted(firsts, matches.starts, side="right") - 1
-    back = parts.starts[which] - firsts[which]
-    moved = Matches(matches.starts + back, matches.stops + back, matches.distances)
+    offsets = parts.starts[which] - firsts[which]
+    moved = Matches(matches.starts + offsets, matches.stops + offsets, matches.distances)
     rows = parts.rows[which]
     return {row: Matches(*(column[rows == row] for column in moved)) for row in set(rows.tolist())}
 

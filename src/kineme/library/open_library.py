@@ -16,7 +16,14 @@ from kineme.errors import ParameterError, ReadError
 from kineme.library.edits import Edits, edited, read_edits
 from kineme.library.settings import Settings
 from kineme.library.sources import read_at
-from kineme.library.storage.layout import LOCK_EDITS, arrow, as_array, as_column, held, read_head
+from kineme.library.storage.layout import (
+    LOCK_EDITS,
+    arrow,
+    as_array,
+    as_column,
+    read_head,
+    writer_lock,
+)
 from kineme.library.storage.places import place
 from kineme.library.storage.tables import DESCRIBED, read_table
 from kineme.recordings import Motion, Signals
@@ -102,7 +109,7 @@ class OpenTables:
     @contextmanager
     def editing(self) -> Iterator[None]:
         """A block in which `edits` are all that were made, and nobody else makes any."""
-        with held(self.folder, "try again", LOCK_EDITS):
+        with writer_lock(self.folder, "try again", LOCK_EDITS):
             self._take(read_edits(self.folder))
             yield
 

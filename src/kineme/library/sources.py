@@ -120,30 +120,30 @@ def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[P
     return found
 
 
-def names_of(found: Mapping[Path, Path], known: Mapping[Path, str]) -> dict[Path, str]:
+def names_of(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Path, str]:
     """A name for each recording: its path in its source, with more folders where two are equal.
 
     Parameters
     ----------
     found : mapping of Path to Path
         Recordings and their sources.
-    known : mapping of Path to str
+    former : mapping of Path to str
         Names that are given already; they stay.
 
     Returns
     -------
     dict of Path to str
     """
-    names = {path: known[path] for path in found if path in known}
-    taken = set(names.values())
+    names = {path: former[path] for path in found if path in former}
+    used = set(names.values())
     for path, source in found.items():
         if path in names:
             continue
         depth = 1 if path == source else len(path.parts) - len(source.parts)
-        while (name := "/".join(path.parts[-depth:])) in taken and depth < len(path.parts):
+        while (name := "/".join(path.parts[-depth:])) in used and depth < len(path.parts):
             depth += 1
         names[path] = name
-        taken.add(name)
+        used.add(name)
     return {path: names[path] for path in found}
 
 

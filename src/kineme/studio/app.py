@@ -96,7 +96,7 @@ def create_app(
         exception_handlers={
             **handlers,
             ConflictError: _conflict,
-            ClientDisconnect: _gone,
+            ClientDisconnect: _disconnected,
             HTTPException: _http_error,
             Exception: _failed,
         },
@@ -127,7 +127,7 @@ def _conflict(_: Request, error: Exception) -> Response:
     return MessageResponse(Conflict(**fields, error=str(error)), 409)
 
 
-def _gone(_: Request, __: Exception) -> Response:
+def _disconnected(_: Request, __: Exception) -> Response:
     return Response(status_code=400)  # nobody is there to read it
 
 

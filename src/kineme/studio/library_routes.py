@@ -54,14 +54,14 @@ class LibraryApi:
         return MessageResponse(await run_in_threadpool(self._shown.call, sent, self._recordings))
 
     async def figure(self, request: Request) -> Response:
-        asked = request.query_params
+        query = request.query_params
         try:
-            start_s, stop_s = float(asked["start"]), float(asked["stop"])
+            start_s, stop_s = float(query["start"]), float(query["stop"])
         except (KeyError, ValueError):
             raise ParameterError("a figure is of a span: start and stop in seconds") from None
 
         def work() -> LibraryFigure:
-            name = asked.get("recording", "")
+            name = query.get("recording", "")
             return self._figures.figure(self._shown.library(), name, start_s, stop_s)
 
         return MessageResponse(await run_in_threadpool(work))
@@ -111,14 +111,14 @@ class Figures:
         if not 0 <= start_s < stop_s:
             raise ParameterError("a figure is of a span from one second to a later one")
         stop_s = min(stop_s, start_s + LONGEST)
-        seen = self._read(library, name).seconds(start_s, stop_s)
-        if isinstance(seen, Signals):
-            return LibraryFigure(motion=None, numbers="", curves=_curves(seen))
+        span = self._read(library, name).seconds(start_s, stop_s)
+        if isinstance(span, Signals):
+            return LibraryFigure(motion=None, numbers="", curves=_curves(span))
         names = library.settings.effectors
         try:
-            head, numbers = display_motion(seen, effectors=names)
+            head, numbers = display_motion(span, effectors=names)
         except KinemeError:  # names of effectors that this skeleton does not have
-            head, numbers = display_motion(seen)
+            head, numbers = display_motion(span)
         return LibraryFigure(motion=head, numbers=b64encode(numbers).decode(), curves=[])
 
     def _read(self, library: Library, name: str) -> Motion | Signals:

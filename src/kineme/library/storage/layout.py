@@ -112,7 +112,7 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
 
 
 @contextmanager
-def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
+def writer_lock(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
     """The library, for one writer alone.
 
     Parameters
@@ -133,13 +133,15 @@ def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
         return
     try:
         refuse_link(folder / name)
-        lock = os.open(folder / name, os.O_CREAT | os.O_RDWR | getattr(os, "O_CLOEXEC", 0), 0o666)
+        descriptor = os.open(
+            folder / name, os.O_CREAT | os.O_RDWR | getattr(os, "O_CLOEXEC", 0), 0o666
+        )
     except OSError as error:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error
     try:
         if sys.platform != "win32":
             try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 raise WriteError(
                     folder, f"another process is changing this library: {what} when it is done"
@@ -148,7 +150,7 @@ def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
                 pass
         yield
     finally:
-        os.close(lock)
+        os.close(descriptor)
 
 
 def arrow() -> tuple[Any, Any]:

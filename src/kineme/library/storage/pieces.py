@@ -183,7 +183,7 @@ def read_moments(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
     return rows
 
 
-def _laid(file: IO[bytes]) -> tuple[int, int]:
+def _header(file: IO[bytes]) -> tuple[int, int]:
     """Where the rows of an npy file begin, and how many float32 numbers each has."""
     length = int.from_bytes(file.read(10)[8:], "little")
     header = re.search(rb"'descr': '<f4'.*'shape': \(\d+, (\d+)\)", file.read(length))
@@ -228,7 +228,7 @@ def _features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
     """A block that reads features of a piece: their file, where they begin in it, and dims."""
     path = folder / f"{key}{FEATURES}"
     with _opening(path), near(path).open("rb", buffering=0) as file:
-        yield file, *_laid(file)
+        yield file, *_header(file)
 
 
 @contextmanager

@@ -29,13 +29,13 @@ EXTRA = "remote"
 _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
 
 
-def place(given: str | PathLike[str], door: str = "place") -> Path:
+def place(given: str | PathLike[str], caller: str = "place") -> Path:
     """A path, or what behaves like one where a URL is given.
 
     Parameters
     ----------
     given : path-like
-    door : str
+    caller : str
         The public function that was given it.
 
     Raises
@@ -52,7 +52,7 @@ def place(given: str | PathLike[str], door: str = "place") -> Path:
     """
     if is_remote(given):
         return cast("Path", given)
-    check_path(given, door)
+    check_path(given, caller)
     if not isinstance(given, str) or not _URL.match(given):
         return Path(given)
     if given.lower().startswith("file://"):

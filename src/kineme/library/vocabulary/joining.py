@@ -166,9 +166,9 @@ def _compared(task: _Pairs) -> Floats:
     """The distance of each word of the rows from each of the columns."""
     ones = [task.load(place) for place in task.ones]
     others = ones if task.columns == task.rows else [task.load(place) for place in task.others]
-    there = _all_costs(ones, Contexts(others))
-    back = there if others is ones else _all_costs(others, Contexts(ones))
-    both: Floats = (there + back.T) / 2
+    forward = _all_costs(ones, Contexts(others))
+    backward = forward if others is ones else _all_costs(others, Contexts(ones))
+    both: Floats = (forward + backward.T) / 2
     return both
 
 
@@ -187,14 +187,14 @@ class Contexts:
 
     def __init__(self, words: Sequence[Word]):
         gap = np.full((1, words[0].example.shape[1]), APART, np.float32)
-        self._laid = np.concatenate([part for word in words for part in (word.context, gap)])
+        self._features = np.concatenate([part for word in words for part in (word.context, gap)])
         self._ends = np.cumsum([len(word.context) + 1 for word in words])
 
     def costs_of(self, word: Word) -> Float32s:
         """What it costs to find the example of a word in each of the contexts."""
         from kineme.matching.subsequences import warped  # half a second, for who compares only
 
-        costs = warped(word.example, self._laid)[0]
+        costs = warped(word.example, self._features)[0]
         costs[self._ends - 1] = np.inf
         starts = np.concatenate([[0], self._ends[:-1]])
         least: Float32s = np.minimum.reduceat(costs, starts)
@@ -390,9 +390,9 @@ def _clusters_of(task: _Search) -> Joined:
     def nearest(number: int) -> tuple[int, int, float, float]:
         at = near[number]
         word, others = crowd.load(crowd.places[number]), [typical[i] for i in at.tolist()]
-        there = Contexts(others).costs_of(word).astype(np.float64)
-        back = Contexts([word])
-        costs = (there + [back.costs_of(other)[0] for other in others]) / 2
+        forward = Contexts(others).costs_of(word).astype(np.float64)
+        context = Contexts([word])
+        costs = (forward + [context.costs_of(other)[0] for other in others]) / 2
         same = task.typical.words.recording[at] == crowd.recording[number]
         costs[same] = np.maximum(costs[same], constants.told_apart)
         clusters, of = np.unique(labels[at], return_inverse=True)

@@ -199,12 +199,12 @@ def forget_drafts(root: Path) -> None:
 
 def recording_suffixes() -> list[str]:
     """The suffixes of files that can be recordings, in alphabetical order."""
-    return sorted({s for known in supported_formats() if known.read for s in known.suffixes})
+    return sorted({suffix for each in supported_formats() if each.read for suffix in each.suffixes})
 
 
 def _suffixes() -> set[str]:
     """Of all that may be sent: recordings and their skeletons, labels, knowledge bases."""
-    labels = {suffix for known in label_formats().values() for suffix in known.suffixes}
+    labels = {suffix for each in label_formats().values() for suffix in each.suffixes}
     return {*recording_suffixes(), ".asf", ".npz", *labels}
 
 

@@ -109,11 +109,11 @@ class Guard:
         return None
 
     def _knows(self, scope: MutableMapping[str, Any], headers: Headers) -> bool:
-        given = headers.get(TOKEN_HEADER)
+        token = headers.get(TOKEN_HEADER)
         path = scope["path"]
-        if given is None and (path in IN_ADDRESS or path.endswith(VIDEO)):
-            given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
-        return given is not None and secrets.compare_digest(given.encode(), self._token)
+        if token is None and (path in IN_ADDRESS or path.endswith(VIDEO)):
+            token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+        return token is not None and secrets.compare_digest(token.encode(), self._token)
 
 
 def is_trusted(request: Request) -> bool:
