@@ -24,6 +24,26 @@ from kineme.errors import KinemeError, MissingDependencyError, ParameterError
 
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
+PRELOADED = (
+    "kineme.library.gathering",
+    "kineme.library.descriptions",
+    "kineme.segmentation.segmenter",
+    "kineme.transfer.moments",
+    "kineme.library.vocabulary.joining",
+    "kineme.formats.skeletons._amc_kernels",
+    "kineme.methods.kineme.pipeline",
+    "kineme.methods.kineme.found",
+    "pyarrow.parquet",
+)
+"""What takes long to import."""
+_SOON = threading.Event()
+"""Set where this was begun before it was known what there is to do."""
+EXTRA = "cluster"
+"""The extra that installs what clusters need."""
+AHEAD = 1000
+"""Tasks that the scheduler knows at a time."""
+_ONE = threading.Lock()
+Progress = Callable[[str], None]
 
 
 @runtime_checkable
@@ -73,22 +93,6 @@ class InProcess:
         """Each task and what came of it, as they come; see `Executor`."""
         for task in tasks:
             yield task, work(task)
-
-
-PRELOADED = (
-    "kineme.library.gathering",
-    "kineme.library.descriptions",
-    "kineme.segmentation.segmenter",
-    "kineme.transfer.moments",
-    "kineme.library.vocabulary.joining",
-    "kineme.formats.skeletons._amc_kernels",
-    "kineme.methods.kineme.pipeline",
-    "kineme.methods.kineme.found",
-    "pyarrow.parquet",
-)
-"""What takes long to import."""
-_SOON = threading.Event()
-"""Set where this was begun before it was known what there is to do."""
 
 
 class Processes:
@@ -179,13 +183,6 @@ def start_soon() -> None:
     if sys.platform == "linux":
         context(PRELOADED)
         _SOON.set()
-
-
-EXTRA = "cluster"
-"""The extra that installs what clusters need."""
-AHEAD = 1000
-"""Tasks that the scheduler knows at a time."""
-_ONE = threading.Lock()
 
 
 class Cluster:
@@ -312,9 +309,6 @@ def _alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
         os.environ.setdefault("KINEME_THREADS", str(worker.state.nthreads))
     with _ONE:
         return work(task)
-
-
-Progress = Callable[[str], None]
 
 
 class Watch:

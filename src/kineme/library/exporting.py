@@ -22,6 +22,11 @@ from kineme.segments.table import Segment
 
 CLUSTERS = "clusters"
 """The table that is made of the others when it is asked for."""
+WIDE, TALL = 7.0, 1.4
+"""Inches of a strip."""
+AT_ONCE = 12
+"""Strips in the picture of all clusters."""
+ALL = "clusters.png"
 
 
 def table_called(tables: OpenTables, name: str) -> Any:
@@ -156,13 +161,6 @@ def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:
         label=hit.label,
         action=hit.cluster,
     )
-
-
-WIDE, TALL = 7.0, 1.4
-"""Inches of a strip."""
-AT_ONCE = 12
-"""Strips in the picture of all clusters."""
-ALL = "clusters.png"
 
 
 def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:

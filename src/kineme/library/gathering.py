@@ -38,6 +38,11 @@ from kineme.library.storage.places import is_remote
 States = dict[str, tuple[str, str]]
 UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
 """What is said of such a file."""
+SAMPLE = 4096
+"""Bytes from the middle of a file."""
+PER_WORKER = 1 << 20
+"""Bytes of recordings for which one process more is started: a start costs seconds."""
+DIED = "the process that worked on it died: it may need more memory than there is"
 
 
 @dataclass
@@ -155,10 +160,6 @@ def _note(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
     into.new += outcome.new
 
 
-SAMPLE = 4096
-"""Bytes from the middle of a file."""
-
-
 class Group(NamedTuple):
     """Tasks of equal content, and its digest; empty where there is one only."""
 
@@ -218,11 +219,6 @@ def _digest(task: Task, skeleton: AnyPath | None) -> str:
         return content_digest(task.path, skeleton)
     except ReadError:  # whoever works on it will say so
         return ""
-
-
-PER_WORKER = 1 << 20
-"""Bytes of recordings for which one process more is started: a start costs seconds."""
-DIED = "the process that worked on it died: it may need more memory than there is"
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,9 @@ from kineme.segments.editing.marks import marked
 from kineme.studio.reading import stamp_of
 from kineme.studio.storage.tables import usual_table, usual_tables
 
+MOST_KNOWN = 10_000
+"""Tables whose counts stay in memory."""
+
 
 def file_id(path: Path) -> str:
     """The id of a file: the same for as long as it lies there."""
@@ -74,10 +77,6 @@ class Folder:
             return files_in(self.root)
         except OSError:
             return []
-
-
-MOST_KNOWN = 10_000
-"""Tables whose counts stay in memory."""
 
 
 @dataclass(frozen=True)

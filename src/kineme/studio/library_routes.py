@@ -24,6 +24,13 @@ from kineme.web.display import display_motion
 from kineme.web.encoding import from_json
 from kineme.web.library_messages import CallHits, LibraryEdit, LibraryFigure, SearchRequest
 
+MOST_IN_MEMORY = 4
+"""Recordings."""
+LONGEST = 30.0
+"""Seconds that a figure shows at most."""
+CHANNELS, POINTS = 6, 120
+"""Curves of a recording without a body, and points of each."""
+
 
 class LibraryApi:
     """The addresses under ``/api/library``.
@@ -74,14 +81,6 @@ class LibraryApi:
             Route("/api/library/names", self.names, methods=["POST"]),
             Route("/api/library/figure", self.figure),
         ]
-
-
-MOST_IN_MEMORY = 4
-"""Recordings."""
-LONGEST = 30.0
-"""Seconds that a figure shows at most."""
-CHANNELS, POINTS = 6, 120
-"""Curves of a recording without a body, and points of each."""
 
 
 class Figures:

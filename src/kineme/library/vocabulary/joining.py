@@ -49,6 +49,10 @@ APART = 1e3
 """In each feature of a sample between two contexts: no match reaches over it."""
 BLOCK = 100
 """Words that a task compares with as many others."""
+AT_ONCE = 200
+"""Words of a task that looks for their clusters."""
+PER_WORKER = 2000
+"""Words for which one process more is started: some seconds of work."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -271,12 +275,6 @@ def _fitted(distances: Floats, labels: Ints) -> Joined:
     nearest = means.min(axis=1)
     confidence = np.clip(1 - spread / np.maximum(nearest, 1e-9), 0, 1)
     return Joined(labels, means.argmin(axis=1), confidence, spread)
-
-
-AT_ONCE = 200
-"""Words of a task that looks for their clusters."""
-PER_WORKER = 2000
-"""Words for which one process more is started: some seconds of work."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,6 +26,9 @@ Floats = NDArray[np.float64]
 
 Spans = tuple[Floats, Floats, Ints]
 """Starts and stops in seconds, and clusters, of the activities of a recording; apart."""
+REMOVED = "left.json"
+Removed = Mapping[str, Spans]
+"""Starts, stops and clusters of the activities of a recording, by the name of its piece."""
 
 
 def lasting_numbers(
@@ -68,12 +71,6 @@ def lasting_numbers(
         if cluster not in numbers:
             numbers[cluster], following = following, following + 1
     return dict(sorted(numbers.items()))
-
-
-REMOVED = "left.json"
-
-Removed = Mapping[str, Spans]
-"""Starts, stops and clusters of the activities of a recording, by the name of its piece."""
 
 
 def read_removed(folder: Path) -> dict[str, Spans]:

@@ -43,6 +43,8 @@ HEADERS = {
     "x-content-type-options": "nosniff",
     "x-frame-options": "DENY",
 }
+WITHIN = 20.0
+"""Seconds in which the headers of a request are there once the first of their bytes is."""
 
 
 def new_token() -> str:
@@ -119,10 +121,6 @@ class Guard:
 def is_trusted(request: Request) -> bool:
     """Whether a request that has passed the guard carries the token."""
     return bool(request.scope[TRUSTED])
-
-
-WITHIN = 20.0
-"""Seconds in which the headers of a request are there once the first of their bytes is."""
 
 
 class HeadersInTime(AutoHTTPProtocol):  # type: ignore[misc, valid-type]  # one of two classes
