@@ -28,11 +28,19 @@ from kineme.reproduction.trials import is_annotations, read_trials
 from kineme.segments import editing
 from kineme.segments.editing.marks import marked
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.kept.journal import Journal
-from kineme.studio.kept.reading_of_one import keep_options, notes_on_reading, said_of
-from kineme.studio.kept.storage import SUFFIX, saved_table
-from kineme.studio.kept.videos import notes_on_video, set_offset, video_message
-from kineme.studio.kept.vocabulary import notes_on_labels, share_labels, shared_labels
+from kineme.studio.storage.journal import Journal
+from kineme.studio.storage.sidecars import (
+    keep_options,
+    notes_on_labels,
+    notes_on_reading,
+    notes_on_video,
+    options_of,
+    set_offset,
+    share_labels,
+    shared_labels,
+    video_message,
+)
+from kineme.studio.storage.tables import SUFFIX, saved_table
 from kineme.synthesis import motion_graph
 from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
 
@@ -212,7 +220,7 @@ def _build_library(root: Path) -> object:
 def _read_beside(root: Path) -> object:
     take = root / TAKE
     said = (notes_on_reading(take), notes_on_video(take), notes_on_labels(take.parent))
-    found = kineme.read(take, **said_of(take))
+    found = kineme.read(take, **options_of(take))
     return found, video_message(take), shared_labels(take.parent), said
 
 
@@ -240,7 +248,7 @@ def _open_studio(root: Path) -> object:
     if table is None:
         return notes
     journal = Journal(file.path, table)
-    kept = [journal.table(number) for number in journal.kept()]
+    kept = [journal.table(number) for number in journal.versions()]
     before = journal.undone() if journal.can_undo else None
     return kept, before, journal.knows("x")
 

@@ -13,10 +13,10 @@ from kineme import Library, read
 from kineme._version import __version__
 from kineme.library import Settings
 from kineme.library.compiling import compiled
-from kineme.library.constants import VOCABULARY
-from kineme.library.executors.here import Here
-from kineme.library.index.kept import write_index
-from kineme.library.making import make_piece
+from kineme.library.descriptions import make_piece
+from kineme.library.executors import InProcess
+from kineme.library.settings import VOCABULARY
+from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import HEAD, PIECES, SCHEMA, write_json
 from kineme.library.storage.pieces import Piece, has_piece, write_piece
 from kineme.library.storage.tables import write_tables
@@ -44,7 +44,7 @@ def joined(folder: Path, keys: Mapping[str, str]) -> float:
     """Leave head and tables of pieces by the names of their recordings; seconds that it took."""
     start = perf_counter()
     entries = [(name, folder / name, key) for name, key in sorted(keys.items())]
-    tables, following = compiled(folder, entries, {}, 0, Here(), lambda _: None)
+    tables, following = compiled(folder, entries, {}, 0, InProcess(), lambda _: None)
     head = {
         "schema": SCHEMA,
         "kineme": __version__,

@@ -10,11 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from kineme.library.constants import VOCABULARY
-from kineme.library.executors.here import Here
-from kineme.library.vocabulary.comparing import Crowd, Word
-from kineme.library.vocabulary.crowds import clusters_in
-from kineme.library.vocabulary.joining import Joined
+from kineme.library.executors import InProcess
+from kineme.library.settings import VOCABULARY
+from kineme.library.vocabulary.joining import Crowd, Joined, Word, clusters_in
 
 KINDS, RECORDINGS = 6, 30
 RARE = 3
@@ -57,7 +55,7 @@ def once_deadly(flag: Path, word: Word) -> Word:
 def joined(words: Crowd, executor: Any = None, progress: Any = None, **constants: Any) -> Joined:
     """The clusters of words, by other constants."""
     told = progress or (lambda _: None)
-    return clusters_in(words, replace(VOCABULARY, **constants), executor or Here(), told)
+    return clusters_in(words, replace(VOCABULARY, **constants), executor or InProcess(), told)
 
 
 def bytes_of(found: Joined) -> tuple[bytes, ...]:

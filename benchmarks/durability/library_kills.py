@@ -34,7 +34,7 @@ from _figures import add_option, record
 from _options import command_line, few
 from kineme.errors import KinemeError, WriteError
 from kineme.library import Example, Library, build
-from kineme.library.index import kept
+from kineme.library.storage import index
 from kineme.library.storage.pieces import read_features, read_piece
 from kineme.library.storage.places import is_remote, place
 
@@ -253,7 +253,7 @@ def main() -> None:
     options = parser.parse_args()
     os.environ["KINEME_THREADS"] = "1"  # threads do not outlive a fork
     warnings.simplefilter("ignore")
-    kept.FROM_HOURS = 0.0
+    index.FROM_HOURS = 0.0
     moments = random.Random(options.seed)
     found: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as name:

@@ -37,7 +37,7 @@ from kineme import Library, bundled_recording, read, segment
 from kineme._interpolation import at_frames
 from kineme.features.canonical import MATCHING_FPS, matching_features
 from kineme.library import Settings
-from kineme.library.making import make_piece
+from kineme.library.descriptions import make_piece
 from kineme.library.searching import Example, Hit
 from kineme.library.storage.layout import HEAD, PIECES, TABLES
 from kineme.library.storage.pieces import Piece, has_piece, write_piece

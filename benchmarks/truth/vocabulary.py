@@ -38,9 +38,8 @@ from _recordings import Case, hdm05, subject_86
 from kineme import Library
 from kineme.evaluation import TRANSITION, Comparison, Labelling, Truth, one_to_one_accuracy
 from kineme.library.compiling import compiled
-from kineme.library.constants import VOCABULARY
-from kineme.library.executors import Executor, Outcome, Task
-from kineme.library.executors.processes import processes
+from kineme.library.executors import Executor, Outcome, Task, processes
+from kineme.library.settings import VOCABULARY
 from kineme.library.storage.layout import PIECES
 from kineme.library.storage.pieces import read_features, read_piece, write_piece
 from kineme.library.vocabulary.words import places_in

@@ -16,9 +16,8 @@ import pytest
 
 import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
-from kineme.library import Library, Settings, build
-from kineme.library import work as work_module
-from kineme.library.duplicates import Group
+from kineme.library import Library, Settings, build, gathering
+from kineme.library.gathering import Group
 from kineme.library.vocabulary import moments
 from library_folders import contents, write_channels
 
@@ -260,13 +259,13 @@ def test_clusters_whose_recordings_leave_and_come_back_keep_number_and_name(
 
 def test_few_small_files_are_left_to_one_process(tmp_path: Path) -> None:
     paths = [tmp_path / name for name in "abcdefgh"]
-    for size, jobs in ((10, 1), (work_module.PER_WORKER, 4)):
+    for size, jobs in ((10, 1), (gathering.PER_WORKER, 4)):
         for path in paths:
             path.write_bytes(b" " * size)
         paths[5].write_bytes(b" " * (size + 1))
-        tasks = work_module.tasks_for(paths, tmp_path, Settings())
+        tasks = gathering.tasks_for(paths, tmp_path, Settings())
         assert tasks[0].path == paths[5]  # the largest is worked on first
-        assert min(work_module.workers_for(tasks), 4) == jobs
+        assert min(gathering.workers_for(tasks), 4) == jobs
 
 
 def pieces_in(folder: Path) -> list[str]:
@@ -345,7 +344,7 @@ def test_a_full_disk_ends_the_build_and_leaves_what_was_there(
     def full(*_: object) -> None:
         raise WriteError(folder, "cannot be written: No space left on device")
 
-    monkeypatch.setattr(work_module, "write_piece", full)
+    monkeypatch.setattr(gathering, "write_piece", full)
     with pytest.raises(WriteError, match="No space left"):
         build((), folder, settings=Settings(constants={"min_action": 3.0}))
     assert contents(folder) == before
@@ -353,9 +352,9 @@ def test_a_full_disk_ends_the_build_and_leaves_what_was_there(
 
 
 def test_one_build_at_a_time(folder: Path) -> None:
-    from kineme.library.storage.layout import held
+    from kineme.library.storage.layout import writer_lock
 
-    with held(folder, "build"), pytest.raises(WriteError, match="another process"):
+    with writer_lock(folder, "build"), pytest.raises(WriteError, match="another process"):
         build((), folder)
 
 
@@ -386,9 +385,9 @@ def test_what_is_there_several_times_is_worked_on_once(
         shutil.copy(takes / "wrist.csv", own / f"{name}.csv")
         shutil.copy(takes / "broken.bvh", own / f"{name}.bvh")
     read: list[str] = []
-    whole = work_module.read_quietly
+    whole = gathering.read_quietly
     monkeypatch.setattr(
-        work_module,
+        gathering,
         "read_quietly",
         lambda path, options: read.append(path.name) or whole(path, options),
     )

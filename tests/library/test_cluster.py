@@ -47,7 +47,7 @@ def test_a_library_is_the_same_though_a_worker_was_killed(
 
 
 def test_a_task_that_ends_its_workers_costs_itself_only(client: Any) -> None:
-    from kineme.library.executors.cluster import Cluster
+    from kineme.library.executors import Cluster
 
     client.run_on_scheduler(_bear_deaths, most=0)
     assert list(Cluster(client).completed(os._exit, [1])) == [(1, None)]
@@ -56,7 +56,7 @@ def test_a_task_that_ends_its_workers_costs_itself_only(client: Any) -> None:
 
 
 def test_clusters_are_joined_by_the_workers_as_they_are_here(client: Any) -> None:
-    from kineme.library.executors.cluster import Cluster
+    from kineme.library.executors import Cluster
 
     words, _ = crowd()
     assert bytes_of(joined(words, Cluster(client), most=20)) == bytes_of(joined(words, most=20))

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import naive
-from kineme.library import Example, Library
-from kineme.library.index import kept, nearest
-from kineme.library.index._kernels import least_squares
-from kineme.library.index.parts import Parts
-from kineme.library.index.windows import (
+from kineme.library import Example, Library, index
+from kineme.library._kernels import least_squares
+from kineme.library.index import Parts
+from kineme.library.storage import index as storage
+from kineme.library.windows import (
     FINER,
     LENGTHS,
     all_windows,
@@ -27,10 +27,10 @@ def test_what_is_searched_first_holds_what_an_exact_search_finds(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     exact = Library(folder)
-    monkeypatch.setattr(kept, "FROM_HOURS", 0.0)
-    monkeypatch.setattr(nearest, "SHARE", 0.2)
-    monkeypatch.setattr(nearest, "MORE", 1)
-    kept.write_index(folder, exact.head["tables"], exact.recordings)
+    monkeypatch.setattr(storage, "FROM_HOURS", 0.0)
+    monkeypatch.setattr(index, "SHARE", 0.2)
+    monkeypatch.setattr(index, "MORE", 1)
+    storage.write_index(folder, exact.head["tables"], exact.recordings)
     indexed = Library(folder)
     for example in (Example("walk.bvh", 2.0, 3.2), Example("jacks.bvh", 4.0, 7.5)):
         few, all_ = (
@@ -72,7 +72,7 @@ def test_the_window_that_is_the_example_is_the_nearest() -> None:
 
 def test_parts_that_overlap_are_one_within_a_recording() -> None:
     parts = Parts(*map(np.array, ([1, 0, 0, 0], [0, 5, 0, 30], [10, 20, 8, 40])))
-    assert [column.tolist() for column in nearest.joined(parts)] == [
+    assert [column.tolist() for column in index.joined(parts)] == [
         [0, 0, 1],
         [0, 30, 0],
         [20, 40, 10],

@@ -18,8 +18,8 @@ from pyarrow import parquet
 import kineme
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.library import Example, Library, build
-from kineme.library.constants import VOCABULARY
 from kineme.library.descriptions import describe
+from kineme.library.settings import VOCABULARY
 from kineme.library.storage.layout import as_column
 from kineme.library.storage.tables import DESCRIBED
 from kineme.matching import THRESHOLD

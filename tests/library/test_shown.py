@@ -13,8 +13,7 @@ from starlette.testclient import TestClient
 from kineme.library import Library
 from kineme.studio.app import create_app
 from kineme.studio.http.events import Hub
-from kineme.studio.library.searches import Searches
-from kineme.studio.library.shown import ShownLibrary
+from kineme.studio.library import Searches, ShownLibrary
 from kineme.studio.open_recordings import OpenRecordings, SupersededError
 from kineme.web.library_messages import SearchRequest, Span
 

@@ -22,8 +22,8 @@ from kineme.segments import editing
 from kineme.segments.history import LONGEST, History
 from kineme.studio import server
 from kineme.studio.folder import Folder
+from kineme.studio.http.bodies import FORGOTTEN, Upload, forget_drafts
 from kineme.studio.http.events import Hub
-from kineme.studio.http.uploads import FORGOTTEN, Upload, forget_drafts
 from kineme.studio.open_recordings import OpenRecordings
 
 

@@ -14,7 +14,7 @@ from studio_clients import Studio
 
 import kineme
 from kineme.segments.history import LONGEST
-from kineme.studio.kept import journal, records
+from kineme.studio.storage import journal
 
 
 def named(studio: Studio, label: str = "hop") -> dict[str, Any]:
@@ -118,13 +118,13 @@ def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_wh
 ) -> None:
     studio = make_studio()
     before = named(studio)
-    places = {"table": "storage.TableFile.write", "history": "journal.write_record"}
+    places = {"table": "tables.TableFile.write", "history": "journal.write_record"}
 
     def fail(*_: Any) -> None:
         raise RuntimeError("the end")
 
     with monkeypatch.context() as patch:
-        patch.setattr(f"kineme.studio.kept.{places[cut]}", fail)
+        patch.setattr(f"kineme.studio.storage.{places[cut]}", fail)
         sent = {
             "revision": before["revision"],
             "edit": {"kind": "split", "level": "activity", "frame": 90},
@@ -241,5 +241,5 @@ def _random_edit(
 
 @pytest.mark.parametrize("damaged", [b'{"a":' * 100_000, b"[", b"null", b""])
 def test_a_damaged_history_is_an_empty_one(tmp_path: Path, damaged: bytes) -> None:
-    (tmp_path / records.HISTORY).write_bytes(damaged)
-    assert records.read_record(tmp_path)[0] == records.Record()
+    (tmp_path / journal.HISTORY).write_bytes(damaged)
+    assert journal.read_record(tmp_path)[0] == journal.Record()

@@ -7,7 +7,7 @@ from typing import Any
 
 from studio_clients import Studio
 
-from kineme.studio.kept.identities import descent
+from kineme.studio.storage.identities import descent
 
 
 def who(message: dict[str, Any], level: str = "activity") -> dict[int, str]:

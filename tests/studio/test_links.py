@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from kineme.studio.kept.videos import offset_of
+from kineme.studio.storage.sidecars import offset_of
 
 ACTS: dict[str, Callable[..., object]] = {
     "labels.json": lambda studio: studio.client.post("/api/labels", json={"labels": ["walk"]}),

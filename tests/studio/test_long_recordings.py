@@ -75,7 +75,7 @@ def test_a_long_recording_that_is_read_otherwise_says_when_its_segments_are_ther
 def test_segments_that_take_long_are_waited_for_by_files_and_not_by_pages(tmp_path, monkeypatch):
     shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
     wanted = held_back(monkeypatch)
-    monkeypatch.setattr("kineme.studio.first_segments.SOON", 0.1)
+    monkeypatch.setattr("kineme.studio.open_recording.SOON", 0.1)
     recordings = OpenRecordings(Folder(tmp_path), lambda *_: None)
     (name,) = recordings.folder.recordings()
     assert recordings.message(name).finding
@@ -124,8 +124,8 @@ def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypa
 def test_a_large_file_shows_some_of_its_poses_while_it_is_read(tmp_path, monkeypatch):
     shutil.copy(kineme.bundled_recording(), tmp_path / "take.bvh")
     wanted, read = threading.Event(), RecordingCache.read
-    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
+    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
     monkeypatch.setattr(
         RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
     )
@@ -162,8 +162,8 @@ def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypa
     text = kineme.bundled_recording().read_text().splitlines()
     text[-7] = text[-7].replace(text[-7].split()[3], "x", 1)
     (tmp_path / "take.bvh").write_text("\n".join(text))
-    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
+    monkeypatch.setattr("kineme.studio.open_recordings.LARGE", 1000)
+    monkeypatch.setattr("kineme.studio.open_recordings.POSES", 200)
     told: queue.Queue[tuple[str, int]] = queue.Queue()
     recordings = OpenRecordings(Folder(tmp_path), lambda *news: told.put(news))
     (name,) = recordings.folder.recordings()

@@ -13,7 +13,7 @@ from starlette.testclient import TestClient
 from studio_clients import Studio
 
 from kineme.studio.folder import file_id
-from kineme.studio.kept import videos
+from kineme.studio.storage import sidecars
 
 ODD = os.fsdecode(b"w\xe9")
 
@@ -51,7 +51,7 @@ def test_a_folder_that_nothing_can_be_written_to_is_said(studio: Studio, folder:
     ):
         answer = studio.client.post(address, json=sent)
         assert "cannot be made" in answer.json()["error"], address
-    assert videos.offset_of(folder / "take.bvh") == 0.0
+    assert sidecars.offset_of(folder / "take.bvh") == 0.0
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from studio_clients import PORT, TOKEN
 
 from kineme.errors import ParameterError
+from kineme.studio.http.bodies import LONGEST, safe_name
 from kineme.studio.http.security import HEADERS
-from kineme.studio.http.uploads import LONGEST, safe_name
 from kineme.web.encoding import from_json, to_json
 from kineme.web.requests import EditRequest
 

@@ -62,7 +62,7 @@ def studio(
         if recordings is None and (root / HEAD).is_file():
             if reading or effectors:
                 raise ParameterError(f"{root} is a library, read as it was built: no such options")
-            from kineme.studio.library.shown import ShownLibrary
+            from kineme.studio.library import ShownLibrary
 
             library = ShownLibrary(root)
             options = library.options()

@@ -9,7 +9,7 @@ A library is a folder. `build` fills it from recordings; `Library` opens it.
                               NAME is a digest of what they hold; of large libraries the index
 ``pieces/KEY.parquet``        segments and embeddings of one recording, as it was found alone
 ``pieces/KEY.npy``            its matching features, float32 (samples, dims)
-``pieces/KEY.windows.npy``    their windows, int8 (windows, 32): see `kineme.library.index`
+``pieces/KEY.windows.npy``    their windows, int8 (windows, 32): see `kineme.library.windows`
 ``pieces/KEY.moments.npy``    of signals: means and deviations of channels, five times a second
 ``edits.json``                what people said: names, merges and splits of clusters
 ``seen.json``                 size and time of every file when it was read; may be deleted

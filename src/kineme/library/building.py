@@ -10,17 +10,13 @@ from typing import Any
 from kineme._checks import check_type, is_number
 from kineme._version import __version__
 from kineme.errors import ParameterError
-from kineme.library.constants import VOCABULARY
 from kineme.library.edits import read_edits
-from kineme.library.executors import Executor
-from kineme.library.executors.cluster import connected
-from kineme.library.executors.processes import processes
+from kineme.library.executors import Executor, Progress, connected, processes
 from kineme.library.gathering import gather
-from kineme.library.index.kept import write_index
 from kineme.library.planning import AnyPath, Entry, Plan, absolute, as_paths, opened, plan_of
-from kineme.library.progress import Progress
-from kineme.library.settings import Settings
+from kineme.library.settings import VOCABULARY, Settings
 from kineme.library.sources import listed, names_of
+from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import (
     HEAD,
     LOCK_EDITS,
@@ -28,18 +24,18 @@ from kineme.library.storage.layout import (
     SCHEMA,
     TABLES,
     arrow,
-    held,
     read_json,
     write_json,
+    writer_lock,
 )
-from kineme.library.storage.left import parted, read_left, write_left
 from kineme.library.storage.pieces import has_piece
 from kineme.library.storage.places import lies_in, place, reaching, remove_folder
 from kineme.library.storage.tables import read_table, write_tables
+from kineme.library.vocabulary.numbering import read_removed, removed_after, write_removed
 
 Head = Mapping[str, Any]
 """What ``library.json`` says; nothing where there is none yet."""
-Known = Mapping[Path, tuple[str, str]]
+Former = Mapping[Path, tuple[str, str]]
 """Name and piece of recordings that the library has."""
 
 NOT_THERE = "there is no such file or folder"
@@ -145,7 +141,7 @@ def build(
     with processes(int(jobs)) if client is None else connected(client) as executor:
         named, gone = as_paths(sources), as_paths(remove)
         folder = opened(into, [*named, *gone])
-        with held(folder, "build"), reaching(folder):
+        with writer_lock(folder, "build"), reaching(folder):
             head = read_json(folder / HEAD)
             plan = plan_of(folder, head, named, gone, recursive, settings)
             return _built(plan, head, executor, progress or (lambda _: None))
@@ -154,21 +150,21 @@ def build(
 def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Built:
     """The library brought up to date, for one that holds it."""
     progress("looking for recordings")
-    before = _before(plan.folder, head)
+    before = _former_recordings(plan.folder, head)
     found = listed(plan.sources, recursive=plan.recursive, without=absolute(plan.folder))
-    gone = [source for source in plan.sources if not source.exists()]
-    unseen = {path: known for path, known in before.items() if path not in found}
-    kept = _kept(plan, unseen, gone)
+    missing_sources = [source for source in plan.sources if not source.exists()]
+    not_found = {path: entry for path, entry in before.items() if path not in found}
+    absent = _without_source(plan, not_found, missing_sources)
     gathered = gather(plan, list(found), executor, progress)
-    failed = dict.fromkeys(gone, GONE) | gathered.failed
+    failed = dict.fromkeys(missing_sources, GONE) | gathered.failed
     keys = {path: plan.settings.key(digest) for path, digest in gathered.digests.items()}
-    keys |= {path: before[path][1] for path in kept}
+    keys |= {path: before[path][1] for path in absent}
     names = names_of(
-        {path: source for path, source in {**found, **kept}.items() if path in keys},
+        {path: source for path, source in {**found, **absent}.items() if path in keys},
         {path: name for path, (name, _) in before.items()},
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
-    with held(plan.folder, "build", LOCK_EDITS):
+    with writer_lock(plan.folder, "build", LOCK_EDITS):
         tables = _written(plan, head, before, entries, failed, executor, progress)
     _clean(plan.folder, {key for _, _, key in entries}, tables)
     return Built(
@@ -181,7 +177,7 @@ def _built(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Bu
     )
 
 
-def _before(folder: Path, head: Head) -> Known:
+def _former_recordings(folder: Path, head: Head) -> Former:
     """The recordings that the library has."""
     if not head:
         return {}
@@ -190,12 +186,14 @@ def _before(folder: Path, head: Head) -> Known:
     return {place(path): (name, key) for path, name, key in zip(*columns, strict=True)}
 
 
-def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
-    """Recordings of sources that are gone, by source: as on a disk that is not there now."""
+def _without_source(
+    plan: Plan, not_found: Former, missing_sources: Sequence[Path]
+) -> dict[Path, Path]:
+    """Recordings of sources that are not there, by source: as on a disk that was taken out."""
     return {
         path: source
-        for path, (_, key) in unseen.items()
-        for source in gone
+        for path, (_, key) in not_found.items()
+        for source in missing_sources
         if lies_in(path, source) and has_piece(plan.pieces, key)
     }
 
@@ -203,14 +201,14 @@ def _kept(plan: Plan, unseen: Known, gone: Sequence[Path]) -> dict[Path, Path]:
 def _written(
     plan: Plan,
     head: Head,
-    before: Known,
+    before: Former,
     entries: Sequence[Entry],
     failed: Mapping[Path, str],
     executor: Executor,
     progress: Progress,
 ) -> str:
     """The name of the tables of these recordings, which the head of the library tells now."""
-    wanted = {
+    content = {
         "schema": SCHEMA,
         "kineme": __version__,
         "settings": plan.settings.to_json(),
@@ -220,25 +218,27 @@ def _written(
         "failed": {str(path): reason for path, reason in sorted(failed.items())},
     }
     same = {path: (name, key) for name, path, key in entries} == before
-    if same and all(head.get(name) == wanted[name] for name in ("kineme", "vocabulary")):
+    if same and all(head.get(name) == content[name] for name in ("kineme", "vocabulary")):
         following, tables = head["following"], head["tables"]
     else:
         from kineme.library.compiling import activities_in, compiled
 
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)
-        known = activities_in(plan.folder, head.get("tables"))
-        left = read_left(plan.folder)
-        back = {name: left[key] for name, _, key in entries if key in left and name not in known}
+        former = activities_in(plan.folder, head.get("tables"))
+        removed = read_removed(plan.folder)
+        returned = {
+            name: removed[key] for name, _, key in entries if key in removed and name not in former
+        }
         made, following = compiled(
-            plan.folder, entries, {**back, **known}, following, executor, progress
+            plan.folder, entries, {**returned, **former}, following, executor, progress
         )
         pieces = dict(before.values())
-        owned = {pieces[name]: spans for name, spans in known.items() if name in pieces}
-        write_left(plan.folder, parted(left, owned, (key for _, _, key in entries)))
+        by_piece = {pieces[name]: spans for name, spans in former.items() if name in pieces}
+        write_removed(plan.folder, removed_after(removed, by_piece, (key for _, _, key in entries)))
         tables = write_tables(plan.folder, made)
         write_index(plan.folder, tables, made["recordings"].to_pydict())
-    now = {**wanted, "following": following, "tables": tables}
+    now = {**content, "following": following, "tables": tables}
     if now != head:
         write_json(plan.folder / HEAD, now)
     return str(tables)

@@ -11,14 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.library.constants import VOCABULARY
-from kineme.library.executors import Executor
+from kineme.library.executors import Executor, Progress
 from kineme.library.planning import Entry
-from kineme.library.progress import Progress
+from kineme.library.settings import VOCABULARY
 from kineme.library.storage.layout import BODIES, EMBEDDED, PIECES, arrow, as_array, as_column
 from kineme.library.storage.pieces import Piece, read_piece
 from kineme.library.storage.tables import read_table, table_of
-from kineme.library.vocabulary.crowds import clusters_in
+from kineme.library.vocabulary.joining import clusters_in
 from kineme.library.vocabulary.numbering import Spans, lasting_numbers
 from kineme.library.vocabulary.words import Place, crowd_of, places_in
 from kineme.segments.table import COLUMNS
@@ -111,8 +110,8 @@ def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
     edges = [*np.sort(first).tolist(), len(table)]
     found = {}
     for start, stop in pairwise(edges):
-        own = {name: column[start:stop] for name, column in columns.items()}
-        found[str(own["recording"][0])] = _spans(own, own["cluster"])
+        rows = {name: column[start:stop] for name, column in columns.items()}
+        found[str(rows["recording"][0])] = _spans(rows, rows["cluster"])
     return found
 
 
@@ -128,24 +127,24 @@ def _joined_words(
     parts: list[tuple[Ints, Ints, Any, Any]] = []
     count = 0
     for vocabulary in sorted({piece.facts["vocabulary"] for piece in pieces} - {""}):
-        own = [
+        words = [
             place
             for number, piece in enumerate(pieces)
             if piece.facts["vocabulary"] == vocabulary
             for place in places_in(piece, number)
         ]
-        if not own:
+        if not words:
             continue
         keys = [key for _, _, key in entries]
-        if vocabulary == BODIES or len({place.recording for place in own}) == 1:
-            crowd = crowd_of(own, pieces, folder / PIECES, keys)
+        if vocabulary == BODIES or len({place.recording for place in words}) == 1:
+            crowd = crowd_of(words, pieces, folder / PIECES, keys)
             found = clusters_in(crowd, VOCABULARY, executor, progress)
         else:
             from kineme.library.vocabulary.moments import clusters_of_moments
 
-            found = clusters_of_moments(own, pieces, folder / PIECES, keys, executor)
+            found = clusters_of_moments(words, pieces, folder / PIECES, keys, executor)
         following = np.where(found.following < 0, -1, found.following + count)
-        places += own
+        places += words
         parts.append((found.labels + count, following, found.confidence, found.spread))
         count += int(found.labels.max()) + 1
     if not places:
@@ -161,7 +160,7 @@ def _shared(pieces: Sequence[Piece], words: _Words) -> list[Ints]:
         for place, cluster in zip(words.places, words.labels.tolist(), strict=True)
     }
     return [
-        np.array([label.get((i, own), -1) for own in piece.table.cluster.tolist()], np.int64)
+        np.array([label.get((i, number), -1) for number in piece.table.cluster.tolist()], np.int64)
         for i, piece in enumerate(pieces)
     ]
 
@@ -169,14 +168,14 @@ def _shared(pieces: Sequence[Piece], words: _Words) -> list[Ints]:
 def _spans(columns: Columns, clusters: Ints) -> Spans:
     """The activities of a recording with their clusters, and what only primitives are of."""
     active, coarse = columns["kind"] != "transition", columns["level"] == "activity"
-    own = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))
-    return columns["start_s"][own], columns["stop_s"][own], clusters[own]
+    rows = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))
+    return columns["start_s"][rows], columns["stop_s"][rows], clusters[rows]
 
 
 def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
     facts = [piece.facts for piece in pieces]
-    kept = ("vocabulary", "format", "n_frames", "fps", "features_fps", "samples")
-    columns: Columns = {name: [each[name] for each in facts] for name in kept}
+    names = ("vocabulary", "format", "n_frames", "fps", "features_fps", "samples")
+    columns: Columns = {name: [each[name] for each in facts] for name in names}
     return {
         "recording": [name for name, _, _ in entries],
         "path": [str(path) for _, path, _ in entries],
@@ -195,8 +194,8 @@ def _segments(
     tables = [piece.table for piece in pieces]
     columns: Columns = {name: _all(getattr(table, name) for table in tables) for name in COLUMNS}
     actions = [
-        own[np.flatnonzero(table.level == "activity")][table.activity]
-        for own, table in zip(clusters, tables, strict=True)
+        numbers[np.flatnonzero(table.level == "activity")][table.activity]
+        for numbers, table in zip(clusters, tables, strict=True)
     ]
     return {
         **_rows(entries, pieces),

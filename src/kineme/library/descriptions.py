@@ -1,11 +1,12 @@
-"""What a recording looks like to a search: matching features, and an embedding of each segment.
+"""What a library keeps of a recording: segments, matching features, an embedding of each segment.
 
 Bodies are described by `kineme.features.canonical`, which do not know the person. Channels are
 described by their posture and energy (`kineme.methods.kineme.statistics`), in half the standard
 deviation of each in the recording, so that one threshold serves both, whatever the number of
 channels; they compare with recordings of the same channels only.
 
-Everything of the library that knows what features are is here.
+Everything of the library that knows what features are is here. What segments and what finds moments
+is imported by who makes a piece: who searches only does not wait for it.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ from kineme.errors import MotionError, ParameterError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
+from kineme.library.settings import Settings
 from kineme.library.storage.layout import BODIES, EMBEDDED
+from kineme.library.storage.pieces import LARGEST_MOMENT, Piece
 from kineme.matching.embeddings import course, embedding
 from kineme.methods.kineme.preset import SENSORS
 from kineme.methods.kineme.statistics import channel_statistics
@@ -71,8 +74,8 @@ class Description:
             return embedding(self.poses[samples])
         found = np.zeros(EMBEDDED, np.float32)
         if len(self.features):
-            told = course(self.features[samples].astype(np.float64))
-            found[: min(EMBEDDED, len(told))] = told[:EMBEDDED]
+            numbers = course(self.features[samples].astype(np.float64))
+            found[: min(EMBEDDED, len(numbers))] = numbers[:EMBEDDED]
         return found
 
     def _samples(self, start_s: float, stop_s: float) -> slice:
@@ -151,12 +154,70 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
     if not signals.gaps:
         return found
     n = int((signals.n_frames - 1) / signals.fps * preset.rate + 1e-9) + 1
-    laid = np.full((n, found.shape[1]), NOWHERE, np.float32)
-    first = 0.0  # seconds of what was seen before the span
+    features = np.full((n, found.shape[1]), NOWHERE, np.float32)
+    first = 0.0  # seconds recorded before the span
     for start, stop in spans:
         at = np.arange(np.ceil(start / signals.fps * preset.rate), n)
         at = at[at / preset.rate < stop / signals.fps].astype(np.int64)
-        seen = np.rint((at / preset.rate - start / signals.fps + first) * preset.rate)
-        laid[at] = found[np.minimum(seen.astype(np.int64), len(found) - 1)]
+        sample = np.rint((at / preset.rate - start / signals.fps + first) * preset.rate)
+        features[at] = found[np.minimum(sample.astype(np.int64), len(found) - 1)]
         first += (stop - start) / signals.fps
-    return laid
+    return features
+
+
+def make_piece(
+    recording: Motion | Signals, settings: Settings
+) -> tuple[Piece, NDArray[np.float32], NDArray[np.float32] | None]:
+    """What is kept of a recording, its features, and its moments.
+
+    Parameters
+    ----------
+    recording : Motion or Signals
+    settings : Settings
+
+    Returns
+    -------
+    piece : Piece
+    features : (samples, dims) array
+    moments : (moments, 1 + 2 · channels) array, or None
+        Of signals: the second of each, means and deviations.
+    """
+    from kineme.segmentation.segmenter import segment
+
+    emg = settings.options().emg
+    found = segment(
+        recording,
+        preset=settings.preset,
+        effectors=settings.effectors,
+        emg=emg,
+        **settings.constants,
+    ).level(settings.detail)
+    described = describe(recording, effectors=settings.effectors, emg=emg)
+    embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
+    for row, each in enumerate(found.table):
+        if each.kind != "transition":
+            embeddings[row] = described.embedding(each.start_s, each.stop_s)
+    moments = _moments(recording) if isinstance(recording, Signals) else None
+    reason = f"not searched: {described.reason}" if described.reason else ""
+    facts = {
+        "format": recording.provenance.format or "",
+        "n_frames": recording.n_frames,
+        "fps": recording.fps,
+        "vocabulary": described.vocabulary,
+        "features_fps": described.fps,
+        "samples": len(described.features),
+        "moments": 0 if moments is None else len(moments),
+        "notes": [*found.provenance["notes"], *filter(None, [reason])],
+    }
+    return Piece(facts, found.table, embeddings), described.features, moments
+
+
+def _moments(signals: Signals) -> NDArray[np.float32]:
+    from kineme.transfer.channel_samples import channel_samples
+
+    found = channel_samples(signals)
+    columns = np.column_stack([found.frames / signals.fps, found.means, found.deviations])
+    clipped: NDArray[np.float32] = np.clip(columns, -LARGEST_MOMENT, LARGEST_MOMENT).astype(
+        np.float32
+    )
+    return clipped

@@ -113,7 +113,7 @@ class Edits:
 
     def write(self, folder: Path) -> None:
         """Leave them in the folder of a library."""
-        told = {
+        content = {
             "schema": SCHEMA,
             "names": {str(number): name for number, name in sorted(self.names.items())},
             "merged": {str(old): new for old, new in sorted(self.merged.items())},
@@ -122,7 +122,7 @@ class Edits:
                 for split in self.splits
             ],
         }
-        write_json(folder / EDITS, told)
+        write_json(folder / EDITS, content)
 
 
 def read_edits(folder: Path) -> Edits:
@@ -134,22 +134,22 @@ def read_edits(folder: Path) -> Edits:
         The file is damaged, or of another schema.
     """
     path = folder / EDITS
-    told = read_json(path)
-    if not told:
+    content = read_json(path)
+    if not content:
         return Edits()
-    if told.get("schema") != SCHEMA:
-        raise ReadError(path, f"is of the schema {told.get('schema')!r:.40}, not {SCHEMA}")
+    if content.get("schema") != SCHEMA:
+        raise ReadError(path, f"is of the schema {content.get('schema')!r:.40}, not {SCHEMA}")
     try:
         return Edits(
-            {_cluster(number): str(name) for number, name in told["names"].items()},
-            {_cluster(old): _cluster(new) for old, new in told["merged"].items()},
+            {_cluster(number): str(name) for number, name in content["names"].items()},
+            {_cluster(old): _cluster(new) for old, new in content["merged"].items()},
             tuple(
                 Split(
                     _cluster(one["cluster"]),
                     _cluster(one["into"]),
                     tuple(map(str, one["recordings"])),
                 )
-                for one in told["splits"]
+                for one in content["splits"]
             ),
         )
     except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:

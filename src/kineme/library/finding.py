@@ -2,27 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from os import PathLike
 
 import numpy as np
 
 from kineme._checks import is_number
-from kineme.errors import ParameterError
-from kineme.library.clusters import numbers_of
-from kineme.library.examples import features_of, one_vocabulary
+from kineme.errors import ParameterError, ReadError
+from kineme.formats.files import warn
+from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
-from kineme.library.index.kept import open_index
-from kineme.library.index.nearest import joined, parts_like
-from kineme.library.index.parts import Parts, Sought, matches_in
-from kineme.library.index.windows import Float32s, length_for
-from kineme.library.opened import OpenTables
+from kineme.library.index import Parts, Sought, joined, matches_in, parts_like
+from kineme.library.open_library import OpenTables, numbers_of
 from kineme.library.searching import Example, Hit, Named, best
+from kineme.library.sources import read_at
+from kineme.library.storage.index import open_index
 from kineme.library.storage.layout import BODIES, PIECES
+from kineme.library.storage.pieces import read_features
+from kineme.library.storage.places import place
+from kineme.library.windows import Float32s, length_for
+from kineme.recordings import Motion, Signals
+
+AnyPath = str | PathLike[str]
 
 TYPICAL = 5
 """Words that stand for a cluster in a search, the most typical ones."""
 
-
+BEYOND = 0.1
+"""Seconds: an example that stops so much after the end of its recording is rounded."""
 LARGEST, MOST_HITS = 1e6, 1 << 31
 
 
@@ -75,25 +82,25 @@ def hits_like(
     wanted = features_of(tables, examples, mirror=mirror)
     vocabulary = one_vocabulary(wanted)
     refused = [part for kind, part in features_of(tables, counterexamples) if kind == vocabulary]
-    own = [part for _, part in wanted]
-    sought = Sought(own, refused, threshold, None if max_per_recording else top)
-    parts = _whole(tables, vocabulary)
+    features = [part for _, part in wanted]
+    sought = Sought(features, refused, threshold, None if max_per_recording else top)
+    parts = _all_parts(tables, vocabulary)
     if top is not None and vocabulary == BODIES:
-        parts = _likely(tables, own, top) or parts
+        parts = _likely_parts(tables, features, top) or parts
     found = matches_in(tables.folder / PIECES, tables.recordings["piece"], parts, sought, executor)
     rows = list(found)
     chosen = best(list(found.values()), top=top, most=max_per_recording)
     return [_hit(tables, rows[i], *span) for i, span in chosen]
 
 
-def _whole(tables: OpenTables, vocabulary: str) -> Parts:
+def _all_parts(tables: OpenTables, vocabulary: str) -> Parts:
     """All recordings of a vocabulary."""
     rows = np.array(_rows_of(tables, vocabulary), np.int64)
     samples = np.array(tables.recordings["samples"], np.int64)[rows]
     return Parts(rows, np.zeros_like(rows), samples)
 
 
-def _likely(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
+def _likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
     """What is most like any of the examples, where there is an index that tells."""
     found = []
     for example in examples:
@@ -145,3 +152,109 @@ def _hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -
     cluster = int(segments["cluster"][rows][covers])
     label = tables.edits.name(cluster) if cluster >= 0 else ""
     return Hit(recording, start_s, stop_s, round(distance, 4), cluster, label)
+
+
+def as_examples(
+    like: AnyPath | Motion | Signals | Example | Hit | Sequence[Example | Hit] | None,
+    start_s: float,
+    stop_s: float | None,
+) -> list[Example]:
+    """What is searched for as examples; a hit is one of the library, whatever files there are."""
+    if like is None:
+        return []
+    if isinstance(like, str | PathLike | Motion | Signals):
+        return [Example(like, start_s, stop_s)]
+    given = list(like) if isinstance(like, Iterable) and not isinstance(like, Hit) else [like]
+    examples = []
+    for example in given:
+        if isinstance(example, Hit):
+            examples.append(Example(Named(example.recording), example.start_s, example.stop_s))
+        elif isinstance(example, Example):
+            examples.append(example)
+        else:
+            raise ParameterError(
+                f"an example is a file, a name, a recording, a Hit or an Example, not "
+                f"{example!r:.60}"
+            )
+    return examples
+
+
+def features_of(
+    tables: OpenTables, examples: Sequence[Example], *, mirror: bool = False
+) -> list[tuple[str, Float32s]]:
+    """Vocabulary and features of each example, and of its mirror image.
+
+    Parameters
+    ----------
+    tables : OpenTables
+    examples : sequence of Example
+    mirror : bool
+        The mirror images, too.
+
+    Raises
+    ------
+    ParameterError
+        An example starts where its recording has ended.
+    ReadError
+        It cannot be read, or has no body.
+    """
+    found = []
+    for example in examples:
+        for mirrored in (False, True)[: 1 + mirror]:
+            described = _description(tables, example.recording, mirrored=mirrored)
+            lasts = len(described.features) / described.fps
+            stop_s = lasts if example.stop_s is None else min(example.stop_s, lasts)
+            if not mirrored and example.stop_s is not None and example.stop_s > lasts + BEYOND:
+                warn(
+                    f"the example stops at {example.stop_s:g} s, its recording lasts "
+                    f"{lasts:.2f} s: taken to its end"
+                )
+            if example.start_s >= stop_s:
+                raise ParameterError(
+                    f"the example starts at {example.start_s:g} s, its recording lasts "
+                    f"{lasts:.2f} s"
+                )
+            found.append((described.vocabulary, described.between(example.start_s, stop_s)))
+    return found
+
+
+def one_vocabulary(wanted: Sequence[tuple[str, Float32s]]) -> str:
+    """What all examples are of; ParameterError where they do not compare."""
+    kinds = sorted({kind for kind, _ in wanted})
+    if len(kinds) > 1:
+        raise ParameterError(f"the examples do not compare with each other: {'; '.join(kinds)}")
+    return kinds[0]
+
+
+def _description(
+    tables: OpenTables, recording: AnyPath | Motion | Signals, *, mirrored: bool
+) -> Description:
+    """The features of a recording, from the library where it is one of it."""
+    recordings, settings = tables.recordings, tables.settings
+    if isinstance(recording, str) and (
+        isinstance(recording, Named) or not place(recording).exists()
+    ):
+        if recording not in recordings["recording"]:
+            raise ReadError(recording, "there is no such file, and no recording of that name")
+        if not mirrored:
+            row = recordings["recording"].index(recording)
+            features = read_features(tables.folder / PIECES, recordings["piece"][row])
+            described = Description(
+                recordings["vocabulary"][row], features, recordings["features_fps"][row]
+            )
+            return _comparable(described, recording)
+        recording = tables.path_of(recording)
+    example = recording
+    if not isinstance(example, Motion | Signals):
+        example = read_at(place(example), settings.reading)
+    emg = settings.options().emg
+    described = describe(example, effectors=settings.effectors, emg=emg, mirrored=mirrored)
+    return _comparable(described, example.provenance.path or "the example")
+
+
+def _comparable(described: Description, name: str) -> Description:
+    """The description, where there are features."""
+    if not described.vocabulary:
+        reason = described.reason or "it has no body that could be told"
+        raise ReadError(name, f"cannot be searched for: {reason}")
+    return described

@@ -1,27 +1,48 @@
-"""The pieces of the recordings of a build: those that are there, and those to be made."""
+"""The pieces of the recordings of a build: those that are there, and those to be made.
+
+Any executor makes them; whatever happens to one recording costs it only. What makes them takes a
+second to import, so that is left to the processes that do it: the one that waits for them has
+started them by then.
+
+Recordings of the same content are worked on once. Whole files are read for that only where sizes
+and a sample are equal, so few are that are not equal.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import warnings
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
 from threading import Thread
+from typing import NamedTuple
+
+from threadpoolctl import threadpool_limits
 
 from kineme._checks import is_text
-from kineme.errors import ReadError, WriteError
-from kineme.library.duplicates import by_content
-from kineme.library.executors import Executor
-from kineme.library.executors.here import Here
+from kineme._threads import map_threads
+from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
+from kineme.formats import read_quietly
+from kineme.formats.options import AnyPath
+from kineme.library.executors import Executor, InProcess, Progress, Watch
 from kineme.library.planning import Plan
-from kineme.library.progress import Progress, Watch
-from kineme.library.sources import Glances
+from kineme.library.settings import Settings
+from kineme.library.sources import FileStates, content_digest, fetched, size_of
 from kineme.library.storage.layout import SEEN, read_json, write_json
-from kineme.library.work import Outcome, Task, outcomes_of, tasks_for
+from kineme.library.storage.pieces import has_piece, write_piece
+from kineme.library.storage.places import is_remote
 
-Seen = dict[str, tuple[str, str]]
+States = dict[str, tuple[str, str]]
 UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
 """What is said of such a file."""
+SAMPLE = 4096
+"""Bytes from the middle of a file."""
+PER_WORKER = 1 << 20
+"""Bytes of recordings for which one process more is started: a start costs seconds."""
+DIED = "the process that worked on it died: it may need more memory than there is"
 
 
 @dataclass
@@ -63,23 +84,23 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     WriteError
         The folder cannot be written.
     """
-    seen = _seen(plan.folder / SEEN, progress)
-    glances = Glances(plan.settings.options().skeleton)
-    named = [path for path in found if is_text(str(path))]
-    looks = {path: glances.at(path) for path in named}
-    unnamed = [path for path in found if path not in looks]
-    there = Gathered(_unchanged(plan, looks, seen), failed=dict.fromkeys(unnamed, UNNAMED))
-    waiting = [path for path in named if path not in there.digests]
+    former = _former_states(plan.folder / SEEN, progress)
+    file_states = FileStates(plan.settings.options().skeleton)
+    readable = [path for path in found if is_text(str(path))]
+    states = {path: file_states.of(path) for path in readable}
+    unreadable = [path for path in found if path not in states]
+    gathered = Gathered(_unchanged(plan, states, former), failed=dict.fromkeys(unreadable, UNNAMED))
+    waiting = [path for path in readable if path not in gathered.digests]
     if waiting:
-        _make(plan, waiting, executor, progress, there)
-    told = {str(path): (looks[path], digest) for path, digest in there.digests.items()}
-    if told != seen:
-        write_json(plan.folder / SEEN, told)
-    return there
+        _make(plan, waiting, executor, progress, gathered)
+    present = {str(path): (states[path], digest) for path, digest in gathered.digests.items()}
+    if present != former:
+        write_json(plan.folder / SEEN, present)
+    return gathered
 
 
-def _seen(path: Path, progress: Progress) -> Seen:
-    """Look and digest of each recording when it was last read; none where the file is damaged."""
+def _former_states(path: Path, progress: Progress) -> States:
+    """State and digest of each recording when it was last read; none where the file is damaged."""
     try:
         return read_json(path, tuple[str, str])
     except ReadError as error:
@@ -87,13 +108,13 @@ def _seen(path: Path, progress: Progress) -> Seen:
         return {}
 
 
-def _unchanged(plan: Plan, looks: Mapping[Path, str], seen: Seen) -> dict[Path, str]:
+def _unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> dict[Path, str]:
     """Digests of recordings that look as they did, and have a piece."""
     digests = {}
-    whole = {piece.stem for piece in plan.pieces.glob("*.parquet")}
-    for path, look in looks.items():
-        glance, digest = seen.get(str(path), ("", ""))
-        if glance and glance == look and plan.settings.key(digest) in whole:
+    complete = {piece.stem for piece in plan.pieces.glob("*.parquet")}
+    for path, state in states.items():
+        known_state, digest = former.get(str(path), ("", ""))
+        if known_state and known_state == state and plan.settings.key(digest) in complete:
             digests[path] = digest
     return digests
 
@@ -110,7 +131,7 @@ def _make(
     groups = {
         group.tasks[0]: group for group in by_content(tasks, plan.settings.options().skeleton)
     }
-    if not isinstance(executor, Here):  # what comes next is imported while others work
+    if not isinstance(executor, InProcess):  # what comes next is imported while others work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
     watch = Watch(progress, len(tasks), sum(task.size for task in tasks))
     alone: list[Task] = []
@@ -137,3 +158,163 @@ def _note(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
     else:
         into.digests[task.path] = outcome.digest
     into.new += outcome.new
+
+
+class Group(NamedTuple):
+    """Tasks of equal content, and its digest; empty where there is one only."""
+
+    tasks: Sequence[Task]
+    digest: str
+
+
+def by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Group]:
+    """Groups of equal content, the largest first, as their tasks.
+
+    Parameters
+    ----------
+    tasks : iterable of Task
+    skeleton : path-like, optional
+        That all of them are read with.
+
+    Returns
+    -------
+    list of Group
+        What is elsewhere, and what cannot be read, is alone.
+    """
+    criteria: tuple[Callable[[Task], str], ...] = (
+        lambda task: "" if is_remote(task.path) else f"{task.size}",
+        _sample,
+        lambda task: _digest(task, skeleton),
+    )
+    groups = [Group(list(tasks), "")]
+    for criterion in criteria:
+        groups = [part for group in groups for part in _split(group, criterion)]
+    return sorted(groups, key=lambda group: (-group.tasks[0].size, group.tasks[0].path))
+
+
+def _split(group: Group, criterion: Callable[[Task], str]) -> list[Group]:
+    """The parts of a group of which a criterion says the same; what it says nothing of is alone."""
+    if len(group.tasks) < 2:
+        return [group]
+    parts: defaultdict[str | Task, list[Task]] = defaultdict(list)
+    for task, value in zip(group.tasks, map_threads(criterion, group.tasks), strict=True):
+        parts[value or task].append(task)
+    return [Group(part, key if isinstance(key, str) else "") for key, part in parts.items()]
+
+
+def _sample(task: Task) -> str:
+    """What is in the middle of a file."""
+    if task.path.is_dir():
+        return "folder"
+    try:
+        with task.path.open("rb") as file:
+            file.seek(max(task.size - SAMPLE, 0) // 2)
+            return sha256(file.read(SAMPLE)).hexdigest()
+    except OSError:
+        return ""
+
+
+def _digest(task: Task, skeleton: AnyPath | None) -> str:
+    try:
+        return content_digest(task.path, skeleton)
+    except ReadError:  # whoever works on it will say so
+        return ""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A recording to describe.
+
+    Attributes
+    ----------
+    path : Path
+    pieces : Path
+        Where its piece goes.
+    settings : Settings
+    size : int
+        Bytes of the recording.
+    """
+
+    path: Path
+    pieces: Path
+    settings: Settings
+    size: int
+
+    def __hash__(self) -> int:
+        return hash(self.path)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a task: the digest of its files, whose piece is there, or why it is not.
+
+    Attributes
+    ----------
+    digest : str
+    new : bool
+        Whether it was not there before.
+    error : str
+    fatal : bool
+        Whether others will fail alike, as on a full disk.
+    """
+
+    digest: str = ""
+    new: bool = False
+    error: str = ""
+    fatal: bool = False
+
+
+def tasks_for(paths: Iterable[Path], pieces: Path, settings: Settings) -> list[Task]:
+    """The tasks of recordings, the largest first: the last ones to be done are short."""
+    tasks = [Task(path, pieces, settings, size_of(path)) for path in paths]
+    return sorted(tasks, key=lambda task: (-task.size, task.path))
+
+
+def outcomes_of(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
+    """Each task and what came of it, as they come.
+
+    Parameters
+    ----------
+    tasks : sequence of Task
+    executor : Executor
+        Where they are worked on.
+
+    Yields
+    ------
+    task : Task
+    outcome : Outcome
+    """
+    for task, outcome in executor.completed(work_on, tasks, workers=workers_for(tasks)):
+        yield task, outcome or Outcome(error=DIED)
+
+
+def workers_for(tasks: Iterable[Task]) -> int:
+    """How many processes are worth to be started for so many and so large recordings."""
+    return 1 + sum(task.size for task in tasks) // PER_WORKER
+
+
+def work_on(task: Task) -> Outcome:
+    """Read, segment and describe a recording, unless its piece is there."""
+    try:
+        from kineme.library.descriptions import make_piece
+
+        with warnings.catch_warnings(), threadpool_limits(1):  # sums do not depend on threads
+            warnings.simplefilter("ignore", KinemeWarning)
+            options = task.settings.options()
+            with fetched(task.path, options.skeleton) as path:
+                digest = content_digest(path, options.skeleton)
+                key = task.settings.key(digest)
+                if has_piece(task.pieces, key):
+                    return Outcome(digest)
+                recording = read_quietly(path, options)
+            write_piece(task.pieces, key, *make_piece(recording, task.settings))
+    except (WriteError, MissingDependencyError) as error:
+        return Outcome(error=_reason(error), fatal=isinstance(error, WriteError))
+    except Exception as error:  # noqa: BLE001 (one recording never ends a build)
+        return Outcome(error=_reason(error))
+    return Outcome(digest, new=True)
+
+
+def _reason(error: BaseException) -> str:
+    text = " ".join(str(error).split())
+    return text if isinstance(error, KinemeError) else f"{type(error).__name__}: {text}"

@@ -11,14 +11,20 @@ from typing import Any, Self
 from kineme._checks import check_flag, check_path
 from kineme._counts import counted
 from kineme.errors import ParameterError
-from kineme.library.clusters import Cluster, Word, clusters_of, numbers_of, unsure_words
-from kineme.library.editing import merge_clusters, name_cluster, split_cluster
-from kineme.library.examples import as_examples
-from kineme.library.executors.cluster import connected
-from kineme.library.exporting import answer, table_called, write_hits, write_table
-from kineme.library.finding import hits_like, typical_examples
-from kineme.library.opened import OpenTables
-from kineme.library.pictures import write_pictures
+from kineme.library.executors import connected
+from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
+from kineme.library.finding import as_examples, hits_like, typical_examples
+from kineme.library.open_library import (
+    Cluster,
+    OpenTables,
+    Word,
+    clusters_of,
+    merge_clusters,
+    name_cluster,
+    numbers_of,
+    split_cluster,
+    unsure_words,
+)
 from kineme.library.searching import Example, Hit
 from kineme.library.settings import Settings
 from kineme.library.storage.layout import arrow

@@ -65,14 +65,14 @@ def plan_of(
     ParameterError
         There is nothing to build from, or what is to be removed is not known.
     """
-    known = known_sources(folder, sources, remove)
-    if not known and not head:
+    every = known_sources(folder, sources, remove)
+    if not every and not head:
         raise ParameterError(NOTHING.format(folder))
     before = head.get("sources", ())
-    missing = [each for each in known if not each.exists() and str(each) not in before]
+    missing = [each for each in every if not each.exists() and str(each) not in before]
     return Plan(
         folder,
-        tuple(each for each in known if each not in missing),
+        tuple(each for each in every if each not in missing),
         tuple(missing),
         bool(head.get("recursive")) if recursive is None else recursive,
         settings or (Settings.from_json(head["settings"]) if head else Settings()),
@@ -95,8 +95,8 @@ def known_sources(
     return [path for path in dict.fromkeys(sources) if path not in removed]
 
 
-def opened(into: AnyPath, told: Sequence[Path]) -> Path:
-    """The folder of a library, made where there is none, unless nothing is told."""
+def opened(into: AnyPath, named: Sequence[Path]) -> Path:
+    """The folder of a library, made where there is none, unless nothing is named."""
     folder = place(into, "build")
     if (folder / HEAD).is_file():
         read_head(folder)
@@ -105,7 +105,7 @@ def opened(into: AnyPath, told: Sequence[Path]) -> Path:
     try:
         if folder.exists() and not begun and (not folder.is_dir() or any(folder.iterdir())):
             raise WriteError(into, "is there already and is no library: name a new folder")
-        if not told and not begun:
+        if not named and not begun:
             raise ParameterError(NOTHING.format(folder))
         (folder / PIECES).mkdir(parents=True, exist_ok=True)
     except OSError as error:

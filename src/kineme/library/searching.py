@@ -108,15 +108,15 @@ def spans_like(
     top : int, optional
         Spans at most.
     """
-    found = _together(features, examples, threshold, None if counterexamples else top)
+    found = _union(features, examples, threshold, None if counterexamples else top)
     if counterexamples and len(found.starts):
-        others = _together(features, counterexamples, threshold, None)
+        others = _union(features, counterexamples, threshold, None)
         first = np.maximum(found.starts[:, None], others.starts[None])
         shared = np.minimum(found.stops[:, None], others.stops[None]) - first
         covers = shared >= REFUSED * (found.stops - found.starts)[:, None]
         nearer = others.distances[None] < found.distances[:, None]
-        kept = np.flatnonzero(~(covers & nearer).any(axis=1))
-        found = _picked(found, kept)
+        rows = np.flatnonzero(~(covers & nearer).any(axis=1))
+        found = _picked(found, rows)
     return _picked(found, slice(top))
 
 
@@ -147,7 +147,7 @@ def best(
     return [(i, (start, stop, distance)) for distance, i, start, stop in sorted(spans)[:top]]
 
 
-def _together(
+def _union(
     features: Float32s, examples: Sequence[Float32s], threshold: float, top: int | None
 ) -> Matches:
     """The spans that are like any of the examples, apart from each other, the best first."""
@@ -155,12 +155,12 @@ def _together(
     if len(found) == 1:
         return found[0]
     starts, stops, distances = (np.concatenate(column) for column in zip(*found, strict=True))
-    taken = np.zeros(len(features), np.bool_)
+    covered = np.zeros(len(features), np.bool_)
     chosen = []
     for i in np.lexsort((starts, distances)).tolist():
         span = slice(starts[i], stops[i])
-        if not taken[span].any():
-            taken[span] = True
+        if not covered[span].any():
+            covered[span] = True
             chosen.append(i)
     return Matches(starts[chosen], stops[chosen], distances[chosen])
 

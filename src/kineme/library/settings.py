@@ -1,4 +1,4 @@
-"""How the recordings of a library are read and segmented: the same for all of them."""
+"""How the recordings of a library are read and segmented, and how their clusters are joined."""
 
 from __future__ import annotations
 
@@ -14,6 +14,15 @@ from typing import Any
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
+from kineme.methods.constants import (
+    SHARE,
+    SOME,
+    SOME_LENGTH,
+    SOME_TIME,
+    check,
+    constant,
+    constants_of,
+)
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
@@ -58,8 +67,8 @@ class Settings:
     def __post_init__(self) -> None:
         if not isinstance(self.preset, str):
             raise ParameterError(f"a library takes the name of a preset, not {self.preset!r:.60}")
-        held: dict[str, Any] = {"constants": self.constants, "reading": self.reading}
-        for name, given in held.items():
+        mappings: dict[str, Any] = {"constants": self.constants, "reading": self.reading}
+        for name, given in mappings.items():
             if not (isinstance(given, Mapping) and all(isinstance(key, str) for key in given)):
                 raise ParameterError(f"{name} must be values by their names, not {given!r:.60}")
         resolve_preset(self.preset, **self.constants)
@@ -71,18 +80,18 @@ class Settings:
         try:
             return ReadOptions(**self.reading)
         except TypeError:
-            known = ", ".join(ReadOptions.__dataclass_fields__)
+            names = ", ".join(ReadOptions.__dataclass_fields__)
             raise ParameterError(
-                f"recordings are read with {known}, not with {', '.join(self.reading)}"
+                f"recordings are read with {names}, not with {', '.join(self.reading)}"
             ) from None
 
     def to_json(self) -> dict[str, Any]:
         """What JSON can hold of them; ``Settings.from_json`` takes it back."""
-        held: dict[str, Any] = json.loads(json.dumps(asdict(self), default=_plain))
-        return held
+        content: dict[str, Any] = json.loads(json.dumps(asdict(self), default=_plain))
+        return content
 
     @classmethod
-    def from_json(cls, held: Mapping[str, Any]) -> Settings:
+    def from_json(cls, content: Mapping[str, Any]) -> Settings:
         """Settings as `to_json` gave them.
 
         Raises
@@ -91,10 +100,10 @@ class Settings:
             They are not.
         """
         try:
-            constants = {name: _tupled(value) for name, value in held["constants"].items()}
-            reading = {name: _tupled(value) for name, value in held["reading"].items()}
-            detail = held.get("detail", DEFAULT_DETAIL)  # libraries of before have none
-            return cls(held["preset"], constants, reading, held["effectors"], detail)
+            constants = {name: _tupled(value) for name, value in content["constants"].items()}
+            reading = {name: _tupled(value) for name, value in content["reading"].items()}
+            detail = content.get("detail", DEFAULT_DETAIL)  # libraries of before have none
+            return cls(content["preset"], constants, reading, content["effectors"], detail)
         except (KeyError, TypeError, AttributeError) as error:
             raise ParameterError(
                 "the settings of the library are not as they were written: build it anew"
@@ -112,8 +121,8 @@ class Settings:
             with suppress(ParameterError):  # constants of one that the other does not have
                 chosen = resolve_preset(self.preset, signals=signals, **self.constants)
                 presets.append([chosen.name, dict(chosen.parameters())])
-        told = [PIECE, __version__, presets, self.to_json()]
-        return sha256(json.dumps(told, sort_keys=True, default=_plain).encode()).hexdigest()
+        content = [PIECE, __version__, presets, self.to_json()]
+        return sha256(json.dumps(content, sort_keys=True, default=_plain).encode()).hexdigest()
 
 
 def _plain(value: Any) -> Any:
@@ -122,3 +131,50 @@ def _plain(value: Any) -> Any:
 
 def _tupled(value: Any) -> Any:
     return tuple(value) if isinstance(value, list) else value
+
+
+@dataclass(frozen=True, kw_only=True)
+class VocabularyConstants:
+    """How the clusters of single recordings are joined; distances are those of a search."""
+
+    join: float = constant(
+        "words are joined up to this mean distance, that of a search", limits=SOME_LENGTH,
+        default=0.85,
+    )  # fmt: skip
+    farthest: float = constant(
+        "no two words are farther apart", limits=SOME_LENGTH, default=2.0, fine=True
+    )
+    told_apart: float = constant(
+        "those of one recording are as far apart at least", limits=SOME_LENGTH, default=1.3,
+        fine=True,
+    )  # fmt: skip
+    longest_example: float = constant(
+        "an example is cut to this", unit="s", limits=SOME_TIME, default=4.0, fine=True
+    )
+    longest_context: float = constant(
+        "and what it is looked for in to this", unit="s", limits=SOME_TIME, default=12.0, fine=True
+    )
+    most: int = constant(
+        "words compared each with each; of more a sample is", limits=SOME, default=400, fine=True
+    )
+    typical: int = constant(
+        "words of each cluster that the others are compared with", limits=SOME, default=5, fine=True
+    )
+    nearest: int = constant(
+        "clusters whose embeddings are nearest, of which a word may be", limits=SOME, default=4,
+        fine=True,
+    )  # fmt: skip
+    unsure: float = constant(
+        "confidence below which a word is shown as unsure", limits=SHARE, default=0.1,
+        fine=True,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        check(self)
+
+    def parameters(self) -> Mapping[str, Any]:
+        """The value of each constant by name, for the head of a library."""
+        return {each.name: each.value for each in constants_of(self)}
+
+
+VOCABULARY = VocabularyConstants()

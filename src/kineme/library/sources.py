@@ -1,18 +1,24 @@
-"""Which files a recording is read from, whether they changed, and what it is called."""
+"""Recordings wherever they are: which files they are read from, listed, named and read."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
 
-from kineme.errors import ReadError
+from kineme.errors import FileError, ReadError
+from kineme.formats import read
 from kineme.formats.keypoints.openpose import frame_files
+from kineme.formats.listing import holds_recording, recordings_in
 from kineme.formats.options import AnyPath
 from kineme.formats.skeletons.amc import find_skeleton
-from kineme.library.storage.places import lies_in
-from kineme.library.storage.recordings import recordings_under
+from kineme.library.storage.places import is_remote, lies_in, reaching
+from kineme.recordings import Motion, Signals
 
 CHUNK = 1 << 20
 """Bytes that are digested at a time."""
@@ -50,38 +56,38 @@ def content_digest(path: Path, skeleton: AnyPath | None) -> str:
     ReadError
         A file cannot be opened.
     """
-    told = sha256(path.suffix.lower().encode())
+    digest = sha256(path.suffix.lower().encode())
     try:
         for file in files_of(path, skeleton):
-            own = sha256()
+            of_file = sha256()
             with file.open("rb") as content:
                 while chunk := content.read(CHUNK):
-                    own.update(chunk)
-            told.update(own.digest())
+                    of_file.update(chunk)
+            digest.update(of_file.digest())
     except OSError as error:
         raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
-    return told.hexdigest()
+    return digest.hexdigest()
 
 
-class Glances:
-    """What files look like from outside: whether they changed is told without reading them."""
+class FileStates:
+    """Sizes and times of files: whether they changed, without reading them."""
 
     def __init__(self, skeleton: AnyPath | None):
         self._skeleton = None if skeleton is None else Path(skeleton)
         self._near = cache(_skeletons_in)
 
-    def at(self, path: Path) -> str:
+    def of(self, path: Path) -> str:
         """Sizes and times of a recording's files, and of the skeletons near an AMC."""
         try:
             if path.is_dir():
-                return _looks(sorted(path.iterdir()))
+                return _state(sorted(path.iterdir()))
             if self._skeleton is not None:
-                return _looks([path, self._skeleton])
+                return _state([path, self._skeleton])
             if path.suffix.lower() != _AMC:
-                return _looks([path])
+                return _state([path])
             home = path.parent
             near = [self._near(each) for each in (home, home / "asf", home.parent / "asf")]
-            return " ".join([_looks([path]), *near]).strip()
+            return " ".join([_state([path]), *near]).strip()
         except OSError:
             return ""
 
@@ -114,36 +120,36 @@ def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[P
     return found
 
 
-def names_of(found: Mapping[Path, Path], known: Mapping[Path, str]) -> dict[Path, str]:
+def names_of(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Path, str]:
     """A name for each recording: its path in its source, with more folders where two are equal.
 
     Parameters
     ----------
     found : mapping of Path to Path
         Recordings and their sources.
-    known : mapping of Path to str
+    former : mapping of Path to str
         Names that are given already; they stay.
 
     Returns
     -------
     dict of Path to str
     """
-    names = {path: known[path] for path in found if path in known}
-    taken = set(names.values())
+    names = {path: former[path] for path in found if path in former}
+    used = set(names.values())
     for path, source in found.items():
         if path in names:
             continue
         depth = 1 if path == source else len(path.parts) - len(source.parts)
-        while (name := "/".join(path.parts[-depth:])) in taken and depth < len(path.parts):
+        while (name := "/".join(path.parts[-depth:])) in used and depth < len(path.parts):
             depth += 1
         names[path] = name
-        taken.add(name)
+        used.add(name)
     return {path: names[path] for path in found}
 
 
-def _looks(files: Iterable[Path]) -> str:
+def _state(files: Iterable[Path]) -> str:
     stats = ((file.name, file.stat()) for file in files)
-    return " ".join(f"{name}:{seen.st_size}:{seen.st_mtime_ns}" for name, seen in stats)
+    return " ".join(f"{name}:{found.st_size}:{found.st_mtime_ns}" for name, found in stats)
 
 
 def _skeletons_in(folder: Path) -> str:
@@ -151,4 +157,46 @@ def _skeletons_in(folder: Path) -> str:
         files = sorted(file for file in folder.iterdir() if file.suffix.lower() == ".asf")
     except OSError:
         return ""
-    return sha256(_looks(files).encode()).hexdigest()[:16] if files else ""
+    return sha256(_state(files).encode()).hexdigest()[:16] if files else ""
+
+
+def recordings_under(folder: Path, *, recursive: bool) -> list[Path]:
+    """The recordings in a folder; elsewhere, only such as are one file."""
+    if not is_remote(folder):
+        return recordings_in(folder, recursive=recursive).recordings
+    there: Any = folder
+    inside = there.fs.find(there.path, maxdepth=None if recursive else 1)
+    home = there.path.rstrip("/") + "/"
+    paths = [folder / name.removeprefix(home) for name in sorted(inside)]
+    return [path for path in paths if not path.name.startswith(".") and holds_recording(path)]
+
+
+@contextmanager
+def fetched(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
+    """A recording on this machine, with the skeleton of an AMC beside it, as long as the block.
+
+    What is wrong with it is said of ``path``.
+    """
+    if not is_remote(path):
+        yield path
+        return
+    files = [path]
+    with TemporaryDirectory(prefix="kineme-") as home:
+        with reaching(path):
+            if path.suffix.lower() == ".amc" and skeleton is None:
+                files.append(find_skeleton(path))
+            for file in files:
+                (Path(home) / file.name).write_bytes(file.read_bytes())
+        try:
+            yield Path(home) / path.name
+        except FileError as error:
+            raise ReadError(path, error.reason) from error
+
+
+def read_at(path: Path, reading: Mapping[str, Any]) -> Motion | Signals:
+    """The recording at a place, with keywords of `kineme.read`."""
+    if not is_remote(path):
+        return read(path, **reading)
+    with fetched(path, reading.get("skeleton")) as here:
+        found = read(here, **reading)
+    return replace(found, provenance=replace(found.provenance, path=str(path)))

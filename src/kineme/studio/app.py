@@ -16,18 +16,16 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from kineme.errors import KinemeError, ReadError, SeveralPeopleError, WriteError
-from kineme.studio.http.answers import MessageResponse
-from kineme.studio.http.bodies import TooSlowError
+from kineme.studio.http.bodies import LIMIT, MessageResponse, TooLargeError, TooSlowError
 from kineme.studio.http.events import Hub
 from kineme.studio.http.security import Guard, is_trusted
-from kineme.studio.http.uploads import LIMIT, TooLargeError
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.routes import Api
 from kineme.web.messages import Conflict, Failure
 
 if TYPE_CHECKING:
-    from kineme.studio.library.shown import ShownLibrary
+    from kineme.studio.library import ShownLibrary
 
 STATIC = Path(__file__).parents[1] / "web" / "static"
 PAGE, LIBRARY_PAGE = "studio.html", "library.html"
@@ -98,7 +96,7 @@ def create_app(
         exception_handlers={
             **handlers,
             ConflictError: _conflict,
-            ClientDisconnect: _gone,
+            ClientDisconnect: _disconnected,
             HTTPException: _http_error,
             Exception: _failed,
         },
@@ -110,7 +108,7 @@ def library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> 
     """The addresses of a library, if there is one."""
     if library is None:
         return []
-    from kineme.studio.library.routes import LibraryApi  # reads Parquet
+    from kineme.studio.library_routes import LibraryApi  # reads Parquet
 
     return LibraryApi(library, recordings).routes()
 
@@ -129,7 +127,7 @@ def _conflict(_: Request, error: Exception) -> Response:
     return MessageResponse(Conflict(**fields, error=str(error)), 409)
 
 
-def _gone(_: Request, __: Exception) -> Response:
+def _disconnected(_: Request, __: Exception) -> Response:
     return Response(status_code=400)  # nobody is there to read it
 
 

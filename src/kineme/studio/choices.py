@@ -69,7 +69,7 @@ def check_offered(preset: str, parameters: Mapping[str, float], *, signals: bool
         No such preset, a constant that is not offered, or one outside its limits.
     """
     resolve_preset(preset)
-    offered = {known.name: known for known in _parameters(preset, signals=signals)}
+    offered = {each.name: each for each in _parameters(preset, signals=signals)}
     for name, value in parameters.items():
         if name not in offered:
             raise ParameterError(f"{preset} offers {', '.join(offered)}, not {name!r:.40}")
@@ -93,16 +93,16 @@ def same_again(table: Segmentation, *, signals: bool) -> SegmentAgain:
     SegmentAgain
         Which keeps nothing of the table.
     """
-    said = table.provenance
-    preset, detail = str(said.get("preset")), said.get("detail")
-    values = said.get("parameters") if preset in PRESETS else None
+    provenance = table.provenance
+    preset, detail = str(provenance.get("preset")), provenance.get("detail")
+    values = provenance.get("parameters") if preset in PRESETS else None
     preset = preset if preset in PRESETS else DEFAULT
-    known = values if isinstance(values, Mapping) else {}
+    given = values if isinstance(values, Mapping) else {}
     parameters = {
-        each.name: float(known[each.name])
+        each.name: float(given[each.name])
         for each in _parameters(preset, signals=signals)
-        if isinstance(known.get(each.name), int | float)
-        and each.minimum <= known[each.name] <= each.maximum
+        if isinstance(given.get(each.name), int | float)
+        and each.minimum <= given[each.name] <= each.maximum
     }
     return SegmentAgain(
         preset=preset,
@@ -121,9 +121,9 @@ def export_formats() -> list[ExportFormat]:
     """
     return [
         *(
-            ExportFormat(name=known.name, suffix=known.download_suffix, help=known.help)
-            for known in label_formats().values()
-            if known.write
+            ExportFormat(name=each.name, suffix=each.download_suffix, help=each.help)
+            for each in label_formats().values()
+            if each.write
         ),
         ExportFormat(name=CLIPS, suffix=".zip", help="A motion file per segment"),
         ExportFormat(
@@ -138,23 +138,23 @@ def _parameters(preset: str, *, signals: bool) -> list[Parameter]:
     if type(chosen) is type(other):
         constants = tuple(map(_of_signals, chosen.constants(), constants))
     return [
-        _parameter(known, known.slider)
-        for known in constants
-        if known.slider is not None and known.value is not None
+        _parameter(each, each.slider)
+        for each in constants
+        if each.slider is not None and each.value is not None
     ]
 
 
-def _parameter(known: Constant, slider: Slider) -> Parameter:
+def _parameter(declared: Constant, slider: Slider) -> Parameter:
     """A constant with a slider that can stand at the preset's own value."""
-    below = math.floor((known.value - slider.minimum) / slider.step + 1e-6)
+    below = math.floor((declared.value - slider.minimum) / slider.step + 1e-6)
     return Parameter(
-        name=known.name,
-        help=known.help,
-        value=known.value,
-        minimum=known.value - below * slider.step,
+        name=declared.name,
+        help=declared.help,
+        value=declared.value,
+        minimum=declared.value - below * slider.step,
         maximum=slider.maximum,
         step=slider.step,
-        unit=known.unit,
+        unit=declared.unit,
     )
 
 

@@ -18,7 +18,7 @@ from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
-from kineme.studio.http.uploads import safe_name
+from kineme.studio.http.bodies import safe_name
 from kineme.studio.open_recording import OpenRecording
 from kineme.web.page_data import Shown
 
@@ -96,17 +96,17 @@ def table_file(
     ParameterError
         No such format.
     """
-    known = label_formats().get(name)
-    if known is None or known.write is None:
+    label_format = label_formats().get(name)
+    if label_format is None or label_format.write is None:
         raise ParameterError(f"there is no format {name!r:.40}")
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
-        place = Path(folder) / known.folder
+        place = Path(folder) / label_format.folder
         place.mkdir(exist_ok=True)
-        path = place / f"{stem}{known.written_suffix}"
+        path = place / f"{stem}{label_format.written_suffix}"
         write_segments(
-            segmentation, path, format=name, level=None if known.holds == "all" else level
+            segmentation, path, format=name, level=None if label_format.holds == "all" else level
         )
-        if not known.several:  # what else lies there, as a CSV's provenance, other formats hold
+        if not label_format.several:  # other formats hold what else lies there, as provenance
             return path.name, path.read_bytes()
         return _one_file(Path(folder), stem)
 

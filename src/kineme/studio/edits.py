@@ -100,7 +100,7 @@ def edited(
         return Outcome(table)
     if type(edit) in BY_HAND:
         after = _by_hand(table, edit)
-        return Outcome(after, _told(table, after, edit))
+        return Outcome(after, _cluster_notes(table, after, edit))
     if isinstance(edit, sent.SegmentAgain):
         keep = True if edit.keep is UNSET else edit.keep
         detail = DEFAULT_DETAIL if edit.detail is UNSET else edit.detail
@@ -113,10 +113,10 @@ def edited(
         return _labelled(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
     if isinstance(edit, sent.TakeLabels):
         path = files.annotation(edit.annotation)
-        said = labels_for(
+        labels = labels_for(
             loaded.path, path, n_frames=table.n_frames, fps=table.fps, clock=table.clock
         )
-        return Outcome(said, [f"the table is that of {path.name}"], replaced=True)
+        return Outcome(labels, [f"the table is that of {path.name}"], replaced=True)
     if isinstance(edit, sent.Restore):
         return Outcome(version(edit.version), replaced=True)
     raise ParameterError(f"there is no edit {type(edit).__name__}")
@@ -132,24 +132,24 @@ def _by_hand(table: Segmentation, edit: Struct) -> Segmentation:
     return replace(after, annotation=replace(after.annotation, corrections=count))
 
 
-def _told(before: Segmentation, after: Segmentation, edit: Struct) -> list[str]:
+def _cluster_notes(before: Segmentation, after: Segmentation, edit: Struct) -> list[str]:
     """How many segments a change of a cluster reached, and how many keep a name of their own."""
     if not isinstance(edit, sent.NameCluster | sent.MergeClusters):
         return []
     cluster = edit.cluster if isinstance(edit, sent.NameCluster) else edit.into
     name = editing.cluster_names(after).get(cluster, "")
     members = after.table.select(after.table.cluster == cluster)
-    own = int((members.label != name).sum())
-    called = (
-        f"{len(members) - own} segments are called “{name}”"
+    others = int((members.label != name).sum())
+    named = (
+        f"{len(members) - others} segments are called “{name}”"
         if name
-        else (f"{len(members) - own} segments have no name")
+        else (f"{len(members) - others} segments have no name")
     )
-    more = f"{own} keep their own name" if own else ""
+    more = f"{others} keep their own name" if others else ""
     moved = int((before.table.cluster == edit.cluster).sum())
     merged = isinstance(edit, sent.MergeClusters)
     joined = f"{moved} segments are in cluster {cluster} now" if merged else ""
-    return ["; ".join(filter(None, [joined, called, more]))]
+    return ["; ".join(filter(None, [joined, named, more]))]
 
 
 def _labelled(

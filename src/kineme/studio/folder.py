@@ -1,18 +1,27 @@
 """What there is to open: the files of a folder, each known to the page by an id.
 
 An id says nothing and is good for nothing but to find one of the files that
-are listed at that moment, so that no request can name any other.
+are listed at that moment, so that no request can name any other. How far each
+recording is, its table tells; the recording is not opened for it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
 from hashlib import blake2b
 from pathlib import Path
 
+from kineme.errors import KinemeError
 from kineme.formats.listing import files_in, holds_recording
-from kineme.labels import holds_labels
-from kineme.studio.kept.storage import usual_tables
+from kineme.labels import holds_labels, read_segments
+from kineme.segments.editing.marks import marked
+from kineme.studio.reading import stamp_of
+from kineme.studio.storage.tables import usual_table, usual_tables
+
+MOST_KNOWN = 10_000
+"""Tables whose counts stay in memory."""
 
 
 def file_id(path: Path) -> str:
@@ -59,8 +68,8 @@ class Folder:
 
     def annotations(self) -> dict[str, Path]:
         """The label files by id, without the tables that the studio itself saves."""
-        own = {table for path in self.recordings().values() for table in usual_tables(path)}
-        found = [path for path in self._listed() if path not in own and holds_labels(path)]
+        tables = {table for path in self.recordings().values() for table in usual_tables(path)}
+        found = [path for path in self._listed() if path not in tables and holds_labels(path)]
         return {file_id(path): path for path in found}
 
     def _listed(self) -> list[Path]:
@@ -68,3 +77,44 @@ class Folder:
             return files_in(self.root)
         except OSError:
             return []
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How many segments a table has, are checked, have a name, and are no transitions."""
+
+    segments: int
+    checked: int
+    named: int
+    to_name: int
+
+
+def progress(recording: Path) -> Progress | None:
+    """How far a recording is, as its table says.
+
+    Parameters
+    ----------
+    recording : Path
+
+    Returns
+    -------
+    Progress or None
+        None where it has no table, or one that cannot be read.
+    """
+    path = usual_table(recording)
+    try:
+        return _counts(path, *stamp_of(path)) if path else None
+    except Exception:  # noqa: BLE001 (a table that is damaged in any way costs itself only)
+        return None
+
+
+@lru_cache(MOST_KNOWN)
+def _counts(path: Path, *_: int) -> Progress | None:
+    """Of the file as it was at that time; a file that is no table counts for none."""
+    try:
+        table = read_segments(path, format="json")
+    except KinemeError:
+        return None
+    named = int((table.table.label != "").sum())
+    to_name = int((table.table.kind != "transition").sum())
+    return Progress(len(table), len(marked(table, "checked")), named, to_name)

@@ -7,32 +7,44 @@ by them a page finds again what an edit was made on. An edit has a name of its o
 one that is sent again, for want of an answer, is made once. It counts once its
 result and the history are on the disk: one that was acknowledged outlives the
 server, one that was not has changed nothing.
+
+The segments of a recording that has no table yet are found while it is shown.
 """
 
 from __future__ import annotations
 
 import threading
 import uuid
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future, wait
 from pathlib import Path
 
-from msgspec import structs
+from msgspec import UNSET, structs
 
 from kineme.errors import KinemeError, ParameterError
+from kineme.segments import editing
+from kineme.segments.editing.carrying import names_of
+from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import Surroundings, edited
-from kineme.studio.first_segments import FirstSegments
-from kineme.studio.kept.journal import Change, Journal
-from kineme.studio.kept.reading_of_one import notes_on_reading, said_of
-from kineme.studio.kept.storage import ChangedOnDiskError, saved_table
-from kineme.studio.kept.videos import notes_on_video, video_message
-from kineme.studio.kept.vocabulary import notes_on_labels
 from kineme.studio.loading import LoadedRecording, digest_in
-from kineme.studio.looks import preview_of, versions_of
 from kineme.studio.reading import RecordingCache
+from kineme.studio.storage.journal import Change, Journal, Step
+from kineme.studio.storage.sidecars import (
+    notes_on_labels,
+    notes_on_reading,
+    notes_on_video,
+    options_of,
+    video_message,
+)
+from kineme.studio.storage.tables import ChangedOnDiskError, saved_table
 from kineme.web.edits import Edit, Redo, Undo
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
 from kineme.web.requests import PreviewRequest
 
+Found = tuple[Segmentation, list[str]]
+SOON = 3.0
+"""Seconds that a page waits for segments; the first ones of all take longer, to compile."""
 STILL_FINDING = "the segments are still being found: try again once they are"
 
 
@@ -144,7 +156,7 @@ class OpenRecording:
                 ids=self._journal.ids.of(self._table),
                 saved=self._saved,
                 video=video_message(self.path),
-                reading=said_of(self.path),
+                reading=options_of(self.path),
                 finding=self.finding,
                 warnings=[*shown.warnings, *self._notes, *self._side_notes()],
             )
@@ -202,16 +214,16 @@ class OpenRecording:
     def versions(self) -> list[Version]:
         """The tables that were replaced, the latest first."""
         with self._lock:
-            kept = self._journal.kept()
-            tables = {number: self._journal.table(number) for number in kept}
-        return versions_of(kept, tables)
+            steps = self._journal.versions()
+            tables = {number: self._journal.table(number) for number in steps}
+        return versions_of(steps, tables)
 
     def version(self, number: int) -> Comparison:
         """A table that was replaced, to lay beside the present one."""
         from kineme.web.page_data import segments_message
 
         with self._lock:
-            at = self._journal.kept()[number].at if number in self._journal.kept() else ""
+            at = self._journal.versions()[number].at if number in self._journal.versions() else ""
             table = self._version(number)
         return Comparison(name=at, segmentation=segments_message(table), scores={})
 
@@ -226,7 +238,7 @@ class OpenRecording:
         return change, outcome.notes
 
     def _version(self, number: int) -> Segmentation:
-        if number not in self._journal.kept():
+        if number not in self._journal.versions():
             raise ParameterError(f"there is no version {number} of this table")
         return self._journal.table(number)
 
@@ -261,3 +273,65 @@ class OpenRecording:
     def _saved(self) -> str:
         """The name of the table's file, empty as long as there is none."""
         return self._file.path.name if self._file.exists else ""
+
+
+class FirstSegments:
+    """Segments that a thread is finding.
+
+    Parameters
+    ----------
+    find : callable
+        Gives a table and notes for people.
+    """
+
+    def __init__(self, find: Callable[[], Found]):
+        self._found: Future[Found] = Future()
+        # Not one of a pool: those are waited for when the server ends.
+        threading.Thread(target=self._run, args=[find], name="segments", daemon=True).start()
+
+    def _run(self, find: Callable[[], Found]) -> None:
+        try:
+            self._found.set_result(find())
+        except Exception as error:  # noqa: BLE001 (raised where it is asked for)
+            self._found.set_exception(error)
+
+    def are_soon(self) -> bool:
+        """Whether they are there within the time that people wait for."""
+        return bool(wait([self._found], SOON).done)
+
+    def result(self) -> Found:
+        """Table and notes, as soon as they are there; whatever finding them raised."""
+        return self._found.result()
+
+
+def preview_of(before: Segmentation, loaded: LoadedRecording, wanted: PreviewRequest) -> Preview:
+    """What segmenting again would make of a table."""
+    from kineme.web.page_data import segments_message
+
+    detail = DEFAULT_DETAIL if wanted.detail is UNSET else wanted.detail
+    found = loaded.segment(wanted.preset, wanted.parameters, detail)
+    result = editing.carried(before, found)
+    lost = [f"{result.corrections} corrections and {result.names} names"]
+    return Preview(
+        segmentation=segments_message(result.segmentation if wanted.keep else found),
+        corrections=result.corrections,
+        names=result.names,
+        lost=result.lost if wanted.keep else lost,
+        details=list(found.hierarchy.details) if found.hierarchy else [DEFAULT_DETAIL],
+        detail=found.hierarchy.detail if found.hierarchy else DEFAULT_DETAIL,
+    )
+
+
+def versions_of(steps: Mapping[int, Step], tables: Mapping[int, Segmentation]) -> list[Version]:
+    """Tables that were replaced, by their numbers, in the same order."""
+    return [
+        Version(
+            number=number,
+            at=step.at,
+            edit=step.edit,
+            segments=len(tables[number]),
+            corrections=tables[number].annotation.corrections,
+            names=names_of(tables[number]),
+        )
+        for number, step in steps.items()
+    ]

@@ -1,4 +1,7 @@
-"""The open recordings of a folder, each found by its id."""
+"""The open recordings of a folder, each found by its id.
+
+A large recording is shown while it is read: poses evenly apart, without segments.
+"""
 
 from __future__ import annotations
 
@@ -9,21 +12,28 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from msgspec import UNSET
+from msgspec import UNSET, Struct
 
 from kineme.errors import KinemeError, ParameterError
+from kineme.formats import sketch
 from kineme.studio.choices import same_again
 from kineme.studio.folder import Folder
-from kineme.studio.kept.reading_of_one import keep_options, said_of
+from kineme.studio.loading import one_segment
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.reading import ReadingOptions, RecordingCache
-from kineme.studio.sketches import OF_SKETCH, Sketched, sketched
-from kineme.web.messages import Edited, Recording
+from kineme.studio.storage.sidecars import keep_options, options_of, read_options, video_message
+from kineme.web.messages import Edited, MatrixHead, Recording
 from kineme.web.requests import EditRequest
 
 Listener = Callable[[str, int], None]
 MOST_DRAWN = 6
 """Recordings whose pictures stay in memory: those asked for last."""
+LARGE = 16_000_000
+"""Bytes of a file that takes more than a second to read."""
+POSES = 18_000
+"""Of a sketch, at most: five a second of an hour."""
+OF_SKETCH = 0
+"""The revision that a sketch has; tables have others."""
 NO_OPTIONS = ReadingOptions()
 
 
@@ -78,17 +88,17 @@ class OpenRecordings:
             It cannot be read.
         """
         self._forget_others(name)
-        known = self._open.get(name)
-        if known is not None and not known.loaded.changed():
-            return known
+        present = self._open.get(name)
+        if present is not None and not present.loaded.changed():
+            return present
         path = _found(self.folder.recordings(), name, "recording")
         with self._lock:
             opening = self._opening.setdefault(name, threading.Lock())
         with opening:
-            known = self._open.get(name)
-            if known is None or known.loaded.changed():
-                return self._opened(name, path, known)
-            return known
+            present = self._open.get(name)
+            if present is None or present.loaded.changed():
+                return self._opened(name, path, present)
+            return present
 
     def _opened(self, name: str, path: Path, before: OpenRecording | None) -> OpenRecording:
         """Open a recording, perhaps once more, and say later when its segments are there."""
@@ -107,9 +117,9 @@ class OpenRecordings:
             self._asked.move_to_end(name)
             while len(self._asked) > MOST_DRAWN:
                 last, _ = self._asked.popitem(last=False)
-                gone = self._open.get(last)
-                if gone is not None:
-                    gone.loaded.forget_pictures()
+                idle = self._open.get(last)
+                if idle is not None:
+                    idle.loaded.forget_pictures()
                     self._sketches.pop(last, None)
 
     def _in_background(self, work: Callable[[], None]) -> None:
@@ -177,19 +187,19 @@ class OpenRecordings:
         """The recording's table after an edit, as `OpenRecording.edit` makes it."""
         if sent.revision == OF_SKETCH:
             raise ParameterError(STILL_FINDING)
-        called = "" if sent.name is UNSET else sent.name
-        result = self.get(name).edit(sent.revision, sent.edit, self, name=called)
+        edit_name = "" if sent.name is UNSET else sent.name
+        result = self.get(name).edit(sent.revision, sent.edit, self, name=edit_name)
         self._changed(name, result.revision)
         return result
 
-    def read_as(self, name: str, said: dict[str, Any]) -> None:
+    def read_as(self, name: str, options: dict[str, Any]) -> None:
         """Read a recording otherwise from now on; its table is made anew, the one before kept.
 
         Parameters
         ----------
         name : str
             The id.
-        said : dict
+        options : dict
             By the names of `kineme.formats.ReadOptions`; what is not in it is as of all.
 
         Raises
@@ -198,19 +208,19 @@ class OpenRecordings:
             It cannot be read so, and is read as before.
         """
         path = _found(self.folder.recordings(), name, "recording")
-        before = said_of(path)
-        keep_options(path, said)
+        before = options_of(path)
+        keep_options(path, options)
         try:
             self._cache.read(path)
         except KinemeError:
             keep_options(path, before)
             raise
-        known = self._open.get(name)
-        opened = self._opened(name, path, known)
+        former = self._open.get(name)
+        opened = self._opened(name, path, former)
         if opened.table_path.exists():
-            of = opened if known is None else known
+            shown = opened if former is None else former
             signals = not opened.loaded.is_motion
-            opened.edit(opened.revision, same_again(of.table, signals=signals), self)
+            opened.edit(opened.revision, same_again(shown.table, signals=signals), self)
         self._changed(name, opened.revision)
 
     def people(self, name: str) -> list[str]:
@@ -230,3 +240,60 @@ def _found(files: dict[str, Path], name: str, what: str) -> Path:
     if name not in files:
         raise UnknownError(f"there is no such {what}; it may have been taken away")
     return files[name]
+
+
+class Sketched(Struct):
+    """A recording that is being read, as a page shows it; ``binary`` are its poses."""
+
+    message: Recording
+    binary: bytes
+    reading: bool = True
+
+
+def sketched(name: str, path: Path, options: ReadingOptions) -> Sketched | None:
+    """What can be shown of a recording before it is read.
+
+    Parameters
+    ----------
+    name : str
+        Its id.
+    path : Path
+    options : ReadingOptions
+
+    Returns
+    -------
+    Sketched or None
+        None for a file that is soon read, or whose format has no shorter way.
+    """
+    from kineme.web.display import display_motion
+    from kineme.web.page_data import segments_message
+
+    try:
+        if path.stat().st_size < LARGE:
+            return None
+        found = sketch(path, read_options(path, options.file), POSES)
+        if found is None:
+            return None
+        head, binary = display_motion(found.motion, effectors=options.effectors)
+    except (OSError, KinemeError):  # reading will say what is wrong
+        return None
+    table = one_segment("transition", found.n_frames, found.fps)
+    message = Recording(
+        id=name,
+        name=path.name,
+        n_frames=found.n_frames,
+        fps=found.fps,
+        motion=head,
+        matrix=MatrixHead(fps=1.0, tile=1, sizes=[], band=None),
+        segmentation=segments_message(table),
+        levels=[],
+        video=video_message(path),
+        reading=options_of(path),
+        revision=OF_SKETCH,
+        can_undo=False,
+        can_redo=False,
+        saved="",
+        finding=True,
+        warnings=[],
+    )
+    return Sketched(message, binary)

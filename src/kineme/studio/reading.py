@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats import ReadOptions, read_analog, read_quietly
-from kineme.studio.kept.reading_of_one import read_options
+from kineme.studio.storage.sidecars import read_options
 
 if TYPE_CHECKING:
     from kineme.features import Names
@@ -51,7 +51,7 @@ class RecordingCache:
         self.options = options
         self._lock = threading.Lock()
         self._reading: dict[tuple[Path, Stamp, str], threading.Lock] = {}
-        self._known: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
+        self._recent: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
 
     def read(self, path: Path) -> Motion | Signals:
         """The recording in a file, read if it is not in memory.
@@ -76,13 +76,13 @@ class RecordingCache:
             reading = self._reading.setdefault(key, threading.Lock())
         with reading:
             with self._lock:
-                known = self._known.get(key)
-            found = read_quietly(path, options) if known is None else known
+                former = self._recent.get(key)
+            found = read_quietly(path, options) if former is None else former
             with self._lock:
-                self._known[key] = found
-                self._known.move_to_end(key)
-                while len(self._known) > MOST_IN_MEMORY:
-                    self._known.popitem(last=False)
+                self._recent[key] = found
+                self._recent.move_to_end(key)
+                while len(self._recent) > MOST_IN_MEMORY:
+                    self._recent.popitem(last=False)
                 self._reading.pop(key, None)
         return found
 

@@ -17,11 +17,10 @@ import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.http.events import Hub
-from kineme.studio.http.headers import HeadersInTime
-from kineme.studio.http.security import new_token
+from kineme.studio.http.security import HeadersInTime, new_token
 
 if TYPE_CHECKING:
-    from kineme.studio.library.shown import ShownLibrary
+    from kineme.studio.library import ShownLibrary
     from kineme.studio.open_recordings import OpenRecordings
     from kineme.studio.reading import ReadingOptions
 
@@ -93,7 +92,7 @@ def serve(
         # The browser starts meanwhile; its first request waits in the socket.
         from kineme.studio.app import create_app
         from kineme.studio.folder import Folder
-        from kineme.studio.http.uploads import forget_drafts
+        from kineme.studio.http.bodies import forget_drafts
         from kineme.studio.open_recordings import OpenRecordings
 
         hub = Hub()

@@ -26,7 +26,7 @@ class LibraryRecording(Struct, frozen=True, kw_only=True):
 
 
 class LibraryCluster(Struct, frozen=True, kw_only=True):
-    """A cluster of a library, as `kineme.library.clusters.Cluster` tells it.
+    """A cluster of a library, as `kineme.library.open_library.Cluster` tells it.
 
     ``recordings`` are places in the list of all; ``unsure`` counts those of single recordings that
     may as well be in another cluster.

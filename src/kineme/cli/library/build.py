@@ -91,7 +91,7 @@ def build(
     processes = _cores() if jobs is None else jobs
     with failures.caught(into):
         if processes > 1 and scheduler is None and _is_much(files or (), into):
-            from kineme.library.executors.processes import start_soon
+            from kineme.library.executors import start_soon
 
             start_soon()  # what is imported next takes a while as well
         from kineme.library import Settings

@@ -74,12 +74,12 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
             f"is of the schema {head.get('schema')!r:.40}, this version of kineme reads "
             f"{SCHEMA}: build the library anew, into another folder",
         )
-    if not _is_whole(head):
+    if not _is_complete(head):
         raise ReadError(path, "is damaged: what it tells is not as written; build the library anew")
     return head
 
 
-def _is_whole(head: Mapping[str, Any]) -> bool:
+def _is_complete(head: Mapping[str, Any]) -> bool:
     """Whether everything in a head is of its type."""
     if not all(isinstance(head.get(name), kind) for name, kind in _KINDS.items()):
         return False
@@ -112,7 +112,7 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
 
 
 @contextmanager
-def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
+def writer_lock(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
     """The library, for one writer alone.
 
     Parameters
@@ -133,13 +133,15 @@ def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
         return
     try:
         refuse_link(folder / name)
-        lock = os.open(folder / name, os.O_CREAT | os.O_RDWR | getattr(os, "O_CLOEXEC", 0), 0o666)
+        descriptor = os.open(
+            folder / name, os.O_CREAT | os.O_RDWR | getattr(os, "O_CLOEXEC", 0), 0o666
+        )
     except OSError as error:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error
     try:
         if sys.platform != "win32":
             try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 raise WriteError(
                     folder, f"another process is changing this library: {what} when it is done"
@@ -148,7 +150,7 @@ def held(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
                 pass
         yield
     finally:
-        os.close(lock)
+        os.close(descriptor)
 
 
 def arrow() -> tuple[Any, Any]:
@@ -176,10 +178,10 @@ def as_array(column: Any) -> NDArray[Any]:
     By way of DLPack: pyarrow's own way imports pandas.
     """
     pa, _ = arrow()
-    whole = column.combine_chunks()
-    if not pa.types.is_string(whole.type):
-        return np.from_dlpack(whole)
-    coded = whole.dictionary_encode()
+    values = column.combine_chunks()
+    if not pa.types.is_string(values.type):
+        return np.from_dlpack(values)
+    coded = values.dictionary_encode()
     texts = np.array(coded.dictionary.to_pylist(), dtype=object)
     found: NDArray[Any] = texts[np.from_dlpack(coded.indices)]
     return found

@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 from kineme._doors import reading
 from kineme._json import decoded
 from kineme.errors import ReadError
-from kineme.library.index.windows import all_windows
 from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.places import near, written
 from kineme.library.storage.tables import segments_of
+from kineme.library.windows import all_windows
 from kineme.segments.table import COLUMNS, SegmentTable
 
 METADATA = b"kineme.library"
@@ -71,11 +71,11 @@ def write_piece(
         arrays[WINDOWS] = all_windows(values)
     if moments is not None:
         arrays[MOMENTS] = moments
-    for suffix, held in arrays.items():
-        array = BytesIO()  # into a file itself, numpy does not tell that the disk is full
-        np.save(array, held, allow_pickle=False)
+    for suffix, array in arrays.items():
+        buffer = BytesIO()  # into a file itself, numpy does not tell that the disk is full
+        np.save(buffer, array, allow_pickle=False)
         with written(folder / f"{key}{suffix}") as draft:
-            draft.write_bytes(array.getbuffer())
+            draft.write_bytes(buffer.getbuffer())
     flat = as_column(piece.embeddings.ravel(), np.float32)
     embeddings = pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)
     columns = {
@@ -83,10 +83,10 @@ def write_piece(
         for name, column in piece.table.columns().items()
     }
     table = pa.table({**columns, "embedding": embeddings})
-    told = json.dumps(piece.facts, sort_keys=True).encode()
+    facts = json.dumps(piece.facts, sort_keys=True).encode()
     with written(folder / f"{key}.parquet") as draft:
         parquet.write_table(
-            table.replace_schema_metadata({METADATA: told}), draft, compression="zstd"
+            table.replace_schema_metadata({METADATA: facts}), draft, compression="zstd"
         )
 
 
@@ -128,7 +128,7 @@ def read_features(folder: Path, key: str) -> NDArray[np.float32]:
 
 
 def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
-    """The windows of these features, as `kineme.library.index.windows.all_windows` gives them."""
+    """The windows of these features, as `kineme.library.windows.all_windows` gives them."""
     windows: NDArray[np.int8] = _read_array(folder / f"{key}{WINDOWS}", np.int8)
     return windows
 
@@ -183,13 +183,13 @@ def read_moments(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
     return rows
 
 
-def _laid(file: IO[bytes]) -> tuple[int, int]:
+def _header(file: IO[bytes]) -> tuple[int, int]:
     """Where the rows of an npy file begin, and how many float32 numbers each has."""
     length = int.from_bytes(file.read(10)[8:], "little")
-    told = re.search(rb"'descr': '<f4'.*'shape': \(\d+, (\d+)\)", file.read(length))
-    if told is None:
+    header = re.search(rb"'descr': '<f4'.*'shape': \(\d+, (\d+)\)", file.read(length))
+    if header is None:
         raise ValueError("not rows of features")
-    return 10 + length, int(told[1])
+    return 10 + length, int(header[1])
 
 
 def _fill(
@@ -228,7 +228,7 @@ def _features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
     """A block that reads features of a piece: their file, where they begin in it, and dims."""
     path = folder / f"{key}{FEATURES}"
     with _opening(path), near(path).open("rb", buffering=0) as file:
-        yield file, *_laid(file)
+        yield file, *_header(file)
 
 
 @contextmanager

@@ -29,13 +29,13 @@ EXTRA = "remote"
 _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
 
 
-def place(given: str | PathLike[str], door: str = "place") -> Path:
+def place(given: str | PathLike[str], caller: str = "place") -> Path:
     """A path, or what behaves like one where a URL is given.
 
     Parameters
     ----------
     given : path-like
-    door : str
+    caller : str
         The public function that was given it.
 
     Raises
@@ -52,7 +52,7 @@ def place(given: str | PathLike[str], door: str = "place") -> Path:
     """
     if is_remote(given):
         return cast("Path", given)
-    check_path(given, door)
+    check_path(given, caller)
     if not isinstance(given, str) or not _URL.match(given):
         return Path(given)
     if given.lower().startswith("file://"):
@@ -89,8 +89,8 @@ def reaching(path: Path) -> Iterator[None]:
     except Exception as error:
         if not is_remote(path):
             raise
-        said = " ".join(str(error).split())[:200] or type(error).__name__
-        raise ReadError(path, f"cannot be reached: {said}") from error
+        reason = " ".join(str(error).split())[:200] or type(error).__name__
+        raise ReadError(path, f"cannot be reached: {reason}") from error
 
 
 @contextmanager
@@ -115,8 +115,8 @@ def written(path: Path) -> Iterator[Path]:
         try:
             there.fs.put_file(str(draft), there.path)
         except Exception as error:
-            said = " ".join(str(error).split())[:200]
-            raise WriteError(path, f"cannot be written: {said}") from error
+            reason = " ".join(str(error).split())[:200]
+            raise WriteError(path, f"cannot be written: {reason}") from error
 
 
 def near(path: Path) -> Path:

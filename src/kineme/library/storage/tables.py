@@ -81,8 +81,8 @@ def table_of(name: str, columns: Mapping[str, Any]) -> Any:
         {
             column: columns[column]
             if column == "embedding"
-            else as_column(columns[column], known.type)
-            for column, known in DESCRIBED[name].items()
+            else as_column(columns[column], declared.type)
+            for column, declared in DESCRIBED[name].items()
             if column in columns
         }
     )
@@ -97,9 +97,9 @@ def segments_of(table: Any) -> Any:
     places = present_names({name: name for name in table.column_names})
     today = {was: name for name, was in places.items() if was != name}
     table = table.rename_columns([today.get(name, name) for name in table.column_names])
-    for name, known in COLUMNS.items():
-        if known.optional and name not in table.column_names:
-            column = as_column(np.full(table.num_rows, known.default), known.type)
+    for name, declared in COLUMNS.items():
+        if declared.optional and name not in table.column_names:
+            column = as_column(np.full(table.num_rows, declared.default), declared.type)
             table = table.append_column(name, column)
     if not today:
         return table
@@ -176,12 +176,12 @@ def read_table(folder: Path, named: str, name: str) -> Any:
         table.validate(full=True)
         if name == "segments":
             table = segments_of(table)
-    for column, known in DESCRIBED[name].items():
+    for column, declared in DESCRIBED[name].items():
         times = table.column_names.count(column)
         if times > 1 or (times == 0 and column not in ADDED):
-            said = "holds twice" if times else "lacks"
-            raise ReadError(path, f"is damaged: it {said} {column!r}; build the library again")
-        if times and not _is_sound(table.column(column), known.type):
+            fault = "holds twice" if times else "lacks"
+            raise ReadError(path, f"is damaged: it {fault} {column!r}; build the library again")
+        if times and not _is_sound(table.column(column), declared.type):
             raise ReadError(path, f"is damaged in {column!r}; build the library again")
     return table
 

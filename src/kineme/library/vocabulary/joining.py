@@ -1,28 +1,208 @@
-"""One vocabulary: the clusters of single recordings, joined over all of them.
+"""One vocabulary: the clusters of single recordings, compared and joined over all of them.
 
-The clusters that were found in each recording alone are the *words* to be joined. How far two of
-them are apart, `kineme.library.vocabulary.comparing` says. Words of one recording were found to
-differ there: they are as far apart at least as two that have nothing in common, so that they are
-one only where those of others lie between them. Words are joined by average linkage, as long as a
-search would find them by each other.
+The clusters that were found in each recording alone are the *words* to be joined. A word is looked
+at by an example, its typical segment, and by a context, the activity around it: in a cyclic
+movement, the example of one recording may be cut at another phase than that of the next. The
+distance of two words is the mean of what it costs to find the example of each in the context of the
+other.
 
-That compares each with each. Of more words than that is worth, see
-`kineme.library.vocabulary.crowds`.
+Words of one recording were found to differ there: they are as far apart at least as two that have
+nothing in common, so that they are one only where those of others lie between them. Words are
+joined by average linkage, as long as a search would find them by each other.
+
+More words than can be compared each with each are clustered in turns. In each, a sample of those
+that are left is compared each with each. Every other word is compared with the most typical words
+of the few clusters whose embeddings are nearest to its own, and joins the nearest of these clusters
+if average linkage would have let it. Words that join none are left for the next turn: what is rare
+is not in the first sample, and not lost. Time grows with the number of words, not with its square.
+The sample are the words whose names have the lowest digests, so that a few recordings more change
+little of it.
+
+Words are compared by tasks of an executor. A task tells where its words lie, and whoever works on
+it reads their features there: what goes to another machine and back is small. Tasks are the same
+wherever they are worked on, and so are sums.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations_with_replacement
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.cluster.hierarchy import fcluster, linkage
 from scipy.spatial.distance import squareform
+from threadpoolctl import threadpool_limits
 
-from kineme.library.constants import VocabularyConstants
+from kineme._threads import map_threads
+from kineme.errors import KinemeError
+from kineme.library.executors import Executor, Outcome, Progress, Task, Watch
+from kineme.library.settings import VocabularyConstants
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Float32s = NDArray[np.float32]
+
+APART = 1e3
+"""In each feature of a sample between two contexts: no match reaches over it."""
+BLOCK = 100
+"""Words that a task compares with as many others."""
+AT_ONCE = 200
+"""Words of a task that looks for their clusters."""
+PER_WORKER = 2000
+"""Words for which one process more is started: some seconds of work."""
+
+
+@dataclass(frozen=True, eq=False)
+class Word:
+    """A cluster of one recording, as it is compared.
+
+    Attributes
+    ----------
+    example, context : (samples, dims) array
+        Features of its typical segment, and of the activity that this lies in.
+    """
+
+    example: Float32s
+    context: Float32s
+
+
+@dataclass(frozen=True, eq=False)
+class Crowd:
+    """Words of one vocabulary, which are loaded where they are compared.
+
+    Attributes
+    ----------
+    load : callable
+        The word at a place; it can be pickled, and so can places.
+    places : sequence
+        Of each word.
+    recording : (words,) array
+        Number of the recording that each is of.
+    seconds : (words,) array
+        Of all its segments.
+    embeddings : (words, 32) array
+        Of its typical segment.
+    drawn : (words,) array
+        Those of the least numbers are drawn for a sample first.
+    """
+
+    load: Callable[[Any], Word]
+    places: Sequence[Any]
+    recording: Ints
+    seconds: Floats
+    embeddings: Float32s
+    drawn: NDArray[np.unsignedinteger[Any]]
+
+    def __len__(self) -> int:
+        return len(self.places)
+
+    def part(self, numbers: Ints) -> Crowd:
+        """These of its words."""
+        return Crowd(
+            self.load,
+            [self.places[number] for number in numbers.tolist()],
+            self.recording[numbers],
+            self.seconds[numbers],
+            self.embeddings[numbers],
+            self.drawn[numbers],
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Pairs:
+    """Words of a crowd, rows and columns of a table, to be compared."""
+
+    load: Callable[[Any], Word]
+    rows: slice
+    columns: slice
+    ones: Sequence[Any]
+    others: Sequence[Any]
+
+
+def two_way_distances(crowd: Crowd, executor: Executor, workers: int) -> Floats:
+    """``distances[a, b]``: the mean of a's example found in b's context, and b's in a's.
+
+    Parameters
+    ----------
+    crowd : Crowd
+    executor : Executor
+        Where words are compared.
+    workers : int
+        How many processes are worth to be started for it.
+    """
+    n = len(crowd)
+    blocks = [slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK)]
+    tasks = [
+        _Pairs(crowd.load, rows, columns, crowd.places[rows], crowd.places[columns])
+        for rows, columns in combinations_with_replacement(blocks, 2)
+    ]
+    distances = np.zeros((n, n))
+    for task, found in results(executor, _compared, tasks, workers):
+        distances[task.rows, task.columns] = found
+        distances[task.columns, task.rows] = found.T
+    np.fill_diagonal(distances, 0.0)
+    return distances
+
+
+def results(
+    executor: Executor, work: Callable[[Task], Outcome], tasks: Sequence[Task], workers: int
+) -> Iterator[tuple[Task, Outcome]]:
+    """What comes of tasks that compare words, as they come.
+
+    Raises
+    ------
+    KinemeError
+        A process that worked on one of them died, and another one did, too.
+    """
+    for task, outcome in executor.completed(work, tasks, workers=workers):
+        if outcome is None:
+            raise KinemeError(
+                "the processes that compared clusters died: they may need more memory than there "
+                "is; what was read is kept, build again"
+            )
+        yield task, outcome
+
+
+def _compared(task: _Pairs) -> Floats:
+    """The distance of each word of the rows from each of the columns."""
+    ones = [task.load(place) for place in task.ones]
+    others = ones if task.columns == task.rows else [task.load(place) for place in task.others]
+    forward = _all_costs(ones, Contexts(others))
+    backward = forward if others is ones else _all_costs(others, Contexts(ones))
+    both: Floats = (forward + backward.T) / 2
+    return both
+
+
+def _all_costs(words: Sequence[Word], contexts: Contexts) -> Floats:
+    with threadpool_limits(1):  # sums do not depend on threads
+        return np.array(map_threads(contexts.costs_of, words), np.float64)
+
+
+class Contexts:
+    """The contexts of several words, to look for examples in.
+
+    Parameters
+    ----------
+    words : sequence of Word
+    """
+
+    def __init__(self, words: Sequence[Word]):
+        gap = np.full((1, words[0].example.shape[1]), APART, np.float32)
+        self._features = np.concatenate([part for word in words for part in (word.context, gap)])
+        self._ends = np.cumsum([len(word.context) + 1 for word in words])
+
+    def costs_of(self, word: Word) -> Float32s:
+        """What it costs to find the example of a word in each of the contexts."""
+        from kineme.matching.subsequences import warped  # half a second, for who compares only
+
+        costs = warped(word.example, self._features)[0]
+        costs[self._ends - 1] = np.inf
+        starts = np.concatenate([[0], self._ends[:-1]])
+        least: Float32s = np.minimum.reduceat(costs, starts)
+        return least
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +236,7 @@ def joined(
     Parameters
     ----------
     distances : (words, words) array
-        Of each two, by `kineme.library.vocabulary.comparing.two_way_distances`.
+        Of each two, by `two_way_distances`.
     recording : (words,) array
         Number of the recording that each is of.
     seconds : (words,) array
@@ -95,3 +275,145 @@ def _fitted(distances: Floats, labels: Ints) -> Joined:
     nearest = means.min(axis=1)
     confidence = np.clip(1 - spread / np.maximum(nearest, 1e-9), 0, 1)
     return Joined(labels, means.argmin(axis=1), confidence, spread)
+
+
+@dataclass(frozen=True, eq=False)
+class _Typical:
+    """The most typical words of the clusters of a turn, one cluster after the other."""
+
+    words: Crowd
+    labels: Ints
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """Words, by their numbers, whose clusters are looked for among those of a turn."""
+
+    numbers: Ints
+    words: Crowd
+    typical: _Typical
+    constants: VocabularyConstants
+
+
+def clusters_in(
+    crowd: Crowd, constants: VocabularyConstants, executor: Executor, progress: Progress
+) -> Joined:
+    """The clusters of words, however many.
+
+    Parameters
+    ----------
+    crowd : Crowd
+    constants : VocabularyConstants
+    executor : Executor
+        Where words are compared.
+    progress : callable
+        Called with a sentence on how far it is.
+
+    Returns
+    -------
+    Joined
+        As if each had been compared with each where there are no more than ``most``. Of more,
+        spread and confidence are those in the turn in which a word found its cluster.
+    """
+    n = len(crowd)
+    workers = n // PER_WORKER
+    if n <= constants.most:
+        return _each_with_each(crowd, constants, executor, workers)
+    labels, following = np.full(n, -1), np.full(n, -1)
+    confidence, spread = np.full(n, np.nan), np.zeros(n)
+    waiting, count = np.argsort(crowd.drawn, kind="stable"), 0
+    watch = Watch(progress, n, 0, "clusters in common: ")
+    while len(waiting):
+        sample, others = np.sort(waiting[: constants.most]), waiting[constants.most :]
+        watch.more(len(sample) ** 2 + len(others) * _searches(constants))
+        found = _each_with_each(crowd.part(sample), constants, executor, workers)
+        watch.done(len(sample), len(sample) ** 2)
+        typical = _typical(crowd, sample, found, constants.typical)
+        nearest = _nearest_clusters(crowd, others, typical, constants, executor, watch)
+        for numbers, each in ((sample, found), *nearest):
+            at = np.flatnonzero(each.labels >= 0)
+            rows = numbers[at]
+            labels[rows] = each.labels[at] + count
+            following[rows] = np.where(each.following[at] < 0, -1, each.following[at] + count)
+            confidence[rows], spread[rows] = each.confidence[at], each.spread[at]
+        count += int(found.labels.max()) + 1
+        waiting = others[labels[others] < 0]
+    rank = np.argsort(np.argsort(-np.bincount(labels, crowd.seconds), kind="stable"))
+    return Joined(rank[labels], np.where(following < 0, -1, rank[following]), confidence, spread)
+
+
+def _each_with_each(
+    crowd: Crowd, constants: VocabularyConstants, executor: Executor, workers: int
+) -> Joined:
+    distances = two_way_distances(crowd, executor, workers)
+    return joined(distances, crowd.recording, crowd.seconds, constants)
+
+
+def _searches(constants: VocabularyConstants) -> int:
+    """How often a word that is not in the sample is searched, or others in it, at most."""
+    return 2 * constants.nearest * constants.typical
+
+
+def _typical(crowd: Crowd, sample: Ints, found: Joined, most: int) -> _Typical:
+    """The most typical words of each cluster."""
+    order = np.lexsort((found.spread, found.labels))
+    first = np.searchsorted(found.labels[order], found.labels[order])
+    chosen = order[np.arange(len(order)) - first < most]
+    return _Typical(crowd.part(sample[chosen]), found.labels[chosen])
+
+
+def _nearest_clusters(
+    crowd: Crowd,
+    numbers: Ints,
+    typical: _Typical,
+    constants: VocabularyConstants,
+    executor: Executor,
+    watch: Watch,
+) -> Iterator[tuple[Ints, Joined]]:
+    """Words by their numbers, and the cluster of each; -1 where none is near enough."""
+    blocks = [numbers[first : first + AT_ONCE] for first in range(0, len(numbers), AT_ONCE)]
+    tasks = [_Search(block, crowd.part(block), typical, constants) for block in blocks]
+    for task, found in results(executor, _clusters_of, tasks, len(crowd) // PER_WORKER):
+        watch.done(int((found.labels >= 0).sum()), len(task.numbers) * _searches(constants))
+        yield task.numbers, found
+
+
+def _clusters_of(task: _Search) -> Joined:
+    """The nearest cluster of each word of a task."""
+    constants, crowd, labels = task.constants, task.words, task.typical.labels
+    near = [_near(embedding, task.typical, constants.nearest) for embedding in crowd.embeddings]
+    needed = sorted({i for each in near for i in each.tolist()})
+    typical = {i: task.typical.words.load(task.typical.words.places[i]) for i in needed}
+
+    def nearest(number: int) -> tuple[int, int, float, float]:
+        at = near[number]
+        word, others = crowd.load(crowd.places[number]), [typical[i] for i in at.tolist()]
+        forward = Contexts(others).costs_of(word).astype(np.float64)
+        context = Contexts([word])
+        costs = (forward + [context.costs_of(other)[0] for other in others]) / 2
+        same = task.typical.words.recording[at] == crowd.recording[number]
+        costs[same] = np.maximum(costs[same], constants.told_apart)
+        clusters, of = np.unique(labels[at], return_inverse=True)
+        costs = np.minimum(costs, constants.farthest)
+        means = np.bincount(of, costs) / np.bincount(of)
+        order = np.argsort(means, kind="stable")
+        cluster, least = int(clusters[order[0]]), float(means[order[0]])
+        if least > constants.join:
+            return -1, -1, np.nan, least
+        if len(order) == 1:
+            return cluster, -1, np.nan, least
+        sure = np.clip(1 - least / max(float(means[order[1]]), 1e-9), 0, 1)
+        return cluster, int(clusters[order[1]]), float(sure), least
+
+    with threadpool_limits(1):  # sums do not depend on threads
+        rows = map_threads(nearest, range(len(crowd)))
+    columns = zip(*rows, strict=True)
+    return Joined(*map(np.array, columns))
+
+
+def _near(embedding: Float32s, typical: _Typical, most: int) -> Ints:
+    """The typical words of the clusters of which one word's embedding is nearest."""
+    apart = ((typical.words.embeddings - embedding) ** 2).sum(axis=1)
+    order = np.argsort(apart, kind="stable")
+    clusters = list(dict.fromkeys(typical.labels[order].tolist()))[:most]
+    return np.flatnonzero(np.isin(typical.labels, clusters))

@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 
 from kineme.library.executors import Executor
 from kineme.library.storage.pieces import Piece, read_moments
-from kineme.library.vocabulary.comparing import results
-from kineme.library.vocabulary.joining import Joined
+from kineme.library.vocabulary.joining import Joined, results
 from kineme.library.vocabulary.words import Place
 from kineme.transfer.channel_samples import Units
 
@@ -81,20 +80,20 @@ def clusters_of_moments(
     # By the digests of their contents: clusters are the same whatever the files are called.
     drawn = sorted(numbers, key=lambda number: keys[number])
     sample = np.concatenate([read_moments(folder, keys[number], step) for number in drawn])
-    units = Units.of(*_parted(sample))
-    points = units.features(*_parted(sample))
+    units = Units.of(*_means_and_deviations(sample))
+    points = units.features(*_means_and_deviations(sample))
     centres = centres_of(points, likely_number(points))
     words: dict[int, list[Floats]] = {number: [] for number in numbers}
     for place in places:
         words[place.recording].append(place.spans)
     blocks = [numbers[first : first + AT_ONCE] for first in range(0, len(numbers), AT_ONCE)]
     tasks = [
-        _Search(folder, [keys[i] for i in own], [words[i] for i in own], units, centres)
-        for own in blocks
+        _Search(folder, [keys[i] for i in block], [words[i] for i in block], units, centres)
+        for block in blocks
     ]
     found = dict(results(executor, _distances, tasks, len(numbers) // PER_WORKER))
     distances = np.concatenate([found[task] for task in tasks])
-    return _taken(distances, np.array([place.seconds for place in places]))
+    return _nearest_clusters(distances, np.array([place.seconds for place in places]))
 
 
 def _distances(task: _Search) -> Floats:
@@ -106,7 +105,7 @@ def _distances(task: _Search) -> Floats:
 
 def _of_recording(task: _Search, key: str, words: Sequence[Floats]) -> Floats:
     moments = read_moments(task.folder, key)
-    features = task.units.features(*_parted(moments)).astype(np.float64)
+    features = task.units.features(*_means_and_deviations(moments)).astype(np.float64)
     means = np.array([features[_inside(moments[:, 0], spans)].mean(axis=0) for spans in words])
     distances: Floats = np.sqrt(((means[:, None] - task.centres) ** 2).sum(axis=2))
     return distances
@@ -122,22 +121,22 @@ def _inside(seconds: Float32s, spans: Floats) -> NDArray[np.bool_]:
     return inside
 
 
-def _parted(moments: Float32s) -> tuple[Float32s, Float32s]:
+def _means_and_deviations(moments: Float32s) -> tuple[Float32s, Float32s]:
     """Means and deviations."""
     n = moments.shape[1] // 2
     return moments[:, 1 : 1 + n], moments[:, 1 + n :]
 
 
-def _taken(distances: Floats, seconds: Floats) -> Joined:
+def _nearest_clusters(distances: Floats, seconds: Floats) -> Joined:
     """The nearest cluster of each word, those of most seconds first; others there are not."""
-    taken = np.unique(distances.argmin(axis=1))
-    distances = distances[:, taken]
+    clusters = np.unique(distances.argmin(axis=1))
+    distances = distances[:, clusters]
     lasts = np.round(np.bincount(distances.argmin(axis=1), seconds), 6)
     order = np.argsort(-lasts, kind="stable")
     distances = distances[:, order]
     labels, words = distances.argmin(axis=1), np.arange(len(distances))
     spread = distances[words, labels]
-    if len(taken) == 1:
+    if len(clusters) == 1:
         return Joined(labels, labels - 1, np.full(len(labels), np.nan), spread)
     others = distances.copy()
     others[words, labels] = np.inf

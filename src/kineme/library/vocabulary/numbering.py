@@ -3,21 +3,32 @@
 A new cluster takes the number of the old one whose time it shares most, seconds of activities in
 recordings that both know; each number goes to one of them. All others get numbers that were never
 given.
+
+Who takes a recording out of a library and puts it back finds the numbers and names of its clusters
+again: these are kept by the content of the recording, whatever it is called when it comes back.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+
+from kineme._checks import is_number
+from kineme.errors import ReadError
+from kineme.library.storage.layout import MOST_CLUSTERS, read_json, write_json
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
 Spans = tuple[Floats, Floats, Ints]
 """Starts and stops in seconds, and clusters, of the activities of a recording; apart."""
+REMOVED = "left.json"
+Removed = Mapping[str, Spans]
+"""Starts, stops and clusters of the activities of a recording, by the name of its piece."""
 
 
 def lasting_numbers(
@@ -60,3 +71,41 @@ def lasting_numbers(
         if cluster not in numbers:
             numbers[cluster], following = following, following + 1
     return dict(sorted(numbers.items()))
+
+
+def read_removed(folder: Path) -> dict[str, Spans]:
+    """What a library remembers of recordings that are not in it.
+
+    Raises
+    ------
+    ReadError
+        The file is damaged.
+    """
+    path = folder / REMOVED
+    return {key: _spans(columns, path) for key, columns in read_json(path).items()}
+
+
+def write_removed(folder: Path, removed: Removed) -> None:
+    """Leave that for the next build."""
+    content = {key: [column.tolist() for column in spans] for key, spans in removed.items()}
+    if content or (folder / REMOVED).exists():
+        write_json(folder / REMOVED, content)
+
+
+def removed_after(removed: Removed, before: Removed, present: Iterable[str]) -> dict[str, Spans]:
+    """Of recordings that were removed or there before those that are not present."""
+    names = set(present)
+    return {key: spans for key, spans in {**removed, **before}.items() if key not in names}
+
+
+def _spans(content: object, path: Path) -> Spans:
+    columns = content if isinstance(content, list) else []
+    if len(columns) == 3 and all(isinstance(column, list) for column in columns):
+        same = len({len(column) for column in columns}) == 1
+        if same and all(is_number(number) for column in columns for number in column):
+            starts, stops, clusters = columns
+            if all(isinstance(c, int) and -1 <= c < MOST_CLUSTERS for c in clusters):
+                return np.array(starts, float), np.array(stops, float), np.array(clusters, np.int64)
+    raise ReadError(
+        path, "is damaged: remove it; clusters of recordings that come back get new numbers then"
+    )

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.library.constants import VOCABULARY, VocabularyConstants
+from kineme.library.settings import VOCABULARY, VocabularyConstants
 from kineme.library.storage.pieces import Piece, read_spans
-from kineme.library.vocabulary.comparing import Crowd, Word
+from kineme.library.vocabulary.joining import Crowd, Word
 from kineme.segments.table import SegmentTable
 
 Ints = NDArray[np.int64]
@@ -59,11 +59,13 @@ def places_in(piece: Piece, recording: int) -> list[Place]:
     active, finer, lasts = table.kind != "transition", table.level == "primitive", table.duration_s
     places = []
     for cluster in sorted(set(table.cluster[active].tolist()) - {-1}):
-        own = np.flatnonzero((table.cluster == cluster) & active)
-        repeated = own[finer[own]]
-        chosen = repeated if len(repeated) else own
+        members = np.flatnonzero((table.cluster == cluster) & active)
+        repeated = members[finer[members]]
+        chosen = repeated if len(repeated) else members
         row = int(chosen[np.argsort(lasts[chosen], kind="stable")[len(chosen) // 2]])
-        longest = own[finer[own] == finer[own[0]]]  # one level: activities where there are any
+        longest = members[
+            finer[members] == finer[members[0]]
+        ]  # one level: activities where there are any
         places.append(
             Place(
                 recording,

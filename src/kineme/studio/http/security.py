@@ -1,15 +1,17 @@
-"""Who may ask: pages of this very server, and whoever holds its token.
+"""Who may ask: pages of this very server, whoever holds its token, and who asks in time.
 
 The server listens on this machine only. That keeps other machines out, but not
 other pages in the same browser, nor names of other hosts made to point here.
 So a request must name this server as its host, must not come from the page of
 another origin, and, for anything but the page's own files, must carry the
 token, which only the address printed at the start has. What is answered is
-never stored, framed, sniffed or mixed with anything from elsewhere.
+never stored, framed, sniffed or mixed with anything from elsewhere. Connections
+on which no whole request comes are closed, so that nobody can hold them all open.
 """
 
 from __future__ import annotations
 
+import asyncio
 import secrets
 from collections.abc import MutableMapping
 from typing import Any
@@ -19,6 +21,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import Request
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from uvicorn.protocols.http.auto import AutoHTTPProtocol
 
 TOKEN_HEADER = "x-kineme-token"  # noqa: S105 (a header's name)
 IN_ADDRESS = ("/", "/api/events")
@@ -40,6 +43,8 @@ HEADERS = {
     "x-content-type-options": "nosniff",
     "x-frame-options": "DENY",
 }
+WITHIN = 20.0
+"""Seconds in which the headers of a request are there once the first of their bytes is."""
 
 
 def new_token() -> str:
@@ -77,9 +82,9 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers[name] = value
-                # The page's own files may be kept, if the browser asks each time for newer ones.
-                own = not scope["path"].startswith("/api")
-                headers.setdefault("cache-control", "no-cache" if own else "no-store")
+                # The page's page files may be kept, if the browser asks each time for newer ones.
+                page = not scope["path"].startswith("/api")
+                headers.setdefault("cache-control", "no-cache" if page else "no-store")
             await send(message)
 
         scope[TRUSTED] = scope["type"] == "http" and self._knows(scope, Headers(scope=scope))
@@ -106,13 +111,53 @@ class Guard:
         return None
 
     def _knows(self, scope: MutableMapping[str, Any], headers: Headers) -> bool:
-        given = headers.get(TOKEN_HEADER)
+        token = headers.get(TOKEN_HEADER)
         path = scope["path"]
-        if given is None and (path in IN_ADDRESS or path.endswith(VIDEO)):
-            given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
-        return given is not None and secrets.compare_digest(given.encode(), self._token)
+        if token is None and (path in IN_ADDRESS or path.endswith(VIDEO)):
+            token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+        return token is not None and secrets.compare_digest(token.encode(), self._token)
 
 
 def is_trusted(request: Request) -> bool:
     """Whether a request that has passed the guard carries the token."""
     return bool(request.scope[TRUSTED])
+
+
+class HeadersInTime(AutoHTTPProtocol):  # type: ignore[misc, valid-type]  # one of two classes
+    """HTTP as uvicorn speaks it, whose requests have begun only for so long."""
+
+    _late: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: Any) -> None:
+        """A new connection has to send a request, too."""
+        super().connection_made(transport)
+        self._wait()
+
+    def data_received(self, data: bytes) -> None:
+        """More of a request; body and answer of one with whole headers take their time."""
+        if self._late is None and self._is_idle():
+            self._wait()
+        super().data_received(data)
+        if not self._is_idle():
+            self._stop_waiting()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._stop_waiting()
+        super().connection_lost(exc)
+
+    def _is_idle(self) -> bool:
+        """Whether no request is being answered."""
+        return self.cycle is None or self.cycle.response_complete
+
+    def _wait(self) -> None:
+        self._late = self.loop.call_later(WITHIN, self._close)
+
+    def _stop_waiting(self) -> None:
+        if self._late is not None:
+            self._late.cancel()
+            self._late = None
+
+    def _close(self) -> None:
+        self._late = None
+        if self._is_idle() and not self.transport.is_closing():
+            self.transport.close()

@@ -22,7 +22,7 @@ from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, Level, kind_of
 from kineme.studio.edits import edited
-from kineme.studio.kept.identities import Identities
+from kineme.studio.storage.identities import Identities
 from kineme.web.encoding import from_json, to_json
 from kineme.web.page_data import segments_message
 from kineme.web.requests import EditRequest

@@ -3,8 +3,8 @@
  * are made before it. A border is the start of the segment after it. Only a new border is made at a
  * frame, whatever segment that lies in.
  *
- * `kineme/studio/kept/identities.py` hands the identities out; `idsAfter` says which they will be
- * after an edit that the server has not answered yet.
+ * `kineme/studio/storage/identities.py` hands the identities out; `idsAfter` says which they will
+ * be after an edit that the server has not answered yet.
  */
 import type { ByHand, Edit, Level, Segment, Segments } from "../../messages";
 import { levelOf } from "./foreseen/clusters";

@@ -1,4 +1,9 @@
-"""Parts of recordings, searched sample by sample: here, or wherever an executor works."""
+"""Where to look first in a large library: windows of its recordings in 32 numbers each.
+
+`kineme.library.windows` tells what these numbers are, `kineme.library.storage.index` holds those of
+a whole library. The few windows that are like an example are found first, and only the parts of
+recordings around these are searched sample by sample: here, or wherever an executor works.
+"""
 
 from __future__ import annotations
 
@@ -14,13 +19,27 @@ from threadpoolctl import threadpool_limits
 
 from kineme._threads import map_threads
 from kineme.errors import KinemeError
+from kineme.library._kernels import least_squares
 from kineme.library.executors import Executor
 from kineme.library.searching import spans_like
+from kineme.library.storage.index import Windows
 from kineme.library.storage.pieces import read_parts
+from kineme.library.windows import (
+    FINER,
+    Float32s,
+    Ints,
+    step,
+    wanted,
+)
 from kineme.matching import Matches
 
-Float32s = NDArray[np.float32]
-Ints = NDArray[np.int64]
+SHARE = 0.01
+"""Of the windows, that are searched sample by sample."""
+MORE = 20
+"""Windows for each hit that is wanted, at least."""
+BLOCK = 1 << 16
+"""Windows that are compared at a time."""
+
 
 AT_ONCE = 1 << 15
 """Samples that are searched in one go."""
@@ -64,6 +83,40 @@ class Task:
     sought: Sought
 
 
+def parts_like(windows: Windows, example: Float32s, top: int) -> Parts:
+    """The parts of recordings around the windows that are nearest to an example.
+
+    Parameters
+    ----------
+    windows : Windows
+        Of the length that `length_for` gives.
+    example : (samples, dims) array
+    top : int
+        Hits that are wanted.
+    """
+    near = _nearest(windows, wanted(example), top)
+    rows = np.searchsorted(windows.firsts, near, side="right") - 1
+    middles = (near - windows.firsts[rows]) * step(windows.length) + windows.length // 2
+    reach = step(windows.length) + len(example)  # a match may last twice as long
+    lasts = windows.samples[rows]
+    return joined(
+        Parts(rows, np.clip(middles - reach, 0, lasts), np.clip(middles + reach, 0, lasts))
+    )
+
+
+def joined(parts: Parts) -> Parts:
+    """Parts that overlap as one."""
+    order = np.lexsort((parts.starts, parts.rows))
+    rows, starts, stops = (column[order] for column in parts)
+    far = int(stops.max(initial=0)) + 1
+    reached = np.maximum.accumulate(stops + rows * far)  # beyond the end of recordings before
+    new = np.ones(len(rows), np.bool_)
+    new[1:] = starts[1:] + rows[1:] * far > reached[:-1]
+    first = np.flatnonzero(new)
+    last = np.append(first[1:], len(rows)) - 1 if len(rows) else first
+    return Parts(rows[first], starts[first], reached[last] - rows[first] * far)
+
+
 def matches_in(
     folder: Path,
     pieces: Sequence[str],
@@ -85,14 +138,14 @@ def matches_in(
         Threads of this process by default.
     """
     tasks = [
-        Task(folder, {row: pieces[row] for row in set(own.rows.tolist())}, own, sought)
-        for own in _batches(parts)
+        Task(folder, {row: pieces[row] for row in set(batch.rows.tolist())}, batch, sought)
+        for batch in _batches(parts)
     ]
     if executor is None:
         with threadpool_limits(1):  # tasks are searched side by side
             found = map_threads(search_parts, tasks)
     else:
-        found = [_done(outcome) for _, outcome in executor.completed(search_parts, tasks)]
+        found = [_matches(outcome) for _, outcome in executor.completed(search_parts, tasks)]
     joined: dict[int, list[Matches]] = {}
     for each in found:
         for row, matches in each.items():
@@ -105,23 +158,38 @@ def search_parts(task: Task) -> dict[int, Matches]:
     parts, sought = task.parts, task.sought
     lasts = parts.stops - parts.starts
     firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
-    laid = np.full((firsts[-1], sought.examples[0].shape[1]), APART, np.float32)
+    features = np.full((firsts[-1], sought.examples[0].shape[1]), APART, np.float32)
     for row, key in sorted(task.pieces.items()):
-        own = np.flatnonzero(parts.rows == row)
-        spans = zip(firsts[own].tolist(), (firsts[own] + lasts[own]).tolist(), strict=True)
-        read_parts(task.folder, key, parts.starts[own].tolist(), [laid[a:b] for a, b in spans])
+        at = np.flatnonzero(parts.rows == row)
+        spans = zip(firsts[at].tolist(), (firsts[at] + lasts[at]).tolist(), strict=True)
+        read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
     matches = spans_like(
-        laid,
+        features,
         sought.examples,
         sought.counterexamples,
         threshold=sought.threshold,
         top=sought.top,
     )
     which = np.searchsorted(firsts, matches.starts, side="right") - 1
-    back = parts.starts[which] - firsts[which]
-    moved = Matches(matches.starts + back, matches.stops + back, matches.distances)
+    offsets = parts.starts[which] - firsts[which]
+    moved = Matches(matches.starts + offsets, matches.stops + offsets, matches.distances)
     rows = parts.rows[which]
     return {row: Matches(*(column[rows == row] for column in moved)) for row in set(rows.tolist())}
+
+
+def _nearest(windows: Windows, wanted: NDArray[np.int32], top: int) -> Ints:
+    """The windows that are nearest to any of what is wanted, in their order."""
+    n = len(windows.embedded)
+    least = np.empty(n, np.int32)
+
+    def compare(first: int) -> None:
+        block = slice(first, first + BLOCK)
+        least_squares(np.asarray(windows.embedded[block]), wanted, np.int32(FINER), least[block])
+
+    map_threads(compare, range(0, n, BLOCK))
+    most = min(max(round(SHARE * n), MORE * top), n)
+    chosen: NDArray[np.int64] = np.sort(np.argpartition(least, most - 1)[:most])
+    return chosen
 
 
 def _batches(parts: Parts) -> Iterator[Parts]:
@@ -133,7 +201,7 @@ def _batches(parts: Parts) -> Iterator[Parts]:
         yield Parts(*(column[first:stop] for column in parts))
 
 
-def _done(outcome: dict[int, Matches] | None) -> dict[int, Matches]:
+def _matches(outcome: dict[int, Matches] | None) -> dict[int, Matches]:
     if outcome is None:
         raise KinemeError("the processes that searched died: they may need more memory")
     return outcome

@@ -83,7 +83,7 @@ class Identities:
         Identities
         """
         edit = edit[:LONGEST_ORIGIN]
-        mine = dict(zip(map(_key, before), self.of(before), strict=True))
+        identities = dict(zip(map(_key, before), self.of(before), strict=True))
         if replaced:
             spans = {span_of(row) for row in before}
             same = {_key(row): _key(row) for row in now if span_of(row) in spans}
@@ -95,8 +95,8 @@ class Identities:
         origin = edit if replaced else self.origin
         others = {}
         for row in now:
-            known = same.get(_key(row))
-            identity = _identity(edit, row) if known is None else mine[known]
+            former = same.get(_key(row))
+            identity = _identity(edit, row) if former is None else identities[former]
             if identity != _identity(origin, row):
                 others[_place(row)] = identity
         return Identities(origin, others)
@@ -121,15 +121,15 @@ def descent(before: Sequence[int], now: Iterable[int]) -> dict[int, int]:
     """
     now = list(now)
     staying = set(before) & set(now)
-    gone = [start for start in before if start not in staying]
+    moved = [start for start in before if start not in staying]
     found = {start: start for start in staying}
     for start in (each for each in now if each not in staying):
         low = max((each for each in staying if each < start), default=-1)
         high = min((each for each in staying if each > start), default=math.inf)
-        near = [each for each in gone if low < each < high]
+        near = [each for each in moved if low < each < high]
         if near:
             found[start] = min(near, key=lambda each: abs(each - start))
-            gone = [each for each in gone if each > found[start]]
+            moved = [each for each in moved if each > found[start]]
     return dict(sorted(found.items()))
 
 

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kineme.errors import ReadError
-from kineme.library.index.windows import LENGTHS, NUMBERS, Bytes, Ints, by_length, count
 from kineme.library.storage.layout import BODIES, PIECES, TABLES
 from kineme.library.storage.pieces import read_windows
 from kineme.library.storage.places import near, written
+from kineme.library.windows import LENGTHS, NUMBERS, Bytes, Ints, by_length, count
 
 FROM_HOURS = 100.0
 """Of recordings of bodies, from which a library has an index."""
@@ -53,9 +53,8 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
     recordings : dict of str to list
         The table of recordings by column.
     """
-    told = recordings
-    samples = _indexed(told)
-    rates = zip(samples.tolist(), told["features_fps"], strict=True)
+    samples = _indexed(recordings)
+    rates = zip(samples.tolist(), recordings["features_fps"], strict=True)
     if sum(n / fps for n, fps in rates if n) < FROM_HOURS * 3600:
         return
     home = folder / TABLES / named
@@ -73,8 +72,8 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
         }
         firsts = dict.fromkeys(LENGTHS, 0)
         for row in np.flatnonzero(samples):
-            own = read_windows(folder / PIECES, told["piece"][row])
-            for length, part in by_length(own, int(samples[row])):
+            windows = read_windows(folder / PIECES, recordings["piece"][row])
+            for length, part in by_length(windows, int(samples[row])):
                 drafts[length][firsts[length] : firsts[length] + len(part)] = part
                 firsts[length] += len(part)
         for draft in drafts.values():

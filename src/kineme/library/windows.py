@@ -41,8 +41,8 @@ def count(samples: Ints, length: int) -> Ints:
 
     A recording that is shorter is one window.
     """
-    whole = np.maximum(samples - length, 0) // step(length) + 1
-    return np.where(samples > 0, whole, 0)
+    windows = np.maximum(samples - length, 0) // step(length) + 1
+    return np.where(samples > 0, windows, 0)
 
 
 def windows_of(features: Float32s, length: int) -> Bytes:
@@ -63,8 +63,8 @@ def windows_of(features: Float32s, length: int) -> Bytes:
         return np.empty((0, NUMBERS), np.int8)
     if len(features) < length:
         features = _of_length(features, length)
-    seen = np.lib.stride_tricks.sliding_window_view(features, length, axis=0)[:: step(length)]
-    return np.clip(np.rint(LARGEST * _numbers(seen)), -LARGEST, LARGEST).astype(np.int8)
+    windows = np.lib.stride_tricks.sliding_window_view(features, length, axis=0)[:: step(length)]
+    return np.clip(np.rint(LARGEST * _numbers(windows)), -LARGEST, LARGEST).astype(np.int8)
 
 
 def all_windows(features: Float32s) -> Bytes:
@@ -98,16 +98,16 @@ def wanted(example: Float32s) -> NDArray[np.int32]:
     return np.clip(np.rint(most * _numbers(np.array(parts))), -most, most).astype(np.int32)
 
 
-def _numbers(seen: Float32s) -> Float32s:
+def _numbers(windows: Float32s) -> Float32s:
     """Means and slopes (windows, 32) of windows (windows, dims, length)."""
-    length = seen.shape[2]
+    length = windows.shape[2]
     slope = np.cos(np.pi / length * (np.arange(length) + 0.5)).astype(np.float32)
     slope *= np.float32(np.sqrt(2) / length)
-    told = np.zeros((len(seen), NUMBERS), np.float32)
-    means, slopes = seen[:, :MEANS].mean(axis=2), seen[:, :SLOPES] @ slope
-    told[:, : means.shape[1]] = means
-    told[:, MEANS : MEANS + slopes.shape[1]] = slopes
-    return told
+    numbers = np.zeros((len(windows), NUMBERS), np.float32)
+    means, slopes = windows[:, :MEANS].mean(axis=2), windows[:, :SLOPES] @ slope
+    numbers[:, : means.shape[1]] = means
+    numbers[:, MEANS : MEANS + slopes.shape[1]] = slopes
+    return numbers
 
 
 def _of_length(features: Float32s, length: int) -> Float32s:

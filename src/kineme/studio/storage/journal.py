@@ -8,7 +8,7 @@ It lies in a hidden folder beside the table, ``.kineme/walk.segments/`` for
 - ``1.json``, ``2.json``, …: the tables themselves, each as `kineme.read_segments` reads it.
 
 A table is written before the history that names it, and the history before the table that
-people have (`kineme.studio.kept.storage`). So an edit that was acknowledged is in all three; of
+people have (`kineme.studio.storage.tables`). So an edit that was acknowledged is in all three; of
 one that was cut short by a killed server the last is missing, and it is taken back when the
 history is read again. Undo goes back `kineme.segments.history.LONGEST` steps; of the tables
 that were replaced the last `MOST_KEPT` are there.
@@ -18,31 +18,67 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
+
+import msgspec
 
 from kineme.errors import ParameterError, ReadError
 from kineme.labels import json_table, read_segments
 from kineme.segments.history import History
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.kept.identities import Identities
-from kineme.studio.kept.records import (
-    FOLDER,
-    Record,
-    Step,
-    pruned,
-    read_record,
-    write_file,
-    write_record,
-)
+from kineme.studio.storage.identities import Identities
+from kineme.studio.storage.sidecars import FOLDER, read_sidecar, write_file
 from kineme.web.edits import Edit
 
 MOST_KEPT = 200
 MOST_NAMES = 200
 """Edits whose names are known, so that one that is sent again is not made again."""
 OF_A_FIRST_TABLE = Identities()
+SCHEMA = "kineme.history/1"
+HISTORY = "history.json"
+
+
+@dataclass(frozen=True)
+class Step:
+    """A table of the history, and how it came about.
+
+    Parameters
+    ----------
+    at : str
+        When, ISO 8601.
+    sha256 : str
+        Of the file.
+    n_frames : int
+        Of the recording.
+    edit : Edit or None
+        As a page sent it; None for what was found, or written by another program.
+    ids : Identities
+        Who its segments are.
+    """
+
+    at: str
+    sha256: str
+    n_frames: int
+    edit: Edit | None
+    ids: Identities = field(default_factory=Identities)
+
+
+@dataclass(frozen=True)
+class Record:
+    """What ``history.json`` holds; tables by their numbers.
+
+    ``names`` are those of the last changes, empty for one without.
+    """
+
+    schema: str = SCHEMA
+    revision: int = 0
+    history: History[int] = field(default_factory=lambda: History(0))
+    kept: tuple[int, ...] = ()
+    names: tuple[str, ...] = ()
+    steps: dict[int, Step] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -77,12 +113,12 @@ class Journal:
         history, steps = self._record.history, self._record.steps
         digest = _digest(table)
         if steps and steps[history.present].n_frames == table.n_frames:
-            for known in (history, _or_none(history.undone), _or_none(history.redone)):
-                if known is not None and self._is(known.present, table, digest):
-                    if known is not history:  # the last change was cut short, and has no answer
+            for step in (history, _or_none(history.undone), _or_none(history.redone)):
+                if step is not None and self._is(step.present, table, digest):
+                    if step is not history:  # the last change was cut short, and has no answer
                         names, revision = self._record.names[:-1], self._record.revision - 1
                         self._record = replace(
-                            self._record, history=known, names=names, revision=revision
+                            self._record, history=step, names=names, revision=revision
                         )
                     return
             ids = self._ids_of_another(table, digest)
@@ -116,7 +152,7 @@ class Journal:
         """Whether the edit of that name has been made."""
         return bool(name) and name in self._record.names
 
-    def kept(self) -> dict[int, Step]:
+    def versions(self) -> dict[int, Step]:
         """The tables that were replaced, the latest first."""
         steps = self._record.steps
         n_frames = steps[self._record.history.present].n_frames
@@ -133,7 +169,7 @@ class Journal:
         """
         if number in self._unsaved:
             return self._unsaved[number]
-        return read_segments(self._place(number), format="json")
+        return read_segments(self._path(number), format="json")
 
     def changed(
         self,
@@ -176,11 +212,11 @@ class Journal:
 
     def undone(self) -> Change:
         """The history one step back; ParameterError where there is nothing to undo."""
-        return self._gone(self._record.history.undone())
+        return self._moved_to(self._record.history.undone())
 
     def redone(self) -> Change:
         """The history one step forward again; ParameterError where nothing was undone."""
-        return self._gone(self._record.history.redone())
+        return self._moved_to(self._record.history.redone())
 
     def write(
         self,
@@ -221,15 +257,15 @@ class Journal:
         self._record, self._unsaved = record, {}
         for number in forgotten:
             with suppress(OSError):
-                self._place(number).unlink()
+                self._path(number).unlink()
 
     def _write(self, record: Record) -> None:
         for number in self._unsaved.keys() & record.steps.keys():
             table = self._unsaved[number]
-            write_file(self._place(number), json_table.dumps(table).encode())
+            write_file(self._path(number), json_table.dumps(table).encode())
         write_record(self.folder, record)
 
-    def _gone(self, history: History[int]) -> Change:
+    def _moved_to(self, history: History[int]) -> Change:
         return Change(replace(self._record, history=history), self.table(history.present))
 
     def _ids_of_another(self, table: Segmentation, digest: str) -> Identities:
@@ -253,8 +289,47 @@ class Journal:
         """Of the tables in the folder."""
         return {int(path.stem) for path in self.folder.glob("*.json") if path.stem.isdecimal()}
 
-    def _place(self, number: int) -> Path:
+    def _path(self, number: int) -> Path:
         return self.folder / f"{number}.json"
+
+
+def read_record(folder: Path) -> tuple[Record, list[str]]:
+    """The history in a folder, and what people should know of it.
+
+    Parameters
+    ----------
+    folder : Path
+
+    Returns
+    -------
+    record : Record
+        An empty one where there is none that can be read.
+    notes : list of str
+        That a damaged one was left alone.
+    """
+    record, notes = read_sidecar(folder / HISTORY, Record, Record())
+    complete = record.schema == SCHEMA and needed_by(record) <= record.steps.keys()
+    if complete or record == Record():
+        return record, notes
+    return Record(revision=record.revision), [*notes, f"{HISTORY} was left alone: it is not whole"]
+
+
+def write_record(folder: Path, record: Record) -> None:
+    """Have the history on the disk: whole or not at all."""
+    content = msgspec.json.format(msgspec.json.encode(record), indent=1)
+    write_file(folder / HISTORY, content)
+
+
+def pruned(record: Record) -> Record:
+    """The record without the steps that nothing needs any more."""
+    needed = needed_by(record)
+    return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})
+
+
+def needed_by(record: Record) -> set[int]:
+    """The numbers of the tables that a record names."""
+    history = record.history
+    return {*history.past, history.present, *history.future, *record.kept}
 
 
 def _or_none(step: Callable[[], History[int]]) -> History[int] | None:

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from crowds import KINDS, bytes_of, crowd, joined, once_deadly
-from kineme.library.executors.processes import processes
-from kineme.library.vocabulary import comparing, crowds
+from kineme.library.executors import processes
+from kineme.library.vocabulary import joining
 
 
 def test_a_crowd_has_the_clusters_that_comparing_each_with_each_finds() -> None:
@@ -37,9 +37,9 @@ def test_a_sample_never_joins_what_differs() -> None:
 def test_processes_find_the_same_clusters_though_one_of_them_dies(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(crowds, "PER_WORKER", 60)
-    monkeypatch.setattr(comparing, "BLOCK", 8)
-    monkeypatch.setattr(crowds, "AT_ONCE", 30)
+    monkeypatch.setattr(joining, "PER_WORKER", 60)
+    monkeypatch.setattr(joining, "BLOCK", 8)
+    monkeypatch.setattr(joining, "AT_ONCE", 30)
     words, _ = crowd()
     here = joined(words, most=20)
     flag = tmp_path / "flag"

@@ -11,7 +11,7 @@ from contextlib import suppress
 import pytest
 import uvicorn
 
-from kineme.studio.http import headers
+from kineme.studio.http import security
 
 HEAD = b"GET / HTTP/1.1\r\nHost: x\r\n"
 
@@ -27,9 +27,9 @@ async def _app(_: object, receive, send) -> None:
 
 @pytest.fixture
 def address(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[str, int]]:
-    monkeypatch.setattr(headers, "WITHIN", 0.3)
+    monkeypatch.setattr(security, "WITHIN", 0.3)
     config = uvicorn.Config(
-        _app, http=headers.HeadersInTime, log_level="error", lifespan="off", ws="none"
+        _app, http=security.HeadersInTime, log_level="error", lifespan="off", ws="none"
     )
     server = uvicorn.Server(config)
     opened = socket.create_server(("127.0.0.1", 0))

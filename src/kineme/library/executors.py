@@ -1,0 +1,347 @@
+"""Where tasks are worked on: in this process, in several, or on a cluster; and how far they are.
+
+An executor takes a function and what it is to be called with, and gives back what came of each, as
+they come. `InProcess` is this process, `Processes` are several of this machine, `Cluster` the
+workers of a `dask.distributed` scheduler; another kind is one class more.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+import time
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from itertools import islice
+from typing import Any, Protocol, TypeVar, runtime_checkable
+
+from kineme._processes import context, interrupted_later, pool_of
+from kineme._version import __version__
+from kineme.errors import KinemeError, MissingDependencyError, ParameterError
+
+Task = TypeVar("Task")
+Outcome = TypeVar("Outcome")
+PRELOADED = (
+    "kineme.library.gathering",
+    "kineme.library.descriptions",
+    "kineme.segmentation.segmenter",
+    "kineme.transfer.channel_samples",
+    "kineme.library.vocabulary.joining",
+    "kineme.formats.skeletons._amc_kernels",
+    "kineme.methods.kineme.pipeline",
+    "kineme.methods.kineme.found",
+    "pyarrow.parquet",
+)
+"""What takes long to import."""
+_SOON = threading.Event()
+"""Set where this was begun before it was known what there is to do."""
+EXTRA = "cluster"
+"""The extra that installs what clusters need."""
+AHEAD = 1000
+"""Tasks that the scheduler knows at a time."""
+_ONE = threading.Lock()
+Progress = Callable[[str], None]
+
+
+@runtime_checkable
+class Executor(Protocol):
+    """Where tasks are worked on."""
+
+    def completed(
+        self,
+        work: Callable[[Task], Outcome],
+        tasks: Sequence[Task],
+        *,
+        workers: int | None = None,
+    ) -> Iterator[tuple[Task, Outcome | None]]:
+        """Each task and what came of it, as they come.
+
+        Parameters
+        ----------
+        work : callable
+            A function of a module. What it raises ends all.
+        tasks : sequence
+            Each is pickled where it goes to another process.
+        workers : int, optional
+            How many processes are worth to be started for these tasks, any by default; 0: none,
+            but those that are there already may work on them.
+
+        Yields
+        ------
+        task
+            One of the given.
+        outcome
+            None where whatever process worked on it died. Others than this task lose nothing by
+            it. Who stops asking ends the work on what is left.
+        """
+        ...
+
+
+class InProcess:
+    """The process that asks, one task after the other; a task that ends it ends all."""
+
+    def completed(
+        self,
+        work: Callable[[Task], Outcome],
+        tasks: Sequence[Task],
+        *,
+        workers: int | None = None,  # noqa: ARG002 (there is one)
+    ) -> Iterator[tuple[Task, Outcome | None]]:
+        """Each task and what came of it, as they come; see `Executor`."""
+        for task in tasks:
+            yield task, work(task)
+
+
+class Processes:
+    """So many processes of this machine at most, which go on from one work to the next.
+
+    Parameters
+    ----------
+    jobs : int
+    """
+
+    def __init__(self, jobs: int):
+        self._jobs = jobs
+        self._pool: ProcessPoolExecutor | None = None
+
+    def completed(
+        self,
+        work: Callable[[Task], Outcome],
+        tasks: Sequence[Task],
+        *,
+        workers: int | None = None,
+    ) -> Iterator[tuple[Task, Outcome | None]]:
+        """Each task and what came of it, as they come; see `Executor`.
+
+        For one task alone no process is started either, unless that is begun already.
+        """
+        if not (self._pool or _SOON.is_set()) and (workers == 0 or len(tasks) == 1):
+            yield from InProcess().completed(work, tasks)
+            return
+        waiting = list(reversed(tasks))
+        while waiting:
+            suspects = yield from self._run(work, waiting, min(self._jobs, workers or self._jobs))
+            for task in suspects:  # alone, so that it is known who ends its process
+                dying = yield from self._run(work, [task], 1)
+                if dying:
+                    yield task, None
+
+    def close(self, *, wait: bool = False) -> None:
+        """End the processes once they are done with what they are at, and wait for that.
+
+        Python that ends at the same time as they do may complain of it.
+        """
+        if self._pool is not None:
+            self._pool.shutdown(wait=wait, cancel_futures=True)
+        self._pool = None
+
+    def _run(
+        self, work: Callable[[Task], Outcome], waiting: list[Task], most: int
+    ) -> Generator[tuple[Task, Outcome], None, list[Task]]:
+        """Work on tasks from the end of the list; those in work when one died are returned."""
+        if self._pool is None:
+            self._pool = pool_of(self._jobs, PRELOADED)
+        running: dict[Future[Outcome], Task] = {}
+        try:
+            while waiting or running:
+                while waiting and len(running) < most:
+                    with interrupted_later():
+                        running[self._pool.submit(work, waiting[-1])] = waiting[-1]
+                    waiting.pop()
+                for future in wait(running, return_when=FIRST_COMPLETED).done:
+                    outcome = future.result()
+                    yield running.pop(future), outcome
+        except BrokenProcessPool:
+            self.close()
+            return list(running.values())
+        finally:
+            if running:  # nobody asks any more
+                self.close()
+        return []
+
+
+@contextmanager
+def processes(jobs: int) -> Iterator[Executor]:
+    """So many processes of this machine at most; 1 is this one."""
+    if jobs == 1:
+        yield InProcess()
+        return
+    several = Processes(jobs)
+    try:
+        yield several
+    except BaseException:
+        several.close()
+        raise
+    several.close(wait=True)
+
+
+def start_soon() -> None:
+    """Start what processes are copies of: that takes a second, in which this one can go on."""
+    if sys.platform == "linux":
+        context(PRELOADED)
+        _SOON.set()
+
+
+class Cluster:
+    """The workers of a `dask.distributed.Client`.
+
+    They see the recordings and the library at the same places as the client does. A worker has one
+    task at a time, and as many threads for it as dask gave it. Dask tries a task anew whose worker
+    died, three times by default (``distributed.scheduler.allowed-failures``).
+
+    Parameters
+    ----------
+    client : distributed.Client
+
+    Raises
+    ------
+    ParameterError
+        It is none, or workers have another version of kineme, or none.
+    MissingDependencyError
+        dask is not installed.
+    """
+
+    def __init__(self, client: Any):
+        if not isinstance(client, _distributed().Client):
+            raise ParameterError(
+                f"client takes a dask.distributed.Client or the address of a scheduler, not "
+                f"{client!r:.60}"
+            )
+        self._client = client
+        for address, version in client.run(_version, on_error="return").items():
+            if version != __version__:
+                other = "no kineme" if isinstance(version, Exception) else f"kineme {version}"
+                raise ParameterError(
+                    f"worker {address} has {other}, this is {__version__}: install the same there"
+                )
+
+    def completed(
+        self,
+        work: Callable[[Task], Outcome],
+        tasks: Sequence[Task],
+        *,
+        workers: int | None = None,  # noqa: ARG002 (they are there already)
+    ) -> Iterator[tuple[Task, Outcome | None]]:
+        """Each task and what came of it, as they come; see `Executor`."""
+        distributed = _distributed()
+        waiting, running = iter(tasks), {}
+        done = distributed.as_completed(loop=self._client.loop, raise_errors=False)
+
+        def submit(n: int) -> None:
+            for task in islice(waiting, n):
+                future = self._client.submit(_alone, work, task, pure=False)
+                running[future] = task
+                done.add(future)
+
+        try:
+            submit(AHEAD)
+            for future in done:
+                yield running.pop(future), _outcome(future)
+                submit(1)
+        finally:
+            self._client.cancel(list(running))
+
+
+@contextmanager
+def connected(client: Any) -> Iterator[Executor]:
+    """The cluster of a client, or of the scheduler at an address such as ``tcp://10.0.0.1:8786``.
+
+    An executor is taken as it is.
+
+    Raises
+    ------
+    ParameterError
+        No scheduler answers there; or as `Cluster`.
+    MissingDependencyError
+        dask is not installed.
+    """
+    if isinstance(client, Executor):
+        yield client
+        return
+    if not isinstance(client, str):
+        yield Cluster(client)
+        return
+    try:
+        connection = _distributed().Client(client, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise ParameterError(f"no scheduler answers at {client:.60}: {error!s:.100}") from error
+    with connection:
+        yield Cluster(connection)
+
+
+def _distributed() -> Any:
+    try:
+        import distributed
+    except ImportError as error:
+        raise MissingDependencyError("dask.distributed", EXTRA) from error
+    return distributed
+
+
+def _outcome(future: Any) -> Any:
+    """What came of a task; None where its workers died."""
+    if future.status == "finished":
+        return future.result()
+    error = future.exception() if future.status == "error" else None
+    if isinstance(error, _distributed().KilledWorker):
+        return None
+    if isinstance(error, KinemeError):
+        raise error
+    reason = "the scheduler is gone" if error is None else f"{error}"
+    raise KinemeError(
+        f"the cluster gave up: {' '.join(reason.split())[:200]}; what is done is kept, try again"
+    )
+
+
+def _version() -> str:
+    """The version of kineme on a worker."""
+    return __version__
+
+
+def _alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
+    """Work on a task, the only one in its process: settings of BLAS hold for a whole process."""
+    from distributed import get_worker
+
+    worker = get_worker()
+    if worker.nanny is not None:  # a process of its own
+        os.environ.setdefault("KINEME_THREADS", str(worker.state.nthreads))
+    with _ONE:
+        return work(task)
+
+
+class Watch:
+    """Tells how many things are done, and for how many seconds the work on the others goes on.
+
+    Parameters
+    ----------
+    progress : callable
+        Called with each sentence.
+    things : int
+        That there are.
+    work : float
+        That they make, in any unit.
+    what : str
+        Said before the numbers.
+    """
+
+    def __init__(self, progress: Progress, things: int, work: float, what: str = ""):
+        self._progress, self._what = progress, what
+        self._started = time.monotonic()
+        self._things, self._work = things, work
+        self._things_done, self._work_done = 0, 0.0
+
+    def done(self, things: int, work: float) -> None:
+        """So many more are done, and so much work."""
+        self._things_done += things
+        self._work_done += work
+        left = self._work - self._work_done
+        left_s = (time.monotonic() - self._started) * left / max(self._work_done, 1)
+        shown = f"{left_s:.0f} s" if left_s < 90 else f"{left_s / 60:.0f} min"
+        more = f", {shown} left" if self._things_done < self._things else ""
+        self._progress(f"{self._what}{self._things_done} of {self._things}{more}")
+
+    def more(self, work: float) -> None:
+        """There is so much more work."""
+        self._work += work

@@ -1,0 +1,341 @@
+"""A library that is open: its tables with edits applied, and its clusters, listed and edited."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple, get_type_hints
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kineme.errors import ParameterError, ReadError
+from kineme.library.edits import Edits, edited, read_edits
+from kineme.library.settings import Settings
+from kineme.library.sources import read_at
+from kineme.library.storage.layout import (
+    LOCK_EDITS,
+    arrow,
+    as_array,
+    as_column,
+    read_head,
+    writer_lock,
+)
+from kineme.library.storage.places import place
+from kineme.library.storage.tables import DESCRIBED, read_table
+from kineme.recordings import Motion, Signals
+
+Columns = dict[str, NDArray[Any]]
+
+
+class OpenTables:
+    """The tables that were valid when a library was opened, and the edits so far.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the library.
+
+    Attributes
+    ----------
+    folder : Path
+    head : dict
+        What ``library.json`` says.
+    edits : Edits
+    """
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.head = read_head(folder)
+        try:
+            self._computed = self._read()
+        except ReadError:  # a build may have ended between the head and the tables
+            self.head = read_head(folder)
+            self._computed = self._read()
+        self._take(read_edits(folder))
+
+    @property
+    def settings(self) -> Settings:
+        """How its recordings are read and segmented."""
+        return Settings.from_json(self.head["settings"])
+
+    @cached_property
+    def recordings(self) -> dict[str, list[Any]]:
+        """The table of recordings by column."""
+        found: dict[str, list[Any]] = self.table("recordings").to_pydict()
+        return found
+
+    def path_of(self, recording: str) -> Path:
+        """The file that a recording of the library was read from."""
+        try:
+            row = self.recordings["recording"].index(recording)
+        except ValueError:
+            raise ParameterError(f"no recording is called {recording!r:.60}") from None
+        return place(self.recordings["path"][row])
+
+    def read(self, recording: str) -> Motion | Signals:
+        """A recording of the library, read as it was when the library was built."""
+        return read_at(self.path_of(recording), self.settings.reading)
+
+    def table(self, name: str) -> Any:
+        """A table, one of `kineme.library.storage.tables.DESCRIBED`, as a pyarrow.Table."""
+        if name not in self._computed:
+            self._computed[name] = read_table(self.folder, self.head["tables"], name)
+        tables = self._edited  # an edit, in another thread, begins a new one
+        if name not in tables:
+            tables[name] = edited(self._computed[name], self.edits)
+        return tables[name]
+
+    def columns(self, name: str) -> Columns:
+        """The same as arrays."""
+        arrays = self._arrays
+        if name not in arrays:
+            table = self.table(name)
+            arrays[name] = {column: as_array(table.column(column)) for column in table.column_names}
+        return arrays[name]
+
+    @cached_property
+    def rows(self) -> dict[str, tuple[int, int]]:
+        """First row and end of the segments of each recording."""
+        names = self.table("segments").column("recording").combine_chunks().dictionary_encode()
+        codes = np.from_dlpack(names.indices)
+        edges = [*np.flatnonzero(np.diff(codes, prepend=-1)).tolist(), len(codes)]
+        called = names.dictionary.to_pylist()
+        return {called[codes[a]]: (a, b) for a, b in pairwise(edges)}
+
+    @contextmanager
+    def editing(self) -> Iterator[None]:
+        """A block in which `edits` are all that were made, and nobody else makes any."""
+        with writer_lock(self.folder, "try again", LOCK_EDITS):
+            self._take(read_edits(self.folder))
+            yield
+
+    def write(self, edits: Edits) -> None:
+        """Keep edits, and go on with them."""
+        edits.write(self.folder)
+        self._take(edits)
+
+    def _take(self, edits: Edits) -> None:
+        self.edits = edits
+        self._edited: dict[str, Any] = {}
+        self._arrays: dict[str, Columns] = {}
+
+    def _read(self) -> dict[str, Any]:
+        """All tables but the embeddings, which few need."""
+        names = [name for name in DESCRIBED if name != "embeddings"]
+        tables = {name: read_table(self.folder, self.head["tables"], name) for name in names}
+        recordings = {*tables["recordings"].column("recording").to_pylist()}
+        for name in names:
+            if not recordings.issuperset(tables[name].column("recording").unique().to_pylist()):
+                raise ReadError(
+                    self.folder, f"{name} and recordings do not fit: build the library again"
+                )
+        return tables
+
+
+class Cluster(NamedTuple):
+    """A cluster of the library, over all recordings.
+
+    Attributes
+    ----------
+    cluster : int
+    label : str
+        Its name, or empty.
+    vocabulary : str
+        `bodies`, or which channels.
+    recordings, activities, repetitions : int
+        How many it occurs in; how many activities and primitives there are of it.
+    seconds : float
+        Of its activities.
+    typical_s : float
+        Median seconds of a repetition, or of an activity where none was counted.
+    example : str
+        The recording of its most typical word.
+    start_s, stop_s : float
+        Where that lies there.
+    """
+
+    cluster: int
+    label: str
+    vocabulary: str
+    recordings: int
+    activities: int
+    repetitions: int
+    seconds: float
+    typical_s: float
+    example: str
+    start_s: float
+    stop_s: float
+
+
+class Word(NamedTuple):
+    """A cluster of one recording, as part of one of the library.
+
+    Attributes
+    ----------
+    recording : str
+    start_s, stop_s : float
+        Its typical segment.
+    cluster : int
+        Of the library.
+    following : int
+        The one that it is nearest to but for its own.
+    confidence : float
+        How much nearer it is to its own, 0 to 1.
+    """
+
+    recording: str
+    start_s: float
+    stop_s: float
+    cluster: int
+    following: int
+    confidence: float
+
+
+def clusters_of(tables: OpenTables) -> list[Cluster]:
+    """The clusters of a library, those of most seconds first."""
+    words, segments = tables.columns("words"), tables.columns("segments")
+    recordings = tables.recordings
+    vocabularies = dict(zip(recordings["recording"], recordings["vocabulary"], strict=True))
+    lasts = segments["stop_s"] - segments["start_s"]
+    active = segments["kind"] != "transition"
+    finer = segments["level"] == "primitive"
+    found = []
+    for number in sorted(set(words["cluster"].tolist())):
+        members = np.flatnonzero(words["cluster"] == number)
+        typical = members[np.argmin(words["spread"][members])]
+        rows = active & (segments["cluster"] == number)
+        repeated = rows & finer
+        typically = lasts[repeated if repeated.any() else rows]
+        recording = str(words["recording"][typical])
+        found.append(
+            Cluster(
+                number,
+                tables.edits.name(number),
+                vocabularies[recording],
+                len(set(words["recording"][members].tolist())),
+                int((rows & ~finer).sum()),
+                int(repeated.sum()),
+                round(float(lasts[rows & ~finer].sum()), 6),
+                round(float(np.median(typically)), 6) if len(typically) else 0.0,
+                recording,
+                float(words["start_s"][typical]),
+                float(words["stop_s"][typical]),
+            )
+        )
+    return sorted(found, key=lambda cluster: (-cluster.seconds, cluster.cluster))
+
+
+def cluster_table(clusters: Sequence[Cluster]) -> Any:
+    """The clusters as a pyarrow.Table."""
+    pa, _ = arrow()
+    hints = get_type_hints(Cluster)
+    return pa.table(
+        {
+            name: as_column([getattr(each, name) for each in clusters], hints[name])
+            for name in Cluster._fields
+        }
+    )
+
+
+def unsure_words(tables: OpenTables) -> list[Word]:
+    """The words that may as well be in another cluster, the least sure first."""
+    words, most = tables.columns("words"), tables.head["vocabulary"]["unsure"]
+    rows = np.flatnonzero((words["confidence"] < most) & (words["cluster"] != words["following"]))
+    rows = rows[np.argsort(words["confidence"][rows], kind="stable")]
+    columns = (words[name][rows].tolist() for name in Word._fields)
+    return [Word(*row) for row in zip(*columns, strict=True)]
+
+
+def numbers_of(tables: OpenTables, cluster: int | str) -> list[int]:
+    """The numbers of the clusters of that number or name, one at least.
+
+    Parameters
+    ----------
+    tables : OpenTables
+    cluster : int or str
+
+    Raises
+    ------
+    ParameterError
+        There is none.
+    """
+    there = sorted(set(tables.columns("words")["cluster"].tolist()))
+    edits, text = tables.edits, str(cluster)
+    named = isinstance(cluster, str)  # a whole number is never taken for a name of digits
+    found = [number for number in there if named and edits.name(number) == text]
+    if not found and text.isdecimal():
+        found = [number for number in there if number == edits.number(int(text))]
+    if not found:
+        names = ", ".join(edits.name(number) or str(number) for number in there[:20])
+        raise ParameterError(f"no cluster is called {text:.60}; there are {names or 'none'}")
+    return found
+
+
+def name_cluster(tables: OpenTables, cluster: int | str, name: str) -> None:
+    """Call a cluster, by number or name, by a name; an empty one takes it away."""
+    with tables.editing():
+        edits = tables.edits
+        for number in numbers_of(tables, cluster):
+            edits = edits.with_name(number, name)
+        tables.write(edits)
+
+
+def merge_clusters(tables: OpenTables, cluster: int | str, others: Sequence[int | str]) -> None:
+    """Make other clusters part of one, which keeps its number and name.
+
+    Parameters
+    ----------
+    tables : OpenTables
+    cluster : int or str
+        By number or name.
+    others : sequence of int or str
+
+    Raises
+    ------
+    ParameterError
+        There are no others, or no cluster is called so.
+    """
+    if not others:
+        raise ParameterError("nothing to merge: name two clusters at least")
+    with tables.editing():
+        target, *same = numbers_of(tables, cluster)
+        moved = [*same, *(number for other in others for number in numbers_of(tables, other))]
+        tables.write(tables.edits.with_merge(target, moved))
+
+
+def split_cluster(tables: OpenTables, cluster: int | str, recordings: Sequence[str]) -> int:
+    """Make what a cluster has in some recordings a cluster of its own.
+
+    Parameters
+    ----------
+    tables : OpenTables
+    cluster : int or str
+        By number or name.
+    recordings : sequence of str
+
+    Returns
+    -------
+    int
+        The number of the new cluster.
+
+    Raises
+    ------
+    ParameterError
+        It is in none of these recordings, or in no other.
+    """
+    with tables.editing():
+        (number, *_) = numbers_of(tables, cluster)
+        words = tables.columns("words")
+        there = set(words["recording"][words["cluster"] == number].tolist())
+        if not there.intersection(recordings) or there <= set(recordings):
+            raise ParameterError(
+                f"cluster {number} is split by naming some, not all, of its {len(there)} "
+                f"recordings: {', '.join(sorted(there)[:5])}"
+            )
+        into: int = max(tables.head["following"], tables.edits.following)
+        tables.write(tables.edits.with_split(number, into, recordings))
+    return into

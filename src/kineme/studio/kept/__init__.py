@@ -1,1 +1,0 @@
-"""Kept beside recordings: tables, their history, and small files in ``.kineme``."""

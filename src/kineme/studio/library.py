@@ -1,0 +1,378 @@
+"""A library in the studio: opened once, and again when others have changed it.
+
+Its recordings are a folder of the studio. A search ends the one before it. A hit is called as the
+segment is that it shows: a segment and its name are in the table beside the recording, as
+everything is that the studio corrects; nothing changes in the library.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
+from functools import lru_cache
+from itertools import count
+from pathlib import Path
+from typing import Literal, TypeVar
+
+from msgspec import UNSET, structs
+from threadpoolctl import threadpool_limits
+
+from kineme._threads import map_threads
+from kineme.errors import KinemeError, ParameterError
+from kineme.labels import read_segments
+from kineme.library import Example, Library
+from kineme.library.searching import Named
+from kineme.library.storage.layout import EDITS, HEAD
+from kineme.library.storage.places import is_remote
+from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Segment
+from kineme.studio.folder import Folder, file_id, progress
+from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
+from kineme.studio.reading import ReadingOptions, stamp_of
+from kineme.studio.storage.tables import usual_table
+from kineme.web.edits import NameSegment
+from kineme.web.library_messages import (
+    CallCluster,
+    CallHits,
+    JoinClusters,
+    LibraryCluster,
+    LibraryEdit,
+    LibraryHit,
+    LibraryHits,
+    LibraryRecording,
+    LibraryState,
+    NamedHits,
+    SearchRequest,
+    Span,
+)
+from kineme.web.requests import EditRequest
+
+SAME = 1 / 3
+"""Seconds in common over those in either from which a hit shows a segment: half of each, where
+both are as long. Hits begin anywhere in a cycle, so that more would leave half of them out."""
+MOST_TABLES = 100
+"""In memory."""
+AT_ONCE = 8
+"""Tasks of a search between two looks for a newer one."""
+Task = TypeVar("Task")
+Outcome = TypeVar("Outcome")
+
+
+class ShownLibrary:
+    """A library, as pages see it.
+
+    Parameters
+    ----------
+    folder : Path
+
+    Raises
+    ------
+    ReadError
+        There is no library, it is damaged, or of another version.
+    """
+
+    def __init__(self, folder: Path):
+        self._folder = folder
+        self._lock = threading.Lock()
+        self._searches = Searches()
+        self._stamp = self._changed()
+        self._library = Library(folder)
+
+    def library(self) -> Library:
+        """The library as it is on the disk now."""
+        with self._lock:
+            stamp = self._changed()
+            if stamp != self._stamp:
+                self._library, self._stamp = Library(self._folder), stamp
+            return self._library
+
+    def options(self) -> ReadingOptions:
+        """How its recordings are read."""
+        settings = self.library().settings
+        return ReadingOptions(settings.options(), settings.effectors)
+
+    def files(self) -> list[Path]:
+        """The files of its recordings, without those at URLs."""
+        library = self.library()
+        found = (library.path_of(name) for name in library.recordings["recording"])
+        return [path for path in found if not is_remote(path)]
+
+    def as_folder(self) -> LibraryFolder:
+        """Its recordings as a folder of the studio."""
+        return LibraryFolder(self)
+
+    def state(self) -> LibraryState:
+        """All that the page shows but the figures."""
+        library = self.library()
+        columns = library.recordings
+        rows = zip(
+            *(columns[name] for name in ("recording", "path", "vocabulary", "duration_s")),
+            strict=True,
+        )
+        return LibraryState(
+            folder=str(self._folder.absolute()),
+            hours=library.hours,
+            recordings=[
+                _recording(name, Path(path), kind, lasts) for name, path, kind, lasts in rows
+            ],
+            clusters=_clusters(library),
+            failed=library.failed,
+        )
+
+    def edit(self, edit: LibraryEdit) -> LibraryState:
+        """The library after an edit, which is on the disk."""
+        library = self.library()
+        with self._lock:
+            if isinstance(edit, CallCluster):
+                library.name(edit.cluster, edit.name.strip())
+            elif isinstance(edit, JoinClusters):
+                library.merge(edit.cluster, *edit.others)
+            else:
+                library.split(edit.cluster, edit.recordings)
+            self._stamp = self._changed()
+        return self.state()
+
+    def search(self, sent: SearchRequest) -> LibraryHits:
+        """What is like the examples; SupersededError where a newer search was asked for."""
+        found = self._searches.search(self.library(), sent)
+        return LibraryHits(hits=[self._with_name(hit) for hit in found.hits])
+
+    def call(self, sent: CallHits, recordings: OpenRecordings) -> NamedHits:
+        """Name the segments that hits show, in the tables beside their recordings."""
+        hits = [(span, self._file(span.recording)) for span in sent.hits]
+        return name_hits(recordings, hits, sent.name.strip())
+
+    def _with_name(self, hit: LibraryHit) -> LibraryHit:
+        path = self._file(hit.recording)
+        name = name_of(path, hit.start_s, hit.stop_s) if path else ""
+        return structs.replace(hit, name=name) if name else hit
+
+    def _file(self, recording: str) -> Path | None:
+        """The file of a recording of the library, where it is there."""
+        library = self.library()
+        if recording not in {*library.recordings["recording"]}:
+            return None
+        path = library.path_of(recording)
+        return None if is_remote(path) or not path.is_file() else path
+
+    def _changed(self) -> tuple[int, ...]:
+        """What is another one when somebody has written the library."""
+        return tuple(_modified(self._folder / name) for name in (HEAD, EDITS))
+
+
+class LibraryFolder(Folder):
+    """The recordings of a library as a folder of the studio, and files that came later.
+
+    Parameters
+    ----------
+    shown : ShownLibrary
+    """
+
+    of_library = True
+
+    def __init__(self, shown: ShownLibrary):
+        super().__init__(_above(shown.files()), [])
+        self._shown = shown
+
+    def recordings(self) -> dict[str, Path]:
+        """The recordings by id, whose files are there."""
+        listed = {file_id(path): path for path in self._shown.files() if path.is_file()}
+        return {**listed, **super().recordings()}
+
+
+class Searches:
+    """Searches, each of which ends those before it."""
+
+    def __init__(self) -> None:
+        self._numbers = count(1)
+        self._newest = 0
+        self._searching = threading.Lock()
+
+    def search(self, library: Library, sent: SearchRequest) -> LibraryHits:
+        """What a library has that is like the examples.
+
+        Raises
+        ------
+        SupersededError
+            A newer search was asked for meanwhile.
+        ParameterError
+            Nothing to search for, or no recording of that name.
+        """
+        number = self._newest = next(self._numbers)
+
+        def check() -> None:
+            if number != self._newest:
+                raise SupersededError("a newer search took the place of this one")
+
+        names = {*library.recordings["recording"]}
+        with self._searching:
+            check()
+            hits = library.search(
+                _examples(sent.like, names),
+                cluster=None if sent.cluster is UNSET else sent.cluster,
+                unlike=_examples(sent.unlike, names),
+                threshold=sent.threshold,
+                top=sent.top,
+                mirror=sent.mirror,
+                client=Interruptible(check),
+            )
+        return LibraryHits(hits=[LibraryHit(**hit._asdict()) for hit in hits])
+
+
+class Interruptible:
+    """Threads of this process, with a look now and then whether anybody still waits.
+
+    Parameters
+    ----------
+    check : callable
+        Raises what ends the work.
+    """
+
+    def __init__(self, check: Callable[[], None]):
+        self._check = check
+
+    def completed(
+        self, work: Callable[[Task], Outcome], tasks: Sequence[Task]
+    ) -> Iterator[tuple[Task, Outcome | None]]:
+        """Each task and what came of it; see `kineme.library.executors.Executor`."""
+        for first in range(0, len(tasks), AT_ONCE):
+            self._check()
+            some = tasks[first : first + AT_ONCE]
+            with threadpool_limits(1):
+                yield from zip(some, map_threads(work, some), strict=True)
+
+
+def segment_of(table: Segmentation, start_s: float, stop_s: float) -> Segment | None:
+    """The segment that a span shows, of the level that fits it best; None where none does.
+
+    Parameters
+    ----------
+    table : Segmentation
+    start_s, stop_s : float
+
+    Returns
+    -------
+    Segment or None
+    """
+
+    def share(row: Segment) -> float:
+        common = min(row.stop_s, stop_s) - max(row.start_s, start_s)
+        return common / (max(row.stop_s, stop_s) - min(row.start_s, start_s))
+
+    best = max(table, key=share, default=None)
+    return best if best is not None and share(best) >= SAME else None
+
+
+def name_of(recording: Path, start_s: float, stop_s: float) -> str:
+    """What the segment that a span shows is called in the table beside its recording, if at all."""
+    path = usual_table(recording)
+    table = _table(path, *stamp_of(path)) if path else None
+    row = segment_of(table, start_s, stop_s) if table is not None else None
+    return row.label if row is not None else ""
+
+
+def name_hits(
+    recordings: OpenRecordings, hits: Iterable[tuple[Span, Path | None]], name: str
+) -> NamedHits:
+    """Give the segments that hits show a name; what cannot be named costs itself.
+
+    Parameters
+    ----------
+    recordings : OpenRecordings
+    hits : iterable of (Span, Path or None)
+        Each with the file of its recording, if that is there.
+    name : str
+        Empty takes it away.
+
+    Returns
+    -------
+    NamedHits
+    """
+    named, failures = 0, []
+    for span, path in hits:
+        where = f"{span.recording}, {span.start_s:.2f} to {span.stop_s:.2f} s"
+        if path is None:
+            failures.append(f"{where}: its file is not there")
+            continue
+        try:
+            opened = recordings.get(file_id(path))
+            row = segment_of(opened.table, span.start_s, span.stop_s)
+            if row is None:
+                failures.append(f"{where}: no segment lies there")
+                continue
+            if row.label != name:
+                edit = NameSegment(level=row.level, frame=row.start_frame, label=name)
+                recordings.edit(opened.id, EditRequest(revision=opened.revision, edit=edit))
+            named += 1
+        except (KinemeError, UnknownError) as error:
+            failures.append(f"{where}: {error}")
+    return NamedHits(named=named, left=failures)
+
+
+def _above(files: list[Path]) -> Path:
+    """The folder that holds all files; that of the first where there is none."""
+    folders = [str(path.absolute().parent) for path in files] or [str(Path.cwd())]
+    with suppress(ValueError):  # several drives
+        return Path(os.path.commonpath(folders))
+    return Path(folders[0])
+
+
+def _modified(path: Path) -> int:
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return 0
+
+
+def _recording(name: str, path: Path, vocabulary: str, lasts: float) -> LibraryRecording:
+    there = path.is_file()
+    return LibraryRecording(
+        recording=name,
+        id=file_id(path) if there else "",
+        status=_status(path) if there else "gone",
+        vocabulary=vocabulary,
+        duration_s=lasts,
+    )
+
+
+def _status(path: Path) -> Literal["as found", "corrected", "checked"]:
+    counts = progress(path)
+    if counts is None:
+        return "as found"
+    return "checked" if counts.segments and counts.checked == counts.segments else "corrected"
+
+
+def _clusters(library: Library) -> list[LibraryCluster]:
+    rows = {name: row for row, name in enumerate(library.recordings["recording"])}
+    words = library.table("words").select(["cluster", "recording"]).to_pydict()
+    where: dict[int, set[int]] = {}
+    for cluster, name in zip(words["cluster"], words["recording"], strict=True):
+        where.setdefault(cluster, set()).add(rows[name])
+    unsure = Counter(word.cluster for word in library.unsure())
+    return [
+        LibraryCluster(
+            **{**each._asdict(), "recordings": sorted(where[each.cluster])},
+            unsure=unsure[each.cluster],
+        )
+        for each in library.clusters()
+    ]
+
+
+@lru_cache(MOST_TABLES)
+def _table(path: Path, *_: int) -> Segmentation | None:
+    """Of the file as it was at that time; None where it is no table."""
+    try:
+        return read_segments(path, format="json")
+    except KinemeError:
+        return None
+
+
+def _examples(spans: Sequence[Span], names: set[str]) -> list[Example]:
+    """Spans as examples, each of a recording of the library and of no other file."""
+    for span in spans:
+        if span.recording not in names:
+            raise ParameterError(f"the library has no recording {span.recording!r:.80}")
+    return [Example(Named(span.recording), span.start_s, span.stop_s) for span in spans]

@@ -1,1 +1,0 @@
-"""A library in the studio: its page, its recordings as a folder, searches and edits."""

@@ -1,0 +1,1 @@
+"""What lies beside recordings: tables, their history, and small files in ``.kineme``."""

@@ -1,0 +1,198 @@
+"""Small files in ``.kineme``, beside the recordings of a folder: what people said of them.
+
+- ``walk.bvh.reading.json``: how that recording is read, before what the studio was started with;
+- ``walk.bvh.video.json``: the second of its reference video, a file of the same name, at frame 0;
+- ``labels.json``: the labels that the recordings of the folder share, those on the keys 1 to 9.
+
+A damaged file counts as none, is left alone, and people are told.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any, TypedDict, TypeVar
+
+from msgspec import Meta, Struct
+
+from kineme._files import atomic_write, refuse_link
+from kineme._json import loaded
+from kineme.errors import KinemeError, ReadError, WriteError
+from kineme.formats import ReadOptions
+from kineme.web.edits import LARGEST
+from kineme.web.messages import Video
+
+FOLDER = ".kineme"
+OPTIONS = ("person", "fps", "unit", "up")
+"""Of the reader, those that the page asks for."""
+VIDEOS = (".mp4", ".webm", ".m4v", ".mov", ".ogv")
+LABELS = "labels.json"
+Content = TypeVar("Content")
+
+
+class _Reading(TypedDict, total=False):
+    person: str | None
+    fps: float | None
+    unit: str | float | None
+    up: str | None
+
+
+class _Offset(Struct):
+    offset_s: Annotated[float, Meta(ge=-LARGEST, le=LARGEST)] = 0.0
+
+
+def options_of(recording: Path) -> dict[str, Any]:
+    """What people said of how a recording is read, by the names of the options."""
+    return _reading(recording)[0]
+
+
+def notes_on_reading(recording: Path) -> list[str]:
+    """That what was said of a recording cannot be read, where it cannot."""
+    return _reading(recording)[1]
+
+
+def read_options(recording: Path, general: ReadOptions) -> ReadOptions:
+    """How a recording is read: as people said of it, else as of all."""
+    return replace(general, **options_of(recording))
+
+
+def keep_options(recording: Path, options: dict[str, Any]) -> None:
+    """Keep what people say of how a recording is read.
+
+    Raises
+    ------
+    ParameterError
+        A value that an option does not take.
+    WriteError
+        It cannot be written.
+    """
+    given = {name: value for name, value in options.items() if name in OPTIONS and value}
+    ReadOptions(**given)
+    write_file(_sidecar(recording, "reading"), json.dumps(given).encode())
+
+
+def video_of(recording: Path) -> Path | None:
+    """The video beside a recording; None where there is none."""
+    for suffix in VIDEOS:
+        for path in (recording.with_suffix(suffix), recording.with_suffix(suffix.upper())):
+            if path.is_file() and not path.is_symlink():
+                return path
+    return None
+
+
+def video_message(recording: Path) -> Video | None:
+    """What a page is told of the video."""
+    found = video_of(recording)
+    return Video(name=found.name, offset_s=offset_of(recording)) if found else None
+
+
+def offset_of(recording: Path) -> float:
+    """Seconds of the video at the start of the recording; 0 where nobody said."""
+    return _video(recording)[0].offset_s
+
+
+def notes_on_video(recording: Path) -> list[str]:
+    """That the offset of a video cannot be read, where it cannot."""
+    return _video(recording)[1]
+
+
+def set_offset(recording: Path, seconds: float) -> None:
+    """Keep the offset of the video; WriteError where it cannot be written."""
+    write_file(_sidecar(recording, "video"), json.dumps({"offset_s": seconds}).encode())
+
+
+def shared_labels(root: Path) -> list[str]:
+    """The labels of a folder; none where nobody chose any."""
+    return _labels(root)[0]
+
+
+def notes_on_labels(root: Path) -> list[str]:
+    """That the labels of a folder cannot be read, where they cannot."""
+    return _labels(root)[1]
+
+
+def share_labels(root: Path, labels: Sequence[str]) -> list[str]:
+    """Keep these labels, each once, for the folder.
+
+    Raises
+    ------
+    WriteError
+        They cannot be written.
+    """
+    unique = list(dict.fromkeys(label.strip() for label in labels if label.strip()))
+    write_file(root / FOLDER / LABELS, json.dumps(unique, ensure_ascii=False, indent=1).encode())
+    return unique
+
+
+def read_sidecar(path: Path, shape: type[Content], otherwise: Content) -> tuple[Content, list[str]]:
+    """What a side file holds, and what people should know of it.
+
+    Parameters
+    ----------
+    path : Path
+        It need not be there.
+    shape : type
+        Of what it holds.
+    otherwise : object
+        What counts where there is none, or none that can be read.
+
+    Returns
+    -------
+    content : object
+    notes : list of str
+        That a damaged file was left alone, and why.
+    """
+    try:
+        return loaded(path, shape), []
+    except ReadError as error:
+        if isinstance(error.__cause__, FileNotFoundError | NotADirectoryError):
+            return otherwise, []
+        return otherwise, [f"{path.name} was left alone: it {error.reason}"]
+
+
+def write_file(path: Path, content: bytes) -> None:
+    """Have a file of ``.kineme`` on the disk, whole or not at all, with the folders around it.
+
+    Raises
+    ------
+    WriteError
+        It cannot be written; it, ``.kineme`` or a folder between is a link.
+    """
+    _make_folder(path.parent)
+    with atomic_write(path) as draft:
+        draft.write_bytes(content)
+
+
+def _make_folder(folder: Path) -> None:
+    if folder.name != FOLDER:
+        _make_folder(folder.parent)
+    refuse_link(folder)
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise WriteError(folder, f"cannot be made: {error.strerror or error}") from error
+
+
+def _reading(recording: Path) -> tuple[dict[str, Any], list[str]]:
+    path = _sidecar(recording, "reading")
+    content, notes = read_sidecar(path, _Reading, _Reading())
+    options = {name: value for name, value in content.items() if value}
+    try:
+        ReadOptions(**options)  # type: ignore[arg-type]  # its values are of these types
+    except KinemeError as error:
+        return {}, [*notes, f"{path.name} was left alone: it holds a wrong option: {error}"]
+    return options, notes
+
+
+def _video(recording: Path) -> tuple[_Offset, list[str]]:
+    return read_sidecar(_sidecar(recording, "video"), _Offset, _Offset())
+
+
+def _labels(root: Path) -> tuple[list[str], list[str]]:
+    return read_sidecar(root / FOLDER / LABELS, list[str], [])
+
+
+def _sidecar(recording: Path, what: str) -> Path:
+    return recording.parent / FOLDER / f"{recording.name}.{what}.json"
