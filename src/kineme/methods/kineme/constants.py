@@ -126,7 +126,7 @@ class KinemeConstants(Preset):
     )
     chance_period: float = constant(
         "what repeats within this is one thing to samples already", unit="s", limits=SOME_TIME,
-        fine=True, default=1.6,
+        fine=True, default=1.7,
     )  # fmt: skip
     max_repetition: float = constant(
         "longest repetition: what lasts longer is a course of activities", unit="s",
@@ -134,7 +134,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     uneven: float = constant(
         "standard deviation of the logarithms of durations from which nothing repeats",
-        limits=SOME_FACTOR, fine=True, default=0.8,
+        limits=SOME_FACTOR, fine=True, default=0.6,
     )  # fmt: skip
     # Borders, to the frame.
     border_shift: float = constant(
@@ -143,7 +143,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     transition_cost: float = constant(
         "what a transition must gain over a border: log-likelihood times seconds, of each channel",
-        unit="s", limits=SOME_FACTOR, fine=True, default=0.1,
+        unit="s", limits=SOME_FACTOR, fine=True, default=0.6,
     )  # fmt: skip
     # Repetitions.
     counting_fps: float = constant(
