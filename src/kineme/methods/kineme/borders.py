@@ -60,16 +60,16 @@ def to_the_frame(channels: Floats, borders: Frames, preset: KinemeConstants) -> 
     for i in range(1, len(borders) - 1):
         start, at, stop = borders[i - 1 : i + 2].tolist()
         # Half of what is averaged over is mixed with what lies beyond the border.
-        own = slice(max(start + averaged // 2 * (i > 1), at - learnt), at - averaged // 2)
+        left_side = slice(max(start + averaged // 2 * (i > 1), at - learnt), at - averaged // 2)
         last = stop - averaged // 2 * (i < len(borders) - 2)
-        after = slice(at + averaged // 2, min(last, at + learnt))
-        if min(own.stop - own.start, after.stop - after.start) < averaged:
+        right_side = slice(at + averaged // 2, min(last, at + learnt))
+        if min(left_side.stop - left_side.start, right_side.stop - right_side.start) < averaged:
             continue
         first = at - min(averaged, (at - start) // SHARE)
         near = scaled[first : at + min(averaged, (stop - at) // SHARE)]
         anything = -0.5 * (near**2).mean(axis=1)
-        before = np.append(0.0, np.cumsum(_likelihoods(near, scaled[own]) - anything))
-        gains = _likelihoods(near, scaled[after]) - anything
+        before = np.append(0.0, np.cumsum(_likelihoods(near, scaled[left_side]) - anything))
+        gains = _likelihoods(near, scaled[right_side]) - anything
         behind = np.append(np.cumsum(gains[::-1])[::-1], 0.0)
         likeliest = int(np.argmax(before + behind))
         left, right = _apart(before, behind, averaged - 1)
