@@ -27,6 +27,7 @@ from kineme.errors import ParameterError
 from kineme.matching._kernels import apart, warp_columns
 
 Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
 Float32s = NDArray[np.float32]
 
 THRESHOLD = 0.85
@@ -98,8 +99,16 @@ def search(
     if top is not None and not (is_number(top) and top >= 1):
         raise ParameterError(f"top must be a whole number above 0, not {top!r:.60}")
     costs, starts = warped(example, recording)
-    distances = _in_proportion(costs, starts, _checked(example, "example"), recording)
-    ends = np.flatnonzero(distances <= np.float32(threshold))
+    short = _checked(example, "example")
+    variance = float(short.var(axis=0, dtype=np.float64).sum())
+    # The smaller movement goes no farther than the example: what is dearer than this is no match.
+    dearest = threshold * np.sqrt(2 * max(variance, STILL))
+    candidates = np.flatnonzero(costs <= dearest)
+    variances = _variances(_checked(recording, "recording"), starts[candidates], candidates)
+    smaller = np.maximum(np.minimum(variances, variance), STILL)
+    distances = np.full(len(costs), np.inf, np.float32)
+    distances[candidates] = costs[candidates] / np.sqrt(2 * smaller)
+    ends = candidates[distances[candidates] <= np.float32(threshold)]
     ends = ends[np.argsort(distances[ends], kind="stable")]
     chosen = np.empty(len(ends), np.int64)
     most = len(ends) if top is None else int(top)
@@ -155,27 +164,24 @@ def warped(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[
     return costs, starts
 
 
-def _in_proportion(
-    costs: Float32s, starts: NDArray[np.int32], example: Float32s, recording: ArrayLike
-) -> Float32s:
-    """The costs of matches in proportion to how far the example goes, or the match if that is less.
+def _variances(features: Float32s, starts: NDArray[np.integer], lasts: Ints) -> Floats:
+    """Of the samples from each start to each last one, summed over their numbers.
 
-    Sums go up to the end of a match less those up to its start, about the mean of the example.
+    `numpy.add.reduceat` sums from one index to the next: each second sum is of a span.
     """
-    mean = example.mean(axis=0)
-    offsets = _checked(recording, "recording") - mean
-    squares = _squares(offsets)
-    sums = np.zeros((len(offsets) + 1, offsets.shape[1]))
-    np.cumsum(offsets, axis=0, dtype=np.float64, out=sums[1:])
-    squared = np.append(0.0, np.cumsum(squares, dtype=np.float64))
-    ends = np.arange(1, len(offsets) + 1)
-    firsts = np.minimum(starts, ends - 1)
-    lengths = ends - firsts
-    means = (sums[ends] - sums[firsts]) / lengths[:, None]
-    variances = (squared[ends] - squared[firsts]) / lengths - np.einsum("ij,ij->i", means, means)
-    variance = float(np.einsum("ij,ij->", example - mean, example - mean)) / len(example)
-    smaller = np.maximum(np.minimum(variances, variance), STILL)
-    return np.asarray(costs / np.sqrt(2 * smaller), np.float32)
+    if not len(starts):
+        return np.empty(0)
+    n, dims = features.shape
+    stops = lasts + 1
+    extended = np.empty((n + 1, dims + 1))
+    extended[:n, :dims] = features - features.mean(axis=0)
+    extended[:n, dims] = np.einsum("ij,ij->i", extended[:n, :dims], extended[:n, :dims])
+    extended[n] = 0.0
+    spans = np.column_stack([starts, stops]).ravel()
+    sums = np.add.reduceat(extended, spans, axis=0)[::2] / (stops - starts)[:, None]
+    means = sums[:, :dims]
+    variances: Floats = sums[:, dims] - np.einsum("ij,ij->i", means, means)
+    return variances
 
 
 def _squares(features: Float32s) -> Float32s:
