@@ -22,6 +22,7 @@ VARIABLE = "NUMBA_CACHE_DIR"
 def find_cache() -> None:
     """Name a folder for compiled functions where numba would find none."""
     beside = Path(__file__).parent / "__pycache__"
+    beside = beside if beside.is_dir() else beside.parent  # in which it is made
     if VARIABLE in os.environ or os.access(beside, os.W_OK) or _is_writable(_of_user() / "numba"):
         return
     os.environ[VARIABLE] = folder = _temporary()
