@@ -98,13 +98,13 @@ def search(
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
     if top is not None and not (is_number(top) and top >= 1):
         raise ParameterError(f"top must be a whole number above 0, not {top!r:.60}")
-    costs, starts = warped(example, recording)
-    short = _checked(example, "example")
+    short, long = _checked(example, "example"), _checked(recording, "recording")
+    costs, starts = warped(short, long)
     variance = float(short.var(axis=0, dtype=np.float64).sum())
     # The smaller movement goes no farther than the example: what is dearer than this is no match.
     dearest = threshold * np.sqrt(2 * max(variance, STILL))
     candidates = np.flatnonzero(costs <= dearest)
-    variances = _variances(_checked(recording, "recording"), starts[candidates], candidates)
+    variances = _variances(long, starts[candidates], candidates)
     smaller = np.maximum(np.minimum(variances, variance), STILL)
     distances = np.full(len(costs), np.inf, np.float32)
     distances[candidates] = costs[candidates] / np.sqrt(2 * smaller)
