@@ -47,13 +47,11 @@ class KinemeFound:
     unit : float
         The median distance of two samples.
     segments : Segments
-        Both levels, one frame for ``preset.step`` of the working rate.
-    frames : int
-        Of the working rate.
+        Both levels, in frames of the working rate.
     evidence : Evidence
         By which it is told how sure all that is.
     fine : (pieces + 1,) array
-        Borders of the finest segments, samples of `features`.
+        Borders of the finest segments, frames of the working rate.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -62,31 +60,17 @@ class KinemeFound:
     preset: KinemeConstants
     unit: float
     segments: Segments
-    frames: int
     evidence: Evidence
     fine: Frames
     timings: dict[str, float] = field(default_factory=dict)
-
-    @cached_property
-    def borders(self) -> Frames:
-        """Of activities, frames of the working rate, from 0 to the end."""
-        return self._in_frames(self.segments.borders)
-
-    @cached_property
-    def primitives(self) -> Frames:
-        """Borders of repetitions and events, those of activities included."""
-        return self._in_frames(self.segments.primitives)
-
-    def _in_frames(self, borders: Frames) -> Frames:
-        return np.append(borders[:-1] * self.preset.step, self.frames)
 
     def columns(self) -> Columns:
         """Activities, primitives, and how probable it is that each is right."""
         segments, sure = self.segments, self.confidence
         counts = np.where(segments.clusters >= 0, sure.counts[segments.parents], np.nan)
         return columns_of(
-            self.borders,
-            self.primitives,
+            segments.borders,
+            segments.primitives,
             is_activity=segments.labels >= 0,
             is_primitive=segments.clusters >= 0,
             clusters=(segments.labels, segments.clusters),
@@ -115,14 +99,14 @@ class KinemeFound:
 
     def _pieces(self) -> tuple[Pieces, Frames]:
         """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
-        own = in_samples(self.borders, self.preset, len(self.features))
-        sums = tree.between_segments(self.features, self.fine, self.unit)
-        found = tree.levels(self.fine, sums)
+        own = in_samples(self.segments.borders, self.preset, len(self.features))
+        fine = in_samples(self.fine, self.preset, len(self.features))
+        found = tree.levels(fine, tree.between_segments(self.features, fine, self.unit))
         most = min(len(found), EACH * len(own), max(MOST, len(own)))
-        borders = np.unique(np.concatenate([own, self.fine[found[most - 1]]]))
+        borders = np.unique(np.concatenate([own, fine[found[most - 1]]]))
         per_sample = self.preset.working_fps / self.preset.rate
         frames = np.rint(borders * per_sample).astype(np.int64)
-        frames[np.searchsorted(borders, own)] = self.borders
+        frames[np.searchsorted(borders, own)] = self.segments.borders
         parents = self.segments.labels[np.searchsorted(own, borders[:-1], side="right") - 1]
         sums = tree.between_segments(self.features, borders, self.unit) / 2
         return Pieces(borders, np.arange(len(parents)), parents, sums), frames

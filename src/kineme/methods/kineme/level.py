@@ -9,7 +9,7 @@ each other than two samples of the recording usually are. What a part tells apar
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,7 +32,7 @@ COMPARED = 64
 
 @dataclass(frozen=True, eq=False)
 class Level:
-    """Segments of samples, from 0 to the end.
+    """Segments of samples or frames, from the first to the end.
 
     Attributes
     ----------
@@ -53,6 +53,15 @@ class Level:
     def per_sample(self) -> Samples:
         """The cluster of each sample."""
         return np.repeat(self.labels, np.diff(self.borders))
+
+    def in_frames(self, span: slice, preset: KinemeConstants) -> Level:
+        """The level of samples as one of the frames of this part of a recording."""
+
+        def frames(samples: Samples) -> Samples:
+            found = span.start + np.rint(samples * (preset.working_fps / preset.rate))
+            return np.append(found[:-1].astype(np.int64), span.stop)
+
+        return replace(self, fine=frames(self.fine), borders=frames(self.borders))
 
 
 def level_of(
@@ -76,7 +85,7 @@ def level_of(
     fine = tree.fine_borders(
         features,
         unit,
-        width=max(1, round(preset.samples(preset.max_fine))),
+        width=preset.near,
         cost=preset.samples(preset.fine_cost),
     )
     sums = tree.between_segments(features, fine, unit)
@@ -122,29 +131,29 @@ def part_ends(n: int, longest: int) -> list[int]:
     return [round(n * part / count) for part in range(count + 1)]
 
 
-def linked(features: NDArray[np.float32], parts: Sequence[Level], unit: float) -> Level:
+def linked(
+    features: NDArray[np.float32], at: Samples, parts: Sequence[Level], unit: float
+) -> Level:
     """The parts one after the other, with clusters that mean the same in all of them.
 
     Parameters
     ----------
     features : (samples, dims) array
         Of the whole recording.
+    at : (samples,) array
+        The frame of each.
     parts : sequence of Level
+        In frames.
     unit : float
         Clusters farther apart are not linked.
     """
     if len(parts) == 1:
         return parts[0]
-    starts = np.concatenate([[0], np.cumsum([part.borders[-1] for part in parts])])
     firsts = np.concatenate([[0], np.cumsum([part.labels.max() + 1 for part in parts])])
     own = np.concatenate([part.labels + first for part, first in zip(parts, firsts, strict=False)])
-    ends = np.concatenate(
-        [[0], *(part.borders[1:] + start for part, start in zip(parts, starts, strict=False))]
-    )
-    fine = np.concatenate(
-        [[0], *(part.fine[1:] + start for part, start in zip(parts, starts, strict=False))]
-    )
-    per_sample = np.repeat(own, np.diff(ends))
+    ends = np.concatenate([[0], *(part.borders[1:] for part in parts)])
+    fine = np.concatenate([[0], *(part.fine[1:] for part in parts)])
+    per_sample = own[np.searchsorted(ends, at, side="right") - 1]
     means = _mean_distances(features, per_sample, int(firsts[-1]))
     part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
     labels = by_first_appearance(link(means, part_of, unit)[own])
