@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 
 from keyboard import CHECKS
+
 from screen import Screen
 
 CONTROLS = ".viewer-buttons button, .transport button, .transport select, .scrub, .tab-row button, \

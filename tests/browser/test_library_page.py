@@ -6,12 +6,12 @@ import json
 from pathlib import Path
 
 import pytest
-from screen import Screen
-from studio_server import StudioServer
 from test_views import AXE, violations
 
 import kineme
 from kineme.library import Library, build
+from screen import Screen
+from studio_server import StudioServer
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from bundled import copy_of_bundled
 from robot import Robot
+from screen import DESKTOP
 from studio_server import StudioServer
-
-from conftest import DESKTOP, copy_of_bundled
 
 STEPS = 25
 

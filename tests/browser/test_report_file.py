@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from screen import Screen
 
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.report.page import write_report
+from screen import Screen
 
 MEAN_RED = """() => {
     dispatchEvent(new Event("beforeprint"));

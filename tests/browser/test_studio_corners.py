@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from screen import Screen
 
 from kineme.studio.folder import file_id
+from screen import Screen
 
 ON_TOP = """button => {
     const { left, top, width, height } = button.getBoundingClientRect();

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-from screen import Screen
-
 import kineme
 from kineme.datasets import bundled_truth
 from kineme.transfer import KnowledgeBase
-
-
-def saved_table(take: Path) -> kineme.Segmentation:
-    return kineme.read_segments(take.with_suffix(".segments.json"))
+from screen import Screen
+from studio_server import saved_table
 
 
 def test_a_border_is_dragged_and_brought_back(page, take):

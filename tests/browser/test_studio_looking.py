@@ -7,9 +7,9 @@ import time
 from pathlib import Path
 
 import pytest
-from screen import Screen
 
 import kineme
+from screen import Screen
 
 BRIGHTNESS = """video => {
     const pen = new OffscreenCanvas(8, 8).getContext("2d");

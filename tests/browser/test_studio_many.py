@@ -6,14 +6,10 @@ import re
 import shutil
 from pathlib import Path
 
-from screen import Screen
-
 import kineme
 from kineme.segments.editing.marks import marked
-
-
-def saved_table(take: Path) -> kineme.Segmentation:
-    return kineme.read_segments(take.with_suffix(".segments.json"))
+from screen import Screen
+from studio_server import saved_table
 
 
 def test_many_rows_are_chosen_with_keys_and_named_in_one_step(page, take):

@@ -5,18 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from screen import Screen, two_tabs
-from studio_server import StudioServer
 
 import kineme
-
-
-@pytest.fixture
-def mortal(chromium, take: Path, tmp_path: Path):
-    """A server that may be killed, on a folder with one take."""
-    take.rename(tmp_path / "take.bvh")
-    with StudioServer(tmp_path) as running:
-        yield running
+from screen import Screen, two_tabs
 
 
 def saved_primitives(path: Path) -> list[tuple[int, str, bool]]:

@@ -2,32 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
-import pytest
-from screen import Screen, two_tabs
-from studio_server import StudioServer
-
 import kineme
-
-
-@pytest.fixture
-def mortal(chromium, take: Path, tmp_path: Path) -> Iterator[StudioServer]:
-    """A server that may be killed, on a folder with one take."""
-    take.rename(tmp_path / "take.bvh")
-    with StudioServer(tmp_path) as running:
-        yield running
+from screen import Screen, two_tabs
+from studio_server import saved_table
 
 
 def name_segment(page, label: str) -> None:
     page.keyboard.press("n")
     page.keyboard.type(label)
     page.keyboard.press("Enter")
-
-
-def saved_table(server: StudioServer) -> kineme.Segmentation:
-    return kineme.read_segments(server.folder / "take.segments.json")
 
 
 def test_a_killed_server_loses_nothing(new_tab, mortal):
@@ -46,14 +29,14 @@ def test_a_killed_server_loses_nothing(new_tab, mortal):
     notice.wait_for()
     assert "while it was gone" in notice.inner_text()
     assert "border from" in notice.inner_text()
-    assert saved_table(mortal).primitives.label.tolist()[:2] == ["before", ""]
+    assert saved_table(mortal.folder / "take.bvh").primitives.label.tolist()[:2] == ["before", ""]
 
     mortal.start()  # has a new token, which the tab learns from the one that is opened now
     page.get_by_text("started anew").wait_for()
     new_tab(mortal.address)
     screen.wait("k.unsent.length === 0")
     notice.wait_for(state="detached")
-    table = saved_table(mortal)
+    table = saved_table(mortal.folder / "take.bvh")
     assert table.primitives.label.tolist()[:2] == ["before", "while it was gone"]
     assert table.primitives.start_frame[2] == border + 10
     page.reload()
@@ -73,7 +56,7 @@ def test_edits_outlive_the_tab_that_could_not_send_them(new_tab, mortal):
     second = Screen(new_tab(mortal.address))
     second.wait("k?.hasMotion && k.segments.some((row) => row.label === 'kept')")
     second.saved()
-    assert saved_table(mortal).primitives.label.tolist()[0] == "kept"
+    assert saved_table(mortal.folder / "take.bvh").primitives.label.tolist()[0] == "kept"
 
 
 def test_a_second_tab_sees_what_the_first_one_does(new_tab, server, take):

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from screen import Screen
 
 import kineme
+from screen import Screen
 
 AXE = Path(kineme.__file__).parent / "web/pages/node_modules/axe-core/axe.min.js"
 RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]

@@ -14,12 +14,6 @@ from pathlib import Path
 import pytest
 
 from kineme.evaluation.score import scores
-from labelled_corpus import make_corpus
-
-
-@pytest.fixture(scope="module")
-def corpus(tmp_path_factory) -> Path:
-    return make_corpus(tmp_path_factory.mktemp("corpus"))
 
 
 def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
+DESKTOP = {"width": 1280, "height": 720}
 GUTTER, RULER, GAP = 78, 22, 4  # pixels of the timeline, as in its lanes.ts
 SHARES = {"activity": 1.0, "primitive": 1.2, "label": 0.7}
 PATIENCE = 90.0  # seconds: on a slow machine compiling takes half of them
