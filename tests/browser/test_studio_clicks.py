@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import pytest
+
 from bundled import write_repeated
 from screen import Screen
 
 
+@pytest.mark.slow
 def test_every_segment_of_a_long_take_can_be_clicked(new_tab, server):
     take = write_repeated(server.folder / "long_take.bvh", 180 * 60)
     screen = Screen(new_tab(server.address_of(take))).opened()
