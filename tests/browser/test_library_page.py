@@ -27,6 +27,7 @@ def listed(page) -> list[str]:
     return page.locator(".hit").evaluate_all("(all) => all.map((hit) => hit.ariaLabel)")
 
 
+@pytest.mark.slow
 def test_a_cluster_is_named_more_of_it_found_and_what_is_wrong_refused(new_tab, library):
     with StudioServer(library) as server:
         page = new_tab(server.address)

@@ -51,6 +51,7 @@ def test_json_goes_to_standard_output_alone(kineme, corpus) -> None:
     assert set(content["methods"]["uniform"]["scores"]) >= set(scores())
 
 
+@pytest.mark.slow
 def test_constants_of_the_methods_can_be_set(kineme, corpus) -> None:
     def told(*options: str) -> object:
         ran = kineme("evaluate", corpus, "--labels", corpus / "labels.csv", "--json", *options)
