@@ -95,12 +95,9 @@ class KinemeConstants(Preset):
         slider=(0.02, 2.0, 0.02), default=0.15,
     )  # fmt: skip
     cluster_cost: float = constant(
-        "what a cluster must explain in a minute: time at the median distance", unit="s",
-        limits=TIME, slider=(0.1, 5.0, 0.1), default=0.66,
+        "what a cluster must explain: time at the median distance", unit="s", limits=TIME,
+        slider=(0.1, 5.0, 0.1), default=0.75,
     )  # fmt: skip
-    cluster_growth: float = constant(
-        "power of the duration with which that grows", limits=SHARE, fine=True, default=0.2
-    )
     spread_share: float = constant(
         "clusters are nearer than their samples by this share of the distances within them",
         limits=SHARE, fine=True, default=0.5,
@@ -233,20 +230,6 @@ class KinemeConstants(Preset):
     def at_most(self, fps: float) -> Self:
         """The preset for a recording of that rate: energies above it are not there."""
         return replace(self, working_fps=fps) if RATE.minimum <= fps < self.working_fps else self
-
-    def cluster_price(self, samples: int) -> float:
-        """What a cluster costs in a stretch of so many samples, in samples.
-
-        The longer it is, the more of it differs from the rest by chance.
-
-        Examples
-        --------
-        >>> from kineme.methods.kineme.preset import SENSORS
-        >>> [round(SENSORS.cluster_price(samples), 1) for samples in (300, 1200)]
-        [3.3, 4.4]
-        """
-        minutes = min(samples / self.rate, self.part) / 60
-        return self.samples(self.cluster_cost) * float(minutes**self.cluster_growth)
 
     def samples(self, seconds: float) -> float:
         """Seconds in samples, at `rate`."""

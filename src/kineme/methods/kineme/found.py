@@ -64,13 +64,23 @@ class KinemeFound:
     fine: Frames
     timings: dict[str, float] = field(default_factory=dict)
 
+    @property
+    def borders(self) -> Frames:
+        """Of activities, frames of the working rate, from 0 to the end."""
+        return self.segments.borders
+
+    @property
+    def primitives(self) -> Frames:
+        """Borders of repetitions and events, those of activities included."""
+        return self.segments.primitives
+
     def columns(self) -> Columns:
         """Activities, primitives, and how probable it is that each is right."""
         segments, sure = self.segments, self.confidence
         counts = np.where(segments.clusters >= 0, sure.counts[segments.parents], np.nan)
         return columns_of(
-            segments.borders,
-            segments.primitives,
+            self.borders,
+            self.primitives,
             is_activity=segments.labels >= 0,
             is_primitive=segments.clusters >= 0,
             clusters=(segments.labels, segments.clusters),
@@ -93,20 +103,20 @@ class KinemeFound:
             pieces,
             DETAILS,
             border_price=self.preset.samples(self.preset.segment_cost),
-            cluster_price=self.preset.cluster_price(len(self.features)),
+            cluster_price=self.preset.samples(self.preset.cluster_cost),
         )
         return tables_at(columns, frames, at, longest=0.0)
 
     def _pieces(self) -> tuple[Pieces, Frames]:
         """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
-        own = in_samples(self.segments.borders, self.preset, len(self.features))
+        own = in_samples(self.borders, self.preset, len(self.features))
         fine = in_samples(self.fine, self.preset, len(self.features))
         found = tree.levels(fine, tree.between_segments(self.features, fine, self.unit))
         most = min(len(found), EACH * len(own), max(MOST, len(own)))
         borders = np.unique(np.concatenate([own, fine[found[most - 1]]]))
         per_sample = self.preset.working_fps / self.preset.rate
         frames = np.rint(borders * per_sample).astype(np.int64)
-        frames[np.searchsorted(borders, own)] = self.segments.borders
+        frames[np.searchsorted(borders, own)] = self.borders
         parents = self.segments.labels[np.searchsorted(own, borders[:-1], side="right") - 1]
         sums = tree.between_segments(self.features, borders, self.unit) / 2
         return Pieces(borders, np.arange(len(parents)), parents, sums), frames

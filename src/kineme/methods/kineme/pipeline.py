@@ -113,7 +113,8 @@ def _analyze(
             features = seen(rows, preset.in_scale(scale), carried, joints=joints).views[0]
         unit = median_distance(features, preset.near)
         at = sampled_at(n, preset.working_fps, preset.rate)
-        level = linked(features, at, [part.level for part in parts], unit)
+        price = preset.samples(preset.cluster_cost)
+        level = linked(features, at, [part.level for part in parts], unit=unit, price=price)
     with stage("borders"):
         starts, stops = to_the_frame(rows, level.borders, preset)
         fine = carried_over(level.fine, level.borders, np.append(starts, n))
