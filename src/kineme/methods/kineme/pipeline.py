@@ -24,13 +24,13 @@ from threadpoolctl import threadpool_limits
 
 from kineme._checks import as_features
 from kineme._threads import map_threads
+from kineme.features.channels import sampled_at
 from kineme.methods.kineme.borders import carried_over, to_the_frame
 from kineme.methods.kineme.confidence import evidence
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.kineme.level import Level, level_of, linked, part_ends
 from kineme.methods.kineme.primitives import with_clusters, with_events, with_repetitions
 from kineme.methods.kineme.repeating import Repeating
-from kineme.methods.kineme.statistics import sampled_at
 from kineme.methods.kineme.tree import median_distance
 from kineme.methods.kineme.views import Seen, most_agreed, seen
 from kineme.methods.stages import Progress, stopwatch

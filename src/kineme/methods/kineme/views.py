@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.kineme.statistics import Mixture, in_mixtures, sampled_at
+from kineme.features.channels import Mixture, in_mixtures, sampled_at
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
