@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
+from kineme.features.channels import at_rate
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample, scale, turn
-from kineme.segmentation.channels import at_rate
 from kineme.segments.segmentation import Segmentation
 from sets_joined import clusters_of
 

@@ -45,19 +45,18 @@ OFF: Mapping[str, Mapping[str, Any]] = {
     "shared": {"shared": 1e4},
     "restless_over": {"restless_over": 0.0},
     "max_clusters": {"max_clusters": 1000},
-    "counting_fps": {"counting_fps": 1000.0},
     **{
         name: {name: 0.0}
         for name in (
-            "velocity_weight", "ride_weight", "segment_cost", "cluster_cost", "cluster_growth",
+            "velocity_weight", "ride_weight", "segment_cost", "cluster_cost",
             "spread_share", "min_action", "alike", "two_movements", "border_shift", "noise_share",
             "centering", "length_cost", "same_cost", "event_scale", "event_velocity",
             "event_cost",
         )
     },
     **{name: {name: TINY} for name in ("chance_count", "chance_period", "event_cover")},
-    **{name: {name: TINY} for name in ("min_event", "min_recurrence")},
-    **{name: {name: NEVER} for name in ("part", "max_fine", "max_repetition")},
+    "min_recurrence": {"min_recurrence": TINY},
+    **{name: {name: NEVER} for name in ("part", "compared_within", "max_repetition")},
     "same": {"same": 1.0},
     **{name: {name: 1.0} for name in ("end_distance", "max_unexplained", "event_rest")},
     **{name: {name: 1000.0} for name in ("uneven", "end_scatter")},
@@ -69,7 +68,7 @@ OWN = OF_SENSORS.keys() - ONE_VIEW.keys() - {"unit"}
 """What bodies and sensors have a value of their own of."""
 TOLD = ("offsets", "link_weights", "border_weights", "count_weights", "cut_weights")
 """Not asked: what the method does not read, and what is learnt elsewhere."""
-OF_EVENTS = ("min_event", "min_recurrence")
+OF_EVENTS = ("min_recurrence",)
 UNREAD = {
     KINEME.name: ("smoothing", "velocity_weight", "ride_weight"),
     SENSORS.name: [

@@ -12,14 +12,12 @@ from hypothesis.extra import numpy as arrays
 
 from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
+from kineme.features.channels import at_rate
+from kineme.features.channels import standardized as standard
 from kineme.features.emg import emg_envelope
 from kineme.methods import resolve_preset
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
-from kineme.segmentation.channels import (
-    at_rate,
-)
-from kineme.segmentation.channels import standardized as standard
 from presets import OWN
 
 VALUES = arrays.arrays(

@@ -1,7 +1,7 @@
 """What a library keeps of a recording: segments, matching features, an embedding of each segment.
 
 Bodies are described by `kineme.features.canonical`, which do not know the person. Channels are
-described by their posture and energy (`kineme.methods.kineme.statistics`), in half the standard
+described by their posture and energy (`kineme.features.channels`), in half the standard
 deviation of each in the recording, so that one threshold serves both, whatever the number of
 channels; they compare with recordings of the same channels only.
 
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from kineme._counts import counted
 from kineme.errors import MotionError, ParameterError
 from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
+from kineme.features.channels import at_rate, channel_statistics, standardized
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
 from kineme.library.settings import Settings
@@ -27,9 +28,7 @@ from kineme.library.storage.layout import BODIES, EMBEDDED
 from kineme.library.storage.pieces import LARGEST_MOMENT, Piece
 from kineme.matching.embeddings import course, embedding
 from kineme.methods.kineme.preset import SENSORS
-from kineme.methods.kineme.statistics import channel_statistics
 from kineme.recordings import Motion, Signals
-from kineme.segmentation.channels import at_rate, standardized
 
 Float32s = NDArray[np.float32]
 Floats = NDArray[np.float64]

@@ -14,11 +14,10 @@ are part.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from kineme._checks import check_rates
-from kineme._interpolation import at_frames
 from kineme.features import offsets_in_frames, stack
+from kineme.features.channels import at_rate, standardized
 from kineme.features.emg import emg_envelope
 from kineme.features.rides import rides
 from kineme.methods.base import Preset
@@ -88,57 +87,6 @@ def view_of_signals(
     ends = np.cumsum([span.n_samples for span in spans])[:-1]
     split = np.split(features, ends)
     return View(split, spans, notes, carried=carried, joints=points is not None)
-
-
-def at_rate(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
-    """The channels at the times 0, 1/new, 2/new, … up to their last frame.
-
-    Each value is the mean over `smoothing` seconds around its time, or over a frame of the old or
-    new rate where that is longer. So nothing folds back from above the new rate. A lower rate is
-    interpolated in a line. At the ends the mean is over what is there.
-
-    Parameters
-    ----------
-    values : (frames, channels) array
-    fps : float
-        Their rate.
-    new : float
-        The rate wanted.
-    smoothing : float
-        Seconds.
-
-    Returns
-    -------
-    (samples, channels) array
-
-    Raises
-    ------
-    ParameterError
-        The rate wanted is beyond all measure.
-    """
-    check_rates(fps, new)
-    array = np.asarray(values, np.float64)
-    middle: Floats = array.mean(axis=0)  # sums of what is left lose no digits to a large offset
-    sums = np.concatenate([np.zeros((1, array.shape[1])), np.cumsum(array - middle, axis=0)])
-    n = int((len(array) - 1) * new / fps + 1e-9) + 1
-    times = np.arange(n) / new
-    half = max(smoothing, 1 / fps, 1 / new) / 2
-    starts = np.clip((times - half) * fps + 0.5, 0, len(array))
-    stops = np.clip((times + half) * fps + 0.5, 0, len(array))
-    means = (at_frames(sums, stops) - at_frames(sums, starts)) / (stops - starts)[:, None]
-    return np.asarray(means + middle, np.float64)
-
-
-def standardized(values: ArrayLike) -> Floats:
-    """The channels with mean 0 and standard deviation 1; those that never change are 0."""
-    centred = np.asarray(values, np.float64)
-    centred = centred - centred.mean(axis=0)
-    largest = np.abs(centred).max(axis=0)
-    steady = largest <= 1e-12 * np.abs(values).max(axis=0)
-    scaled: Floats = centred / np.where(steady, 1.0, largest)  # squares of tiny numbers vanish
-    scaled /= np.where(steady, 1.0, scaled.std(axis=0))
-    scaled[:, steady] = 0.0
-    return scaled
 
 
 def _stacked(rows: list[Floats], preset: Preset, *, standardize: bool) -> Floats:

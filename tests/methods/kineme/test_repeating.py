@@ -112,7 +112,7 @@ def standing(seconds: float, seed: int = 0) -> np.ndarray:
 def share_saved(rows: np.ndarray) -> float:
     """Of what the poses spread, as a view of which each dimension is one of a pose."""
     view = np.ascontiguousarray(rows[:: round(FPS / KINEME.rate)], np.float32)
-    repeating = Repeating(np.ascontiguousarray(rows, np.float32), KINEME.counting())
+    repeating = Repeating(np.ascontiguousarray(rows, np.float32), KINEME)
     saved = repeating.saved(view, 2.0, 0, len(view))
     assert saved == repeating.saved(view, 2.0, 0, len(view))  # what was asked once is known
     assert 2 * saved == pytest.approx(repeating.saved(view, 1.0, 0, len(view)))
@@ -150,7 +150,7 @@ def test_two_movements_one_after_the_other_save_nothing_as_one(seed: int) -> Non
     assert min(share_saved(one), share_saved(other)) > 0.3
     rows = np.concatenate([one, other]).astype(np.float32)
     view = np.ascontiguousarray(rows[::6])
-    repeating, (border, end) = Repeating(rows, KINEME.counting()), (len(one) / FPS, len(rows) / FPS)
+    repeating, (border, end) = Repeating(rows, KINEME), (len(one) / FPS, len(rows) / FPS)
     found = repeating.division(0, len(view))
     if found is not None:
         start, stop = found.start / KINEME.rate, found.stop / KINEME.rate

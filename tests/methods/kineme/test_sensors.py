@@ -13,11 +13,11 @@ from sklearn.metrics import normalized_mutual_info_score
 import kineme
 import naive
 from kineme.errors import ParameterError
+from kineme.features.channels import channel_statistics
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.kineme import tree
 from kineme.methods.kineme.level import part_ends
 from kineme.methods.kineme.preset import SENSORS
-from kineme.methods.kineme.statistics import channel_statistics
 from kineme.methods.kineme.views import holding_down, mutual_information, seen
 
 FPS = 50.0

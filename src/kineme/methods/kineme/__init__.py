@@ -6,7 +6,7 @@ A segment is told by its samples staying alike, or as a movement that repeats.
 ``constants``     what each does, in which unit, and its value for bodies
 ``preset``        both presets
 ``pipeline``      the stages, one after the other
-``views``         posture and energy of movement (``statistics``), and which view is taken
+``views``         posture and energy of movement (``features.channels``), and which view is taken
 ``tree``          fine borders, neighbours joined, and the level of the shortest description
 ``repeating``     what a segment saves by repeating itself
 ``level``         segments of the parts of a recording, put together

@@ -82,7 +82,7 @@ def evidence(rows: NDArray[np.float32], segments: Segments, preset: KinemeConsta
     Parameters
     ----------
     rows : (frames, dims) array
-        At the rate at which repetitions are counted.
+        At the working rate.
     segments : Segments
     preset : KinemeConstants
     """

@@ -82,28 +82,22 @@ class KinemeConstants(Preset):
         "a longer recording is segmented in parts of this at most", unit="s", limits=SOME_TIME,
         fine=True, default=600.0,
     )  # fmt: skip
-    unit_over: float = constant(
-        "the median distance is that of samples within this of each other", unit="s",
-        limits=SOME_TIME, fine=True, default=60.0,
+    compared_within: float = constant(
+        "samples are compared within this of each other, for the median distance and for the "
+        "finest segments", unit="s", limits=SOME_TIME, fine=True, default=60.0,
     )  # fmt: skip
     fine_cost: float = constant(
         "what a border of the finest level must gain: time at the median distance", unit="s",
         limits=TIME, fine=True, default=0.4,
     )  # fmt: skip
-    max_fine: float = constant(
-        "longest segment of the finest level", unit="s", limits=SOME_TIME, fine=True, default=80.0
-    )
     segment_cost: float = constant(
         "what a segment must explain: time at the median distance", unit="s", limits=TIME,
         slider=(0.02, 2.0, 0.02), default=0.15,
     )  # fmt: skip
     cluster_cost: float = constant(
-        "what a cluster must explain in a minute: time at the median distance", unit="s",
-        limits=TIME, slider=(0.1, 5.0, 0.1), default=0.66,
+        "what a cluster must explain: time at the median distance", unit="s", limits=TIME,
+        slider=(0.1, 5.0, 0.1), default=0.75,
     )  # fmt: skip
-    cluster_growth: float = constant(
-        "power of the duration with which that grows", limits=SHARE, fine=True, default=0.2
-    )
     spread_share: float = constant(
         "clusters are nearer than their samples by this share of the distances within them",
         limits=SHARE, fine=True, default=0.5,
@@ -146,10 +140,6 @@ class KinemeConstants(Preset):
         unit="s", limits=SOME_FACTOR, fine=True, default=0.6,
     )  # fmt: skip
     # Repetitions.
-    counting_fps: float = constant(
-        "frames per second at which repetitions and events are found, at most", unit="Hz",
-        limits=RATE, fine=True, default=30.0,
-    )  # fmt: skip
     noise_share: float = constant(
         "share of the distances of a pose below which a dip of them is noise", limits=SHARE,
         fine=True, default=0.05,
@@ -204,11 +194,9 @@ class KinemeConstants(Preset):
         "share of an event that each occurrence must match", limits=SOME_SHARE, fine=True,
         default=0.8,
     )  # fmt: skip
-    min_event: float = constant(
-        "shortest event, in movement time", unit="s", limits=SOME_TIME, default=0.5
-    )
     min_recurrence: float = constant(
-        "similarity times movement time that is no chance; twice that for sets of two", unit="s",
+        "similarity times movement time that is no chance, so the shortest event; twice that for "
+        "sets of two", unit="s",
         limits=SOME_TIME, slider=(0.2, 2.0, 0.05), default=0.6,
     )  # fmt: skip
 
@@ -243,34 +231,16 @@ class KinemeConstants(Preset):
         """The preset for a recording of that rate: energies above it are not there."""
         return replace(self, working_fps=fps) if RATE.minimum <= fps < self.working_fps else self
 
-    def cluster_price(self, samples: int) -> float:
-        """What a cluster costs in a stretch of so many samples, in samples.
-
-        The longer it is, the more of it differs from the rest by chance.
-
-        Examples
-        --------
-        >>> from kineme.methods.kineme.preset import SENSORS
-        >>> [round(SENSORS.cluster_price(samples), 1) for samples in (300, 1200)]
-        [3.3, 4.4]
-        """
-        minutes = min(samples / self.rate, self.part) / 60
-        return self.samples(self.cluster_cost) * float(minutes**self.cluster_growth)
-
     def samples(self, seconds: float) -> float:
         """Seconds in samples, at `rate`."""
         return seconds * self.rate
 
+    def in_scale(self, view: int) -> Self:
+        """The preset with one view only."""
+        scale = (self.shared[view],), (self.weights[view],), (self.restless_over[view],)
+        return replace(self, shared=scale[0], weights=scale[1], restless_over=scale[2])
+
     @property
     def near(self) -> int:
-        """`unit_over` in samples."""
-        return max(2, round(self.samples(self.unit_over)))
-
-    @property
-    def step(self) -> int:
-        """Frames of the working rate for one at which repetitions are counted."""
-        return max(1, round(self.working_fps / self.counting_fps))
-
-    def counting(self) -> Self:
-        """The preset at the rate at which repetitions are counted."""
-        return replace(self, working_fps=self.working_fps / self.step)
+        """`compared_within` in samples."""
+        return max(2, round(self.samples(self.compared_within)))

@@ -137,7 +137,7 @@ def occurrences(
         none = np.empty(0, np.int64)
         return Occurrences(none, none, none, np.empty(0))
     costs = preset.event_cost * samples.seconds
-    shortest = max(1, moments(preset.min_event))
+    shortest = max(1, moments(preset.min_recurrence))
     paths = matching_paths(
         samples.columns,
         costs,

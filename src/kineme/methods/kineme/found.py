@@ -47,13 +47,11 @@ class KinemeFound:
     unit : float
         The median distance of two samples.
     segments : Segments
-        Both levels, one frame for ``preset.step`` of the working rate.
-    frames : int
-        Of the working rate.
+        Both levels, in frames of the working rate.
     evidence : Evidence
         By which it is told how sure all that is.
     fine : (pieces + 1,) array
-        Borders of the finest segments, samples of `features`.
+        Borders of the finest segments, frames of the working rate.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -62,23 +60,19 @@ class KinemeFound:
     preset: KinemeConstants
     unit: float
     segments: Segments
-    frames: int
     evidence: Evidence
     fine: Frames
     timings: dict[str, float] = field(default_factory=dict)
 
-    @cached_property
+    @property
     def borders(self) -> Frames:
         """Of activities, frames of the working rate, from 0 to the end."""
-        return self._in_frames(self.segments.borders)
+        return self.segments.borders
 
-    @cached_property
+    @property
     def primitives(self) -> Frames:
         """Borders of repetitions and events, those of activities included."""
-        return self._in_frames(self.segments.primitives)
-
-    def _in_frames(self, borders: Frames) -> Frames:
-        return np.append(borders[:-1] * self.preset.step, self.frames)
+        return self.segments.primitives
 
     def columns(self) -> Columns:
         """Activities, primitives, and how probable it is that each is right."""
@@ -109,17 +103,17 @@ class KinemeFound:
             pieces,
             DETAILS,
             border_price=self.preset.samples(self.preset.segment_cost),
-            cluster_price=self.preset.cluster_price(len(self.features)),
+            cluster_price=self.preset.samples(self.preset.cluster_cost),
         )
         return tables_at(columns, frames, at, longest=0.0)
 
     def _pieces(self) -> tuple[Pieces, Frames]:
         """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
         own = in_samples(self.borders, self.preset, len(self.features))
-        sums = tree.between_segments(self.features, self.fine, self.unit)
-        found = tree.levels(self.fine, sums)
+        fine = in_samples(self.fine, self.preset, len(self.features))
+        found = tree.levels(fine, tree.between_segments(self.features, fine, self.unit))
         most = min(len(found), EACH * len(own), max(MOST, len(own)))
-        borders = np.unique(np.concatenate([own, self.fine[found[most - 1]]]))
+        borders = np.unique(np.concatenate([own, fine[found[most - 1]]]))
         per_sample = self.preset.working_fps / self.preset.rate
         frames = np.rint(borders * per_sample).astype(np.int64)
         frames[np.searchsorted(borders, own)] = self.borders

@@ -2,14 +2,14 @@
 
 A long recording is cut into equal parts, for the shortest description of hours is coarser than
 that of their minutes, and takes the square of the time. Each part has the level that it would have
-alone. Then clusters of different parts are one, the nearest first, as long as they are nearer to
-each other than two samples of the recording usually are. What a part tells apart stays apart.
+alone. Then clusters of different parts are one, the cheapest first, as long as telling them as one
+costs less than a cluster does in a part. What a part tells apart stays apart.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,7 +32,7 @@ COMPARED = 64
 
 @dataclass(frozen=True, eq=False)
 class Level:
-    """Segments of samples, from 0 to the end.
+    """Segments of samples or frames, from the first to the end.
 
     Attributes
     ----------
@@ -53,6 +53,15 @@ class Level:
     def per_sample(self) -> Samples:
         """The cluster of each sample."""
         return np.repeat(self.labels, np.diff(self.borders))
+
+    def in_frames(self, span: slice, preset: KinemeConstants) -> Level:
+        """The level of samples as one of the frames of this part of a recording."""
+
+        def frames(samples: Samples) -> Samples:
+            found = span.start + np.rint(samples * (preset.working_fps / preset.rate))
+            return np.append(found[:-1].astype(np.int64), span.stop)
+
+        return replace(self, fine=frames(self.fine), borders=frames(self.borders))
 
 
 def level_of(
@@ -76,13 +85,13 @@ def level_of(
     fine = tree.fine_borders(
         features,
         unit,
-        width=max(1, round(preset.samples(preset.max_fine))),
+        width=preset.near,
         cost=preset.samples(preset.fine_cost),
     )
     sums = tree.between_segments(features, fine, unit)
     prices = tree.Prices(
         segment=preset.samples(preset.segment_cost),
-        cluster=preset.cluster_price(len(features)),
+        cluster=preset.samples(preset.cluster_cost),
         spread_share=preset.spread_share,
         most_clusters=preset.max_clusters,
         shortest=round(preset.samples(preset.min_action)),
@@ -122,61 +131,84 @@ def part_ends(n: int, longest: int) -> list[int]:
     return [round(n * part / count) for part in range(count + 1)]
 
 
-def linked(features: NDArray[np.float32], parts: Sequence[Level], unit: float) -> Level:
+def linked(
+    features: NDArray[np.float32],
+    at: Samples,
+    parts: Sequence[Level],
+    *,
+    unit: float,
+    price: float,
+) -> Level:
     """The parts one after the other, with clusters that mean the same in all of them.
 
     Parameters
     ----------
     features : (samples, dims) array
         Of the whole recording.
+    at : (samples,) array
+        The frame of each.
     parts : sequence of Level
+        In frames.
     unit : float
-        Clusters farther apart are not linked.
+        The distance that counts as 1.
+    price : float
+        Of a cluster in a part: samples at that distance.
     """
     if len(parts) == 1:
         return parts[0]
-    starts = np.concatenate([[0], np.cumsum([part.borders[-1] for part in parts])])
     firsts = np.concatenate([[0], np.cumsum([part.labels.max() + 1 for part in parts])])
     own = np.concatenate([part.labels + first for part, first in zip(parts, firsts, strict=False)])
-    ends = np.concatenate(
-        [[0], *(part.borders[1:] + start for part, start in zip(parts, starts, strict=False))]
-    )
-    fine = np.concatenate(
-        [[0], *(part.fine[1:] + start for part, start in zip(parts, starts, strict=False))]
-    )
-    per_sample = np.repeat(own, np.diff(ends))
-    means = _mean_distances(features, per_sample, int(firsts[-1]))
+    ends = np.concatenate([[0], *(part.borders[1:] for part in parts)])
+    fine = np.concatenate([[0], *(part.fine[1:] for part in parts)])
+    per_sample = own[np.searchsorted(ends, at, side="right") - 1]
+    means = _mean_distances(features, per_sample, int(firsts[-1])) / unit
+    sizes = np.bincount(per_sample, minlength=len(means))
     part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
-    labels = by_first_appearance(link(means, part_of, unit)[own])
+    labels = by_first_appearance(link(means, sizes, part_of, price)[own])
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     surest = np.concatenate([part.preference for part in parts])
     return Level(fine, np.append(ends[first], ends[-1]), labels[first], surest[first])
 
 
-def link(means: NDArray[np.float64], part_of: Samples, unit: float) -> Samples:
+def link(means: NDArray[np.float64], sizes: Samples, part_of: Samples, price: float) -> Samples:
     """Which clusters of different parts are one: a number for each.
 
     Parameters
     ----------
     means : (clusters, clusters) array
-        Mean distances of their samples.
+        Mean distances of their samples, in units.
+    sizes : (clusters,) array
+        Samples of each.
     part_of : (clusters,) array
         The part that each is of.
-    unit : float
-        Clusters farther apart are not linked.
+    price : float
+        Of a cluster: two are one where that costs less.
+
+    Examples
+    --------
+    >>> places = np.array([0.0, 1.0, 0.1, 3.0])
+    >>> apart = np.abs(places - places[:, None])
+    >>> link(apart, np.full(4, 10), np.array([0, 0, 1, 1]), price=2.0).tolist()
+    [0, 1, 0, 3]
     """
-    apart = np.where(part_of[:, None] == part_of, np.inf, means)
-    sizes = np.ones(len(means))
+    means, lengths = means.copy(), sizes.astype(np.float64)
+    parts = np.eye(int(part_of.max()) + 1, dtype=bool)[part_of]
     owner = np.arange(len(means))
     while True:
-        a, b = sorted(divmod(int(np.argmin(apart)), len(apart)))
-        if not apart[a, b] < unit:
+        within = np.diag(means)
+        gaps = means - np.add.outer(within, within) / 2
+        costs = gaps * np.outer(lengths, lengths) / np.maximum(np.add.outer(lengths, lengths), 1)
+        costs[parts @ parts.T] = np.inf
+        a, b = sorted(divmod(int(np.argmin(costs)), len(costs)))
+        if not costs[a, b] < price:
             return owner
-        apart[a] = (sizes[a] * apart[a] + sizes[b] * apart[b]) / (sizes[a] + sizes[b])
-        sizes[a] += sizes[b]
+        share = lengths[b] / (lengths[a] + lengths[b])
+        means[a] += share * (means[b] - means[a])
+        means[:, a] += share * (means[:, b] - means[:, a])
+        lengths[a] += lengths[b]
+        parts[a] |= parts[b]
+        parts[b] = True  # it is part of a, and compared with nothing any more
         owner[owner == b] = a
-        apart[:, a] = apart[a]
-        apart[b] = apart[:, b] = np.inf
 
 
 def _mean_distances(

@@ -5,7 +5,8 @@ Nothing here knows what a skeleton or a sensor is: any array of frames x dims wi
 1. *views*: what is compared, some times a second: posture and energy of movement.
 2. *segments*: a tree of each view, and of it the level of the shortest description. A segment is
    told by its samples staying alike, or by repeating itself. Of several views that is taken
-   which all agree with most.
+   which all agree with most. A long recording is seen and segmented in parts, each as if it were
+   alone.
 3. *borders*: to the frame, and transitions, which neither side explains.
 4. *repetitions*: how often each segment repeats itself, and where the first and the last one end.
 5. *events*: what recurs elsewhere, now and then.
@@ -23,14 +24,15 @@ from threadpoolctl import threadpool_limits
 
 from kineme._checks import as_features
 from kineme._threads import map_threads
-from kineme.methods.kineme.borders import carried_over, in_samples, to_the_frame
+from kineme.features.channels import sampled_at
+from kineme.methods.kineme.borders import carried_over, to_the_frame
 from kineme.methods.kineme.confidence import evidence
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.kineme.level import Level, level_of, linked, part_ends
 from kineme.methods.kineme.primitives import with_clusters, with_events, with_repetitions
 from kineme.methods.kineme.repeating import Repeating
 from kineme.methods.kineme.tree import median_distance
-from kineme.methods.kineme.views import most_agreed, seen
+from kineme.methods.kineme.views import Seen, most_agreed, seen
 from kineme.methods.stages import Progress, stopwatch
 
 if TYPE_CHECKING:
@@ -41,11 +43,11 @@ Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
 
 
-class Agreed(NamedTuple):
-    """A view, (samples, dims), the distance in it that counts as 1, and its level."""
+class Part(NamedTuple):
+    """A part of a recording: which of its views all agree with most, that view, and its level."""
 
+    chosen: int
     view: Rows
-    unit: float
     level: Level
 
 
@@ -96,53 +98,47 @@ def _analyze(
 ) -> KinemeFound:
     timings: dict[str, float] = {}
     stage = stopwatch(timings, progress)
-    step, counting = preset.step, preset.counting()
-    slower = np.ascontiguousarray(rows[::step], np.float32)
+    n, poses = len(rows), np.ascontiguousarray(rows, np.float32)
+    ends = part_ends(n, max(1, preset.frames(preset.part)))
+    spans = [slice(*span) for span in pairwise(ends)]
     with stage("views"):
-        statistics = seen(rows, preset, carried, joints=joints)
+        views = [seen(rows[span], preset, carried[span], joints=joints) for span in spans]
     with stage("segments"):
-        features, unit, level = _agreed(statistics.views, statistics.halves, slower, preset)
-    with stage("borders"):
-        starts, stops = to_the_frame(rows, _in_frames(level.borders, preset, len(rows)), preset)
-        frames = np.append(starts, len(rows))
-    with stage("repetitions"):
-        stops = np.append(stops[:-1] // step, len(slower))
-        segments = with_repetitions(
-            slower, starts // step, stops, level.labels, level.preference, counting
+        parts = map_threads(
+            lambda i: _part(views[i], poses[spans[i]], spans[i], preset), range(len(spans))
         )
+        features = parts[0].view
+        if len(parts) > 1:
+            scale = int(np.bincount([part.chosen for part in parts]).argmax())
+            features = seen(rows, preset.in_scale(scale), carried, joints=joints).views[0]
+        unit = median_distance(features, preset.near)
+        at = sampled_at(n, preset.working_fps, preset.rate)
+        price = preset.samples(preset.cluster_cost)
+        level = linked(features, at, [part.level for part in parts], unit=unit, price=price)
+    with stage("borders"):
+        starts, stops = to_the_frame(rows, level.borders, preset)
+        fine = carried_over(level.fine, level.borders, np.append(starts, n))
+    with stage("repetitions"):
+        segments = with_repetitions(poses, starts, stops, level.labels, level.preference, preset)
         if preset.same < 1:
-            segments = with_clusters(slower, segments, counting)
+            segments = with_clusters(poses, segments, preset)
     if preset.event_scale:
         with stage("events"):
-            segments = with_events(slower, segments, counting)
+            segments = with_events(poses, segments, preset)
     with stage("confidence"):
-        shown = evidence(slower, segments, counting)
-    fine = carried_over(level.fine, level.borders, in_samples(frames, preset, len(features)))
-    return KinemeFound(features, preset, unit, segments, len(rows), shown, fine, timings)
+        shown = evidence(poses, segments, preset)
+    return KinemeFound(features, preset, unit, segments, shown, fine, timings)
 
 
-def _agreed(views: list[Rows], halves: list[Rows], slower: Rows, preset: KinemeConstants) -> Agreed:
-    """The view that all agree with most, by samples that stay alike; its level, by both forms."""
-    n, counting = len(views[0]), preset.counting()
-    spans = list(pairwise(part_ends(n, max(1, round(preset.samples(preset.part))))))
+def _part(views: Seen, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
+    """A part as if it were alone: the view by samples that stay alike, its level by both forms."""
 
-    def plain(view: Rows) -> list[Frames]:
-        return map_threads(lambda span: level_of(view[slice(*span)], preset).per_sample(), spans)
+    def answer(view: Rows) -> Frames:
+        return level_of(view, preset).per_sample()
 
-    def whole(span: tuple[int, int]) -> Level:
-        first, last = (round(end / preset.rate * counting.working_fps) for end in span)
-        return level_of(chosen[slice(*span)], preset, Repeating(slower[first:last], counting))
-
-    chosen = views[0]
-    if len(views) > 1:
-        answers, others = [plain(view) for view in views], [plain(half) for half in halves]
-        chosen = views[most_agreed(answers, others)]
-    unit = median_distance(chosen, preset.near)
-    return Agreed(chosen, unit, linked(chosen, map_threads(whole, spans), unit))
-
-
-def _in_frames(borders: Frames, preset: KinemeConstants, n: int) -> Frames:
-    """Borders in frames of the working rate, each with a frame at least."""
-    frames: Frames = np.rint(borders * (preset.working_fps / preset.rate)).astype(np.int64)
-    frames[-1] = n
-    return frames
+    chosen = 0
+    if len(views.views) > 1:
+        chosen = most_agreed([*map(answer, views.views)], [*map(answer, views.halves)])
+    view = views.views[chosen]
+    level = level_of(view, preset, Repeating(poses, preset))
+    return Part(chosen, view, level.in_frames(span, preset))

@@ -1,6 +1,6 @@
 """Primitives: the repetitions of segments, and elsewhere what recurs anywhere.
 
-All in frames at which repetitions are counted.
+All in frames of the working rate.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def with_repetitions(
     Parameters
     ----------
     rows : (frames, dims) array
-        At the rate at which repetitions are counted.
+        At the working rate.
     starts, stops : (segments,) array
         What lies between two segments is a transition.
     labels : (segments,) array
@@ -66,7 +66,7 @@ def with_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Se
     Parameters
     ----------
     rows : (frames, dims) array
-        At the rate at which repetitions are counted.
+        At the working rate.
     segments : Segments
         With repetitions.
     preset : KinemeConstants
@@ -113,7 +113,7 @@ def with_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     Parameters
     ----------
     rows : (frames, dims) array
-        At the rate at which repetitions are counted, in body sizes.
+        At the working rate, in body sizes.
     segments : Segments
     preset : KinemeConstants
     """
@@ -130,7 +130,7 @@ def with_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
         found = found.within(segments.borders, free)
         if len(found):
             segments = placed(segments, found, free)
-    return without_still(segments, rows, preset.event_scale / 2)
+    return without_still(segments, rows, preset.event_scale / 4)
 
 
 def _tiled(

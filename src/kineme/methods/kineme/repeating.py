@@ -54,9 +54,8 @@ class Repeating:
     Attributes
     ----------
     rows : (frames, dims) array
-        Poses or channels at the rate at which repetitions are counted.
+        Poses or channels at the working rate.
     preset : KinemeConstants
-        For that rate, see `KinemeConstants.counting`.
     """
 
     rows: NDArray[np.float32]

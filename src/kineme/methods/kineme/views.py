@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.methods.kineme.statistics import Mixture, in_mixtures, sampled_at
+from kineme.features.channels import Mixture, in_mixtures, sampled_at
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -32,8 +32,6 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Labels = NDArray[np.int64]
-Answer = Sequence[Labels]
-"""The cluster of each sample, in each part of the recording."""
 
 DIGITS = 9
 """Agreements that differ less are equal: rounding decides nothing."""
@@ -250,28 +248,24 @@ def _deviations(centred: Floats) -> Floats:
     return np.where(deviations > TINY, deviations, 1.0)
 
 
-def most_agreed(answers: Sequence[Answer], others: Sequence[Answer] = ()) -> int:
+def most_agreed(answers: Sequence[Labels], others: Sequence[Labels] = ()) -> int:
     """The first or the last answer: the one that all agree with more; the first of equals.
 
     Parameters
     ----------
-    answers : sequence of sequence of (samples,) array
-        Per answer the cluster of each sample, in each part of the recording.
-    others : sequence of sequence of (samples,) array
+    answers : sequence of (samples,) array
+        Per answer the cluster of each sample.
+    others : sequence of (samples,) array
         Answers that are asked, too, but cannot be taken.
 
     Examples
     --------
     >>> first, other, last = np.array([[0, 1, 0, 1, 0], [0, 0, 0, 1, 1], [0, 0, 1, 1, 1]])
-    >>> most_agreed([[first], [other], [last]])
+    >>> most_agreed([first, other, last])
     2
     """
     first, last = (
-        sum(
-            len(a) * mutual_information(a, b)
-            for other in (*answers, *others)
-            for a, b in zip(answers[one], other, strict=True)
-        )
+        sum(mutual_information(answers[one], other) for other in (*answers, *others))
         for one in (0, -1)
     )
     return 0 if round(first - last, DIGITS) >= 0 else len(answers) - 1
