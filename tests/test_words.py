@@ -67,7 +67,6 @@ NOT_DONE = {
     "labels": 25,
     "library": 132,
     "methods": 87,
-    "reproduction": 4,
     "segments": 14,
     "studio": 46,
     "web": 15,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -11,7 +12,7 @@ from kineme.cli.help import METHOD, OUTPUT
 from kineme.cli.messages import Failures
 from kineme.cli.options.method import SET, Constants, constants_of
 from kineme.cli.options.reading import Quiet
-from kineme.errors import WriteError
+from kineme.errors import KinemeError, WriteError
 from kineme.methods.presets import DEFAULT
 
 BENCHMARK = "cmu86"
@@ -26,8 +27,9 @@ def evaluate(
         str,
         typer.Argument(
             metavar="cmu86|FOLDER|SEGMENTS",
-            help="The published benchmark; a folder of recordings; or one result: a segment table, "
-            "a table of intervals, or a .txt with one label per frame.",
+            help="The published benchmark, a part of its own (kineme-reproduction); a folder of "
+            "recordings; or one result: a segment table, a table of intervals, or a .txt with one "
+            "label per frame.",
         ),
     ],
     against: Annotated[
@@ -187,14 +189,24 @@ def evaluate(
         else:
             if against is not None:
                 raise typer.BadParameter(f"{BENCHMARK} brings its own truth: leave out --against")
-            from kineme.cli.evaluate.benchmark import run_benchmark
-
-            records = run_benchmark(names, trial, data, plot, figures, quiet=quiet)
+            records = _benchmark()(names, trial, data, plot, figures, quiet=quiet)
         if output is not None:
             from kineme.evaluation.tables import write_records
 
             write_records(records, output)
     failures.exit()
+
+
+def _benchmark() -> Callable[..., list[dict[str, Any]]]:
+    """What runs the benchmark: it comes with a package of its own, which names it."""
+    from importlib.metadata import entry_points
+
+    for point in entry_points(group="kineme.benchmarks", name=BENCHMARK):
+        return point.load()  # type: ignore[no-any-return]
+    raise KinemeError(
+        f"{BENCHMARK} needs the package kineme-reproduction: in the folder of kineme's sources, "
+        "pip install ./reproduction"
+    )
 
 
 def _listed(*texts: str | None) -> tuple[str, ...]:

@@ -8,10 +8,8 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from kineme._counts import counted
 from kineme.cli.terminal import Console
 from kineme.evaluation.tables import score_rows
-from kineme.reproduction.benchmark import Result, mean_scores
 
 Scores = Mapping[str, float]
 
@@ -19,20 +17,9 @@ Group = tuple[str, Sequence[tuple[str, Sequence[str]]]]
 """A title, and rows: a name and the cells beside it."""
 
 
-def show_results(results: Sequence[Result]) -> None:
-    """Print one table per trial, methods as columns, and the means over the trials."""
-    by_trial: dict[str, dict[str, Scores]] = {}
-    for result in results:
-        by_trial.setdefault(result.trial.name, {})[result.method] = result.scores
-    for trial, columns in by_trial.items():
-        _show(trial, columns)
-    if len(by_trial) > 1:
-        _show(f"mean of {counted(len(by_trial), 'trial')}", mean_scores(results))
-
-
-def show_one(name: str, scores: Scores) -> None:
-    """Print the scores of a single result."""
-    _show(name, {"score": scores})
+def show_scores(title: str, columns: Mapping[str, Scores]) -> None:
+    """Print scores by the columns that have them."""
+    show_table(title, list(columns), score_rows(columns))
 
 
 def show_table(
@@ -53,7 +40,3 @@ def show_table(
     console = Console(highlight=False)
     console.print(Text(title, style="bold"))
     console.print(table)
-
-
-def _show(title: str, columns: Mapping[str, Scores]) -> None:
-    show_table(title, list(columns), score_rows(columns))

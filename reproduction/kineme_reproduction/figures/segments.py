@@ -20,9 +20,9 @@ from matplotlib.patches import Rectangle
 from kineme._colors import PALETTE
 from kineme.evaluation.comparison import Comparison, labelling_of
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
-from kineme.reproduction.benchmark import Result
-from kineme.reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
-from kineme.reproduction.trials import Trial
+from kineme_reproduction.benchmark import Result
+from kineme_reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
+from kineme_reproduction.trials import Trial
 
 LIGHTER = 0.55
 ROW_INCHES = 0.17

@@ -28,9 +28,9 @@ from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import primitive_cuts
 from kineme.plot.matrix import SHADES, similarity_image
-from kineme.reproduction.figures.style import BETWEEN, heading, new_figure, save
-from kineme.reproduction.trials import Trial
 from kineme.segmentation.bodies import motion_features
+from kineme_reproduction.figures.style import BETWEEN, heading, new_figure, save
+from kineme_reproduction.trials import Trial
 
 FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
 

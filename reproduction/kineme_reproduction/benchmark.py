@@ -35,8 +35,8 @@ from kineme.evaluation.score import evaluate_segmentation
 from kineme.evaluation.truth import TRANSITION, Ints, Labelling, Truth
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
-from kineme.reproduction.trials import Trial, read_truths
 from kineme.segments.segmentation import Segmentation
+from kineme_reproduction.trials import Trial, read_truths
 
 Scores = dict[str, float]
 Method = Callable[[Trial], Segmentation]
