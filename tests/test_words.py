@@ -56,14 +56,13 @@ IN_TEXTS = re.compile(
 
 ALLOWED = {
     "_doors": "what the package opens when it is built and run; named by the build",
+    "collect_usage_pieces": "a method of click, which the help overrides",
     "is_held": "a question, which a participle answers",
     "two_way_distance": "a public name; both directions are meant",
 }
 
 NOT_DONE = {
-    "cli": 24,
     "evaluation": 10,
-    "formats": 99,
     "labels": 25,
     "library": 132,
     "methods": 87,

@@ -143,9 +143,9 @@ def _draw_squares(axes: Axes, borders: NDArray[np.float64], color: str) -> None:
 
 
 def _draw_truth(axes: Axes, truth: Truth) -> None:
-    whole = truth.labelling()
-    for label, start, stop in zip(whole.labels, whole.starts, whole.stops, strict=True):
-        first, last = start / whole.fps, stop / whole.fps
+    labelling = truth.labelling()
+    for label, start, stop in zip(labelling.labels, labelling.starts, labelling.stops, strict=True):
+        first, last = start / labelling.fps, stop / labelling.fps
         if label == TRANSITION:
             for draw in (axes.axvspan, axes.axhspan):
                 draw(first, last, color=FORWARD, alpha=0.25, linewidth=0)

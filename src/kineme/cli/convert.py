@@ -17,7 +17,7 @@ from kineme.labels import read_segments, write_segments
 from kineme.segments.table import Level
 
 
-def _known(name: str | None) -> str | None:
+def _checked_format(name: str | None) -> str | None:
     if name is None:
         return None
     from kineme.labels import label_formats
@@ -66,7 +66,7 @@ def convert(
         typer.Option(
             "--from",
             metavar="FORMAT",
-            callback=_known,
+            callback=_checked_format,
             help=f"Format of labels to read, by default by the suffix: {LABELS}.",
             rich_help_panel=INPUT,
         ),
@@ -76,7 +76,7 @@ def convert(
         typer.Option(
             "--to",
             metavar="FORMAT",
-            callback=_known,
+            callback=_checked_format,
             help="Format of labels to write, one of the same.",
             rich_help_panel=OUTPUT,
         ),

@@ -106,8 +106,8 @@ def graph(
             motions, found, threshold=threshold, window=window, prune=not keep_dead_ends
         )
         options = {k: v for k, v in request.reading.items() if v is not None}
-        own = {k: str(v) if isinstance(v, Path) else v for k, v in options.items()}
-        made = replace(made, sources=tuple(replace(s, options=own) for s in made.sources))
+        stored = {k: str(v) if isinstance(v, Path) else v for k, v in options.items()}
+        made = replace(made, sources=tuple(replace(s, options=stored) for s in made.sources))
         write_graph(made, output)
         if plot is not None:
             from kineme.synthesis.picture import plot_graph

@@ -50,15 +50,15 @@ class Command(TyperCommand):
             raise
 
     def _check_constants(self, ctx: Context, args: Sequence[str]) -> None:
-        own = {name for each in self.get_params(ctx) for name in each.opts + each.secondary_opts}
+        flags = {name for each in self.get_params(ctx) for name in each.opts + each.secondary_opts}
         for arg, following in zip_longest(args, args[1:], fillvalue=""):
             flag, equals, value = arg.partition("=")
-            if not flag.startswith("--") or flag in own:
+            if not flag.startswith("--") or flag in flags:
                 continue
-            from kineme.methods import PRESETS as KNOWN
+            from kineme.methods import PRESETS as ALL_PRESETS
 
             name = flag[2:].replace("-", "_")
-            if any(name in preset.parameters() for preset in KNOWN.values()):
+            if any(name in preset.parameters() for preset in ALL_PRESETS.values()):
                 value = value if equals else following
                 ctx.fail(f"No such option: {flag}; use --set {name}={value or 'VALUE'}")
 
@@ -134,15 +134,15 @@ def _filled(text: str) -> str:
         return text
     from kineme.formats import supported_formats
     from kineme.labels import label_formats, written_suffixes
-    from kineme.methods import PRESETS as KNOWN
+    from kineme.methods import PRESETS as ALL_PRESETS
 
     recordings = [each.name for each in supported_formats() if each.read is not None]
     names = {
         RECORDINGS: reversed(recordings),  # the oldest first
         LABELS: label_formats(),
         TABLES: written_suffixes(),
-        PRESETS: KNOWN,
+        PRESETS: ALL_PRESETS,
     }
-    for mark, known in names.items():
-        text = text.replace(mark, ", ".join(known))
+    for mark, entries in names.items():
+        text = text.replace(mark, ", ".join(entries))
     return text

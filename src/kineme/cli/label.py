@@ -56,9 +56,9 @@ def label(
     failures = Failures()
     from kineme.transfer import KnowledgeBase
 
-    known = []
+    bases = []
     with failures.caught(knowledge):
-        known += [KnowledgeBase.load(knowledge)] if knowledge.exists() else []
+        bases += [KnowledgeBase.load(knowledge)] if knowledge.exists() else []
     failures.exit()
     added: dict[Path, KnowledgeBase] = {}
     for path, table in zip(batch.paths, tables, strict=True):
@@ -66,7 +66,7 @@ def label(
             added[path] = _labelled(request, path, table, stage)
     with failures.caught(knowledge):
         if added:
-            merged = KnowledgeBase.merged(*known, *added.values())
+            merged = KnowledgeBase.merged(*bases, *added.values())
             merged.save(knowledge)
             if not quiet:
                 _show(knowledge, added, len(merged))

@@ -12,7 +12,7 @@ from kineme.cli.messages import Failures, progress
 from kineme.cli.options.reading import Quiet
 from kineme.errors import ParameterError
 
-WANTED = "What is to be played"
+PLAYED = "What is to be played"
 
 
 def synthesize(
@@ -29,7 +29,7 @@ def synthesize(
             metavar="NAME*COUNT,…",
             help="Labels or cluster numbers in order, as in walk,run*3,jump; "
             "with --path those that may be played, without counts.",
-            rich_help_panel=WANTED,
+            rich_help_panel=PLAYED,
         ),
     ] = None,
     path: Annotated[
@@ -37,13 +37,13 @@ def synthesize(
         typer.Option(
             metavar="X,Z;X,Z;…",
             help="A line on the floor to follow, metres, as in 0,0;3,0;3,3.",
-            rich_help_panel=WANTED,
+            rich_help_panel=PLAYED,
         ),
     ] = None,
     tolerance: Annotated[
         float,
         typer.Option(
-            help="Metres that the figure may get away from that line.", rich_help_panel=WANTED
+            help="Metres that the figure may get away from that line.", rich_help_panel=PLAYED
         ),
     ] = 0.5,
     duration: Annotated[
@@ -51,12 +51,12 @@ def synthesize(
         typer.Option(
             help="Seconds of any primitives that can follow each other, drawn by chance, in place "
             "of actions.",
-            rich_help_panel=WANTED,
+            rich_help_panel=PLAYED,
         ),
     ] = None,
     seed: Annotated[
         int,
-        typer.Option(min=0, help="Another number draws other primitives.", rich_help_panel=WANTED),
+        typer.Option(min=0, help="Another number draws other primitives.", rich_help_panel=PLAYED),
     ] = 0,
     quiet: Quiet = False,
 ) -> None:
@@ -73,17 +73,17 @@ def synthesize(
         motions = synthesis.load_sources(made)
         stage("searching")
         start = None
-        wanted = synthesis.parse_actions(actions) if actions is not None else []
+        named = synthesis.parse_actions(actions) if actions is not None else []
         if path is not None:
             route, start = synthesis.line_route(
                 made,
                 motions,
                 synthesis.parse_line(path),
-                actions=_without_counts(wanted),
+                actions=_without_counts(named),
                 tolerance=tolerance,
             )
-        elif wanted:
-            route = synthesis.action_route(made, wanted)
+        elif named:
+            route = synthesis.action_route(made, named)
         else:
             route = synthesis.random_route(made, duration or 0, seed)
         stage("blending")

@@ -156,7 +156,7 @@ class DelimitedText:
         Parameters
         ----------
         columns : sequence of int, optional
-            Those wanted, all by default; the others may hold anything.
+            These alone, all by default; the others may hold anything.
 
         Raises
         ------
@@ -164,8 +164,8 @@ class DelimitedText:
             A cell is not a number, or a line is too short or too long.
         """
         content, width, first = self.content, len(self.names), self.below + 1
-        wanted = range(width) if columns is None else columns
-        dates = [i for i in self.dates if i in wanted]
+        chosen = range(width) if columns is None else columns
+        dates = [i for i in self.dates if i in chosen]
         values = array("d")
         reader = csv.reader(self.rows, delimiter=self.separator)
         try:
@@ -181,13 +181,13 @@ class DelimitedText:
                     break
                 for i in dates:
                     cells[i] = _seconds(content, cells[i].strip(), line)
-                row = [cells[i] for i in wanted]
+                row = [cells[i] for i in chosen]
                 values.extend(_numbers(content, [*map(dotted, row)] if self.comma else row, line))
         except csv.Error as error:
             raise content.error(str(error), first + reader.line_num - 1) from None
         if not values:
             raise content.error("no row of numbers found")
-        return np.array(values).reshape(-1, len(wanted))
+        return np.array(values).reshape(-1, len(chosen))
 
     def refuse_interleaved(self) -> None:
         """ReadError where rows of one time or frame are of several people, devices or joints."""

@@ -204,8 +204,8 @@ def seconds(values: ArrayLike, unit: str | None = None) -> Floats:
     """
     times = np.asarray(values)
     if times.dtype.kind in "mM":
-        whole = times.astype(f"{times.dtype.kind}8[ns]")
-        return np.where(np.isnat(whole), np.nan, whole.astype(np.int64) / 1e9)
+        stamps = times.astype(f"{times.dtype.kind}8[ns]")
+        return np.where(np.isnat(stamps), np.nan, stamps.astype(np.int64) / 1e9)
     if times.dtype.kind in "OUS" and any(isinstance(value, str) for value in times.ravel()[:9]):
         return np.array([_nan_or_date(value) for value in times.tolist()])
     numbers = np.asarray(times, np.float64)
@@ -312,8 +312,8 @@ def _period(steps: Floats, jumps: NDArray[np.bool_]) -> float:
     if median > 0 and ordinary.mean() >= _MOST:
         period = float(steps[ordinary].mean())
         lasted = float(steps[~jumps].sum())
-        whole = period * float(np.maximum(np.rint(steps[~jumps] / period), 1).sum())
-        if abs(whole - lasted) <= _ADDS_UP * lasted:
+        expected = period * float(np.maximum(np.rint(steps[~jumps] / period), 1).sum())
+        if abs(expected - lasted) <= _ADDS_UP * lasted:
             return period
     changes = np.flatnonzero(steps > 0)
     between = slice(changes[0] + 1, changes[-1] + 1) if len(changes) > 1 else slice(None)
@@ -343,5 +343,5 @@ def _unevenness(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: flo
 
 def _rounded(fps: float, share: float) -> float:
     """The rate to thousandths of a hertz where it is within this share of that."""
-    whole = round(fps, 3)
-    return whole if whole > 0 and abs(fps - whole) <= share * fps else fps
+    rounded = round(fps, 3)
+    return rounded if rounded > 0 and abs(fps - rounded) <= share * fps else fps

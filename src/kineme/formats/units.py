@@ -140,11 +140,11 @@ def infer_up(skeleton: Skeleton, positions: Floats) -> str:
     for pose, least in ((at_rest, 0.9), (positions, 0.7)):
         body = pose[:, head].mean(axis=1) - pose[:, feet].mean(axis=1)
         length = np.linalg.norm(body, axis=1, keepdims=True)
-        along = np.median(body / np.where(length > 0, length, 1), axis=0)
-        axis = int(np.abs(along).argmax())
-        if abs(along[axis]) < least:
+        direction = np.median(body / np.where(length > 0, length, 1), axis=0)
+        axis = int(np.abs(direction).argmax())
+        if abs(direction[axis]) < least:
             return "y"
-        axes.append(("-" if along[axis] < 0 else "") + "xyz"[axis])
+        axes.append(("-" if direction[axis] < 0 else "") + "xyz"[axis])
     return axes[0] if axes[0] == axes[1] else "y"
 
 
@@ -212,9 +212,9 @@ def up_axis(usual: str, positions: Floats, body: Body) -> tuple[str, list[str]]:
     if head and feet:
         trunk = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
         length = np.linalg.norm(trunk, axis=1, keepdims=True)
-        along = np.median(trunk / np.where(length > 0, length, 1), axis=0)
-        axis = int(np.abs(along).argmax())
-        if abs(along[axis]) > 0.7:
-            up = ("-" if along[axis] < 0 else "") + "xyz"[axis]
+        direction = np.median(trunk / np.where(length > 0, length, 1), axis=0)
+        axis = int(np.abs(direction).argmax())
+        if abs(direction[axis]) > 0.7:
+            up = ("-" if direction[axis] < 0 else "") + "xyz"[axis]
             return up, [f"up axis {up} inferred: head and feet lie along it"]
     return usual, [f"up axis {usual} assumed; give up= if it is another"]

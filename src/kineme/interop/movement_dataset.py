@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import MissingDependencyError, ParameterError, ReadError
-from kineme.formats.columns import SURE
+from kineme.formats.columns import LIMIT
 from kineme.formats.files import FileContent, warn
 from kineme.formats.gaps import split_at
 from kineme.formats.points import Points, to_motion
@@ -108,7 +108,7 @@ def from_movement(
     fps: float | None = None,
     unit: str | float | None = None,
     up: str | None = None,
-    confidence: float = SURE,
+    confidence: float = LIMIT,
 ) -> Motion:
     """The motion of one individual of a poses dataset, in metres with y up.
 

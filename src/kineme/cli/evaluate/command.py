@@ -18,7 +18,7 @@ from kineme.methods.presets import DEFAULT
 BENCHMARK = "cmu86"
 BENCH = "Benchmark"
 FOLDER = "A folder of recordings"
-OWN = "One result"
+RESULT = "One result"
 Mapped = Literal["recording", "folder"]
 
 
@@ -38,7 +38,7 @@ def evaluate(
             metavar="LABELS",
             help="The truth: a table with start_s, stop_s, label; a .txt with one label per "
             "frame; a segment table; annotations.json or mocap.txt.",
-            rich_help_panel=OWN,
+            rich_help_panel=RESULT,
         ),
     ] = None,
     labels: Annotated[
@@ -90,14 +90,14 @@ def evaluate(
     ] = False,
     fps: Annotated[
         float | None,
-        typer.Option(help="Frames per second of .txt files.", rich_help_panel=OWN),
+        typer.Option(help="Frames per second of .txt files.", rich_help_panel=RESULT),
     ] = None,
     recording: Annotated[
         Path | None,
         typer.Option(
             help="The recording, to tell how alike the segments of a cluster are; by default the "
             "one that the segment table names.",
-            rich_help_panel=OWN,
+            rich_help_panel=RESULT,
         ),
     ] = None,
     method: Annotated[

@@ -32,8 +32,10 @@ def score_file(
         recorded = (found.provenance.get("input") or {}).get("path") or ""
         truth = read_trial(labels, trials[0] if trials else Path(recorded).stem, fps=rate)
         if truth.frames != n_frames:
-            said, lasts = truth.frames / rate, n_frames / rate
-            raise ReadError(labels, f"speaks of {said:.2f} s, the result of {lasts:.2f} s")
+            seconds = truth.frames / rate
+            raise ReadError(
+                labels, f"speaks of {seconds:.2f} s, the result of {n_frames / rate:.2f} s"
+            )
     else:
         truth = read_truth(labels, found, fps=fps)
     motion, why = (read_motion(recording), "") if recording else _motion_of(found)

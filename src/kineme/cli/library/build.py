@@ -99,9 +99,9 @@ def build(
         from kineme.library.planning import known_sources
         from kineme.library.storage.places import is_remote
 
-        said = any((preset, constants, reading, effectors, detail))
+        has_options = any((preset, constants, reading, effectors, detail))
         settings: Settings | None = None
-        if said:
+        if has_options:
             settings = Settings(
                 preset or DEFAULT,
                 request.options.constants,

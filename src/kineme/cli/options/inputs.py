@@ -144,16 +144,16 @@ class Batch:
             if folder not in (path for path, _ in listing.passed_over):
                 alone = any(path.suffix.lower() == SKELETON for path in folder.iterdir())
                 why = "a skeleton (.asf) needs the motion (.amc) beside it" if alone else ""
-                told = filter(None, ("there is no recording in this folder", why, deeper))
-                self._messages.append((say_error, f"{folder}: {'; '.join(told)}"))
+                reasons = filter(None, ("there is no recording in this folder", why, deeper))
+                self._messages.append((say_error, f"{folder}: {'; '.join(reasons)}"))
         elif deeper:
             self._messages.append((say_skipped, f"{folder}: {deeper}"))
         return listing.recordings
 
     def _is_named(self, path: Path) -> bool:
         """Whether a recording was asked for by its own name, not found in a folder."""
-        own = absolute(path)
-        return any(absolute(origin) == own for origin in self._given_as[own])
+        place = absolute(path)
+        return any(absolute(origin) == place for origin in self._given_as[place])
 
     @contextmanager
     def _nothing_without(self) -> Iterator[None]:

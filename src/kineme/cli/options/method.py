@@ -73,13 +73,13 @@ def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]
     except ParameterError as error:
         raise typer.BadParameter(str(error), param_hint="--preset") from error
     try:
-        known = {each.name: each for preset in reversed(chosen) for each in preset.constants()}
-        for name in typed.keys() - known.keys():
+        constants = {each.name: each for preset in reversed(chosen) for each in preset.constants()}
+        for name in typed.keys() - constants.keys():
             resolve_preset(presets[0], signals=False, **{name: typed[name]})  # says which
-        values = {name: parsed(known[name], text) for name, text in typed.items()}
+        values = {name: parsed(constants[name], text) for name, text in typed.items()}
         for preset in chosen:
-            own = preset.parameters()
-            preset.replace(**{name: value for name, value in values.items() if name in own})
+            parameters = preset.parameters()
+            preset.replace(**{name: value for name, value in values.items() if name in parameters})
     except ParameterError as error:
         raise typer.BadParameter(str(error), param_hint=SET) from error
     return values
@@ -88,8 +88,8 @@ def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]
 def _divided(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not equals:
-        told = f"give NAME=VALUE, such as min_action=2, not {text!r:.60}"
-        raise typer.BadParameter(told, param_hint=SET)
+        advice = f"give NAME=VALUE, such as min_action=2, not {text!r:.60}"
+        raise typer.BadParameter(advice, param_hint=SET)
     return name.strip().replace("-", "_"), value
 
 
@@ -112,8 +112,8 @@ def parsed(constant: Constant, text: str) -> Any:
         return _value(constant.hint, text.strip())
     except (ValueError, KeyError):
         words = f"{_words(constant.hint)} {constant.allowed} {constant.unit}"
-        told = " ".join(words.split())
-        raise ParameterError(f"{constant.name} must be {told}, not {text!r:.60}") from None
+        advice = " ".join(words.split())
+        raise ParameterError(f"{constant.name} must be {advice}, not {text!r:.60}") from None
 
 
 def shown(value: Any) -> str:

@@ -108,7 +108,7 @@ def with_reading_options(
 ) -> Callable[..., None]:
     """The command with these options; checked, they reach it as ``reading``."""
     signature = inspect.signature(command, eval_str=True)
-    own = [p for p in signature.parameters.values() if p.name != "reading"]
+    parameters = [p for p in signature.parameters.values() if p.name != "reading"]
     added = [
         inspect.Parameter(
             name,
@@ -124,8 +124,8 @@ def with_reading_options(
         given = {name: values.pop(name) for name in options}
         command(**values, reading=_checked(given))
 
-    wrapped.__signature__ = signature.replace(parameters=[*own, *added])  # type: ignore[attr-defined]
-    wrapped.__annotations__ = {p.name: p.annotation for p in (*own, *added)}
+    wrapped.__signature__ = signature.replace(parameters=[*parameters, *added])  # type: ignore[attr-defined]
+    wrapped.__annotations__ = {p.name: p.annotation for p in (*parameters, *added)}
     return wrapped
 
 
@@ -138,20 +138,20 @@ def _checked(given: dict[str, Any]) -> dict[str, Any]:
     """Keywords for `kineme.read`, before any file is opened."""
     from kineme.formats import ReadOptions
 
-    said = {
+    keywords = {
         name: value for name, value in given.items() if value is not None and value is not False
     }
     with suppress(KeyError, ValueError):
-        said["unit"] = float(said["unit"])
-    if "columns" in said:
-        said["columns"] = tuple(filter(None, map(str.strip, said["columns"].split(","))))
-        if not said["columns"]:
+        keywords["unit"] = float(keywords["unit"])
+    if "columns" in keywords:
+        keywords["columns"] = tuple(filter(None, map(str.strip, keywords["columns"].split(","))))
+        if not keywords["columns"]:
             raise typer.BadParameter("names no column", param_hint="--columns")
     try:
-        ReadOptions(**said)
+        ReadOptions(**keywords)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    return said
+    return keywords
 
 
 def effector_names(text: str | None) -> Mapping[str, str] | list[str] | None:

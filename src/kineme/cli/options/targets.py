@@ -183,5 +183,5 @@ def _kept(path: Path, recordings: set[Path]) -> Path:
     from kineme.labels import written_suffixes
 
     candidates = [path.with_name(path.name + suffix) for suffix in (CORRECTED, *written_suffixes())]
-    there = (file for file in candidates if file.is_file() and file not in recordings)
-    return next(there, candidates[0])
+    files = (file for file in candidates if file.is_file() and file not in recordings)
+    return next(files, candidates[0])

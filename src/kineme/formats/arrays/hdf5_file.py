@@ -53,12 +53,12 @@ class _Reader:
 
     def __init__(self, content: FileContent, file: Any) -> None:
         self.content, self.file = content, file
-        self.held = 0
+        self.claimed = 0
         self.open: list[Any] = []  # the groups that the one being read is in
 
     def claim(self, size: int) -> None:
-        self.held += size
-        self.content.claim(self.held, "to unpack to much more than it holds")
+        self.claimed += size
+        self.content.claim(self.claimed, "to unpack to much more than it holds")
 
     def group(self, group: Any, depth: int) -> dict[str, Any]:
         if depth > _DEEPEST:

@@ -24,8 +24,8 @@ from kineme.formats.channels.reading import (
     ChannelTable,
     asked_for,
     channel_table,
+    columns_read,
     to_signals,
-    wanted_columns,
 )
 from kineme.formats.dialects import hold_channels
 from kineme.formats.files import FileContent
@@ -125,11 +125,11 @@ def channels_of(
     if columns:
         length = len(channels[columns[0]])
     as_long = [name for name, channel in channels.items() if len(channel) == length]
-    wanted = wanted_columns(columns, as_long)
-    for name in wanted:
+    chosen = columns_read(columns, as_long)
+    for name in chosen:
         if name not in as_long:
-            raise content.error(f"column {name!r} is not as long as {wanted[0]!r}: choose one rate")
-    values = {name: np.asarray(channels[name], np.float64) for name in wanted}
+            raise content.error(f"column {name!r} is not as long as {chosen[0]!r}: choose one rate")
+    values = {name: np.asarray(channels[name], np.float64) for name in chosen}
     table = channel_table(content, as_long, values, columns)
     others = [name for name in channels if name not in as_long]
     if columns is None and others:

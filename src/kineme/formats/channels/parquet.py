@@ -13,7 +13,7 @@ from kineme.formats.channels.reading import (
     ChannelTable,
     asked_for,
     channel_table,
-    wanted_columns,
+    columns_read,
 )
 from kineme.formats.delimited import named
 from kineme.formats.files import FileContent
@@ -128,13 +128,13 @@ def parquet_channels(
         or (is_timing(name) and _may_be_dates(types[name]))
     ]
     columns = asked_for(content, names, columns, numeric)
-    wanted = wanted_columns(columns, numeric)
+    chosen = columns_read(columns, numeric)
     try:
-        stored = [file.schema_arrow.names[names.index(name)] for name in wanted]
+        stored = [file.schema_arrow.names[names.index(name)] for name in chosen]
         table = parquet_columns(content, file, stored)
         values = {
             name: column.to_numpy() if is_timing(name) else _plain(column)
-            for name, column in zip(wanted, table.columns, strict=True)
+            for name, column in zip(chosen, table.columns, strict=True)
         }
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
         reason = " ".join(str(error).split())

@@ -138,10 +138,10 @@ def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> Channel
     text.refuse_interleaved()
     names, numeric = list(text.names), text.numeric()
     columns = asked_for(text.content, names, columns, numeric)
-    wanted = wanted_columns(columns, numeric)
+    chosen = columns_read(columns, numeric)
     places = {name: i for i, name in enumerate(names)}  # each is there once
-    values = text.numbers([places[name] for name in wanted])
-    table = channel_table(text.content, names, dict(zip(wanted, values.T, strict=True)), columns)
+    values = text.numbers([places[name] for name in chosen])
+    table = channel_table(text.content, names, dict(zip(chosen, values.T, strict=True)), columns)
     return replace(table, notes=(*text.remarks, *table.notes))
 
 
@@ -178,7 +178,7 @@ def asked_for(
     return list(found)
 
 
-def wanted_columns(names: Sequence[str] | None, numeric: Iterable[str]) -> list[str]:
+def columns_read(names: Sequence[str] | None, numeric: Iterable[str]) -> list[str]:
     """The columns to read: those asked for, or all that hold numbers, and those of times."""
     timing = [name for name in numeric if is_timing(name)]
     chosen = numeric if names is None else names

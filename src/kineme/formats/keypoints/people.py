@@ -96,8 +96,8 @@ def _people(found: Detections) -> dict[str, Rows]:
     for row, number in enumerate(numbers):
         rows.setdefault(number, []).append(row)
     return {
-        name: np.array(which)[np.unique(found.frames[which], return_index=True)[1]]
-        for name, which in rows.items()
+        name: np.array(places)[np.unique(found.frames[places], return_index=True)[1]]
+        for name, places in rows.items()
     }
 
 

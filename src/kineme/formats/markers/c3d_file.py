@@ -252,8 +252,8 @@ class Layout:
         if used == header[0] and not fitting:  # as header and length of a cut file would
             self.content.warn(f"{remark}: those of the header are taken")
             return header
-        which = "either fits" if fitting else "neither fits"
-        raise self.content.error(f"{remark}, and {which} the length of the file: it is damaged")
+        fit = "either fits" if fitting else "neither fits"
+        raise self.content.error(f"{remark}, and {fit} the length of the file: it is damaged")
 
     def _fills(self, n_points: int, per_frame: int) -> bool:
         """Whether a declared number of frames, so wide, ends in the last block of the file."""

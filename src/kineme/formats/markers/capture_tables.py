@@ -83,12 +83,12 @@ def _motion(
     content, lines, columns = table.content, table.lines, capture.columns
     separator = separator_of(lines[capture.axes])
     names = [name for name in columns if not is_nameless(name)] or [*columns]
-    wanted = [columns[name] + axis for name in names for axis in range(3)]
+    chosen = [columns[name] + axis for name in names for axis in range(3)]
     below = range(capture.below, len(lines))
     end = next((i for i in below if not lines[i].strip(" ,;\t")), None)
     axes = cells_of(lines[capture.axes], separator)
     rows = DelimitedText(content, lines[:end], axes, capture.axes, capture.below, separator)
-    values = rows.numbers(wanted)
+    values = rows.numbers(chosen)
     notes = list(rows.remarks)
     if left := len(columns) - len(names):
         notes.append(f"{counted(left, 'point')} without a name left out")

@@ -10,7 +10,7 @@ Bones may come in any order, and without values where the ASF gives them no
 degree of freedom. An AMC names neither its skeleton nor its frame rate: see
 `find_skeleton`; 120 Hz, the rate of the CMU database, is assumed.
 
-Where all frames are laid out as the first, the text is taken in pieces of whole frames, so
+Where all frames are laid out as the first, the text is taken in chunks of whole frames, so
 that no more than its numbers is held.
 
 Source: Acclaim Advanced Technologies, ASF/AMC definition.
@@ -43,7 +43,7 @@ from kineme.recordings import Motion
 Floats = NDArray[np.float64]
 
 FPS = 120.0
-PIECE = 1 << 20
+CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
 
 _FPS_COMMENT = re.compile(rb"^# fps ([0-9.e+-]+)\s*$", re.MULTILINE)
@@ -189,8 +189,8 @@ def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floa
     blocks: list[Floats] = []
     layout: _Layout | None = None
     following = np.nan
-    for piece in _pieces(content.data, start):
-        text = _COMMENT.sub(b"", piece) if b"#" in piece else piece
+    for chunk in _chunks(content.data, start):
+        text = _COMMENT.sub(b"", chunk) if b"#" in chunk else chunk
         layout = layout or _layout(text, figure)
         rows = None if layout is None else _rows(text, layout)
         if rows is None:
@@ -204,10 +204,10 @@ def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floa
     return None if layout is None else _by_bone(blocks, layout, figure)
 
 
-def _pieces(data: bytes, start: int) -> Iterator[bytes]:
-    """The text from ``start`` on, in pieces of whole frames."""
+def _chunks(data: bytes, start: int) -> Iterator[bytes]:
+    """The text from ``start`` on, in chunks of whole frames."""
     while start < len(data):
-        after = _FRAME.search(data, start + PIECE)
+        after = _FRAME.search(data, start + CHUNK)
         stop = after.start() if after else len(data)
         yield data[start:stop]
         start = stop
@@ -227,8 +227,8 @@ def _layout(text: bytes, figure: Figure) -> _Layout | None:
             return None
         counts[name] = len(figure.bones[name].dof)
         at += 1 + counts[name]
-    whole = all(name in counts or not bone.dof for name, bone in figure.bones.items())
-    return _Layout(counts) if whole else None
+    complete = all(name in counts or not bone.dof for name, bone in figure.bones.items())
+    return _Layout(counts) if complete else None
 
 
 def _rows(text: bytes, layout: _Layout) -> Floats | None:

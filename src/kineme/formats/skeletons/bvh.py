@@ -43,14 +43,14 @@ from kineme.recordings import Motion, Provenance, Skeleton
 
 Floats = NDArray[np.float64]
 
-PIECE = 1 << 20
+CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
 
 _HIERARCHY = re.compile(rb"^(\xef\xbb\xbf)?\s*HIERARCHY\s", re.IGNORECASE | re.MULTILINE)
 _MOTION = re.compile(rb"\bMOTION\s+Frames\s*:", re.IGNORECASE)
 _HEADER = re.compile(rb"[ \t]*(\d{1,18})\s+Frame\s*Time\s*:[ \t]*(\S*)[^\r\n]*", re.IGNORECASE)
 _CHANNEL = re.compile(r"([xyz])(position|rotation)", re.IGNORECASE)
-_GLUED = re.compile(rb"(?<=[0-9.])-")
+_JOINED = re.compile(rb"(?<=[0-9.])-")
 
 
 def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
@@ -312,7 +312,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     values = array("d")
     odd: list[tuple[int, int]] = []
     fault: ReadError | None = None
-    glued = 0
+    joined = 0
     last = number = content.line_at(start)
     for number, line in enumerate(_lines(content.data, start), last):
         last = number
@@ -323,7 +323,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         except ValueError as error:
             fault = content.error(str(error), number)
             continue
-        glued += apart
+        joined += apart
         values.extend(row)
         if row and len(row) != width:
             odd.append((number, len(row)))
@@ -337,9 +337,9 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         raise fault or content.error("the file ends before its first frame: there is no motion")
     if fault is not None:
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
-    if glued:
+    if joined:
         content.warn(
-            f"blanks before minus signs are missing in {counted(glued, 'frame')}: put there"
+            f"blanks before minus signs are missing in {counted(joined, 'frame')}: put there"
         )
     return np.frombuffer(values).reshape(-1, width)
 
@@ -355,18 +355,18 @@ def read_some(data: bytes, start: int, width: int, every: int) -> Floats | None:
 
 
 def _lines(data: bytes, start: int) -> Iterator[bytes]:
-    """The lines from ``start`` on, without the blank ones at the end; a piece at a time."""
+    """The lines from ``start`` on, without the blank ones at the end; a chunk at a time."""
     stop = _end(data, start)
     while start < stop:
-        cut = min(data.find(b"\n", start + PIECE) + 1 or stop, stop)
+        cut = min(data.find(b"\n", start + CHUNK) + 1 or stop, stop)
         yield from data[start:cut].splitlines()
         start = cut
 
 
 def _end(data: bytes, start: int) -> int:
     """Where blanks and empty lines follow only."""
-    for at in range(len(data), start, -PIECE):
-        first = max(start, at - PIECE)
+    for at in range(len(data), start, -CHUNK):
+        first = max(start, at - CHUNK)
         if kept := data[first:at].rstrip():
             return first + len(kept)
     return start
@@ -377,7 +377,7 @@ def _row(line: bytes) -> tuple[list[float], bool]:
     try:
         return numbers(line.split()), False
     except ValueError:
-        apart = _GLUED.sub(b" -", line)
+        apart = _JOINED.sub(b" -", line)
         if apart == line:
             raise
         return numbers(apart.split()), True
