@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, OUTPUT
+from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.reading import Quiet
 
@@ -34,21 +34,21 @@ def data(
     subject: Annotated[int, typer.Argument(min=1, help="Number of the subject, such as 86.")],
     trials: Annotated[
         str | None,
-        typer.Option(
-            metavar="NUMBER,NUMBER,…",
-            help="Recordings of the subject to fetch, such as 1,2,9-11; by default from 1 up to "
+        option(
+            INPUT,
+            "Recordings of the subject to fetch, such as 1,2,9-11; by default from 1 up to "
             "the first that does not exist.",
-            rich_help_panel=INPUT,
+            metavar="NUMBER,NUMBER,…",
         ),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Where to keep the files, instead of the cache of kineme.",
             "--output",
             "-o",
             metavar="FOLDER",
-            help="Where to keep the files, instead of the cache of kineme.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     site: Annotated[str | None, typer.Option(envvar="KINEME_CMU_SITE", hidden=True)] = None,
@@ -56,11 +56,7 @@ def data(
         str | None, typer.Option(envvar="KINEME_CMU_ANNOTATIONS", hidden=True)
     ] = None,
     timeout: Annotated[
-        float,
-        typer.Option(
-            help="Seconds of silence after which a connection is tried again.",
-            rich_help_panel=INPUT,
-        ),
+        float, option(INPUT, "Seconds of silence after which a connection is tried again.")
     ] = 30.0,
     quiet: Quiet = False,
 ) -> None:

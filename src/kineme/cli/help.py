@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from itertools import zip_longest
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -34,6 +34,11 @@ _FIRST, _LAST = (_ARGUMENTS, INPUT), (METHOD, OUTPUT, UNSAID, _OTHER)
 _COLUMN = 26
 """Characters of the column of names; a longer name has a line of its own."""
 _TYPES = {"path": "PATH", "int": "N", "int range": "N", "float": "NUMBER", "str": "TEXT"}
+
+
+def option(group: str, text: str, *names: str, **more: Any) -> Any:
+    """An option in a group of the help; called as its parameter is, unless names are given."""
+    return typer.Option(*names, help=text, rich_help_panel=group, **more)
 
 
 class Command(TyperCommand):

@@ -17,13 +17,7 @@ if TYPE_CHECKING:
 
 
 def on_demand(homes: Mapping[str, str]) -> type[TyperGroup]:
-    """A group of commands, each the function of its name.
-
-    Parameters
-    ----------
-    homes : Mapping of str to str
-        The module of each, in the order of the help.
-    """
+    """A group of commands in the order of the help, each the function of its name in a module."""
 
     class OnDemand(Commands):
         def __init__(self, **attributes: Any) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.help import INPUT, OUTPUT
+from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
@@ -21,21 +21,21 @@ def report(
     files: Files,
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Page to write: .html; of several recordings a folder, or a path with {name} in "
+            "it.  [default: beside you, named as the recording is]",
             "--output",
             "-o",
-            help="Page to write: .html; of several recordings a folder, or a path with {name} in "
-            "it.  [default: beside you, named as the recording is]",
             show_default=False,
-            rich_help_panel=OUTPUT,
         ),
     ] = Path(),
     segments: Annotated[
         Path | None,
-        typer.Option(
-            help="Segment table or labels to show, instead of segmenting anew; of several "
+        option(
+            INPUT,
+            "Segment table or labels to show, instead of segmenting anew; of several "
             "recordings a folder, or a path with {name} in it.",
-            rich_help_panel=INPUT,
         ),
     ] = None,
     preset: PresetName = DEFAULT,

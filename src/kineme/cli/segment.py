@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.help import OUTPUT, TABLES
+from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
@@ -29,35 +29,28 @@ def segment(
     detail: Detail = 1.0,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            f"Write the segments as a table, or as labels of another program: {TABLES}. Of "
+            "several recordings: a folder, or a path with {name} in it.",
             "--output",
             "-o",
-            help=f"Write the segments as a table, or as labels of another program: {TABLES}. Of "
-            "several recordings: a folder, or a path with {name} in it.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            help="Draw them: .png, .pdf, .svg; or a folder, or a path with {name} in it.",
-            rich_help_panel=OUTPUT,
-        ),
+        option(OUTPUT, "Draw them: .png, .pdf, .svg; or a folder, or a path with {name} in it."),
     ] = None,
     report: Annotated[
         Path | None,
-        typer.Option(
-            help="Write a page that plays the recording beside them: .html; or a folder, or a path "
+        option(
+            OUTPUT,
+            "Write a page that plays the recording beside them: .html; or a folder, or a path "
             "with {name} in it.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     level: Annotated[
-        Level,
-        typer.Option(
-            help="Print activities with what lies between them, or each primitive.",
-            rich_help_panel=OUTPUT,
-        ),
+        Level, option(OUTPUT, "Print activities with what lies between them, or each primitive.")
     ] = "activity",
     recursive: Recursive = False,
     json: Json = False,

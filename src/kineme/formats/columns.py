@@ -58,21 +58,10 @@ def columns_to_motion(
     *,
     limit: float = LIMIT,
 ) -> Motion:
-    """The motion of the joints in a table's columns.
+    """The motion of the joints in a table's columns, one number per row each.
 
-    Parameters
-    ----------
-    name : str
-        Of the format.
-    columns : mapping of str to array_like
-        (rows,) each, numbers, by their names.
-    limit : float, optional
-        Confidence from which a keypoint counts as seen.
-
-    Raises
-    ------
-    ReadError
-        No joints are found, columns differ in length, or nothing tells the rate.
+    ``name`` is that of the format, ``limit`` the confidence from which a keypoint counts as seen.
+    ReadError where no joints are found, columns differ in length, or nothing tells the rate.
     """
     joints = _joints(content, columns)
     names, positions, confidence = _positions(content, columns, joints)

@@ -62,19 +62,7 @@ DIALECTS: Registry[Dialect] = Registry(
 
 
 def dialect_of(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | None:
-    """The dialect that a table is in, if any.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Of its columns.
-    lines : sequence of str
-        Of its file, where it is text.
-
-    Returns
-    -------
-    Dialect or None
-    """
+    """The dialect that a table is in, by its columns and by its lines where it is text; or None."""
     return next((each for each in DIALECTS.values() if speaks(each, names, lines)), None)
 
 
@@ -83,17 +71,6 @@ def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
 
     A table whose columns are coordinates of joints is a motion. Sensors have coordinates, too:
     ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Of its columns.
-    lines : sequence of str
-        Of its file, where it is text.
-
-    Returns
-    -------
-    bool
 
     Examples
     --------

@@ -114,17 +114,7 @@ def files_in(folder: Path) -> list[Path]:
 
 
 def holds_recording(path: Path) -> bool:
-    """Whether a file is a recording, as far as its suffix and head tell.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    bool
-        False where the file cannot be opened or is damaged.
-    """
+    """Whether a file is a recording, by suffix and head; none where it is damaged."""
     try:
         return _is_recording(path)
     except Exception:  # noqa: BLE001 (whatever is wrong with a file, it is no recording)

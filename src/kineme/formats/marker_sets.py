@@ -114,14 +114,9 @@ _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
 
 def find_body(names: Sequence[str], usable: Collection[int]) -> dict[str, tuple[int, ...]]:
-    """For each joint of the body that the usable points make up: which of them it is the middle of.
+    """For each joint of the body that the points at usable indices make up, whose middle it is.
 
-    Parameters
-    ----------
-    names : sequence of str
-        Of all points, without the subject's name.
-    usable : collection of int
-        Indices of those that may be taken.
+    Names are those of all points, without the subject's.
     """
     at: dict[str, int] = {}
     for point in sorted(usable):

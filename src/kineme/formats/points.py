@@ -69,10 +69,7 @@ class Points:
 def to_motion(points: Points, provenance: Provenance) -> Motion:
     """The motion in metres with y up.
 
-    Raises
-    ------
-    ReadError
-        No point was seen throughout, the body in no frame, or the person is none of several.
+    ReadError where no point was seen throughout, the body in no frame, or the person is not there.
     """
     path = provenance.path or "recording"
     given = [name.strip() or "point" for name in points.names]

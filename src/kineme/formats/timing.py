@@ -95,19 +95,9 @@ def date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
 def table_timing(
     content: FileContent, columns: Mapping[str, ArrayLike], fps: float | None = None
 ) -> Timing:
-    """Frames per second, pauses, and what was seen of the times.
+    """Frames per second, pauses, and what was seen of the times; ``fps`` stands in place of these.
 
-    Parameters
-    ----------
-    columns : mapping of str to array_like
-        (rows,) each, by their names; one of them tells the time or the rate.
-    fps : float, optional
-        In place of what the columns tell.
-
-    Raises
-    ------
-    ReadError
-        Nothing tells the rate, or what does contradicts itself.
+    ReadError where no column tells the rate, or one contradicts itself.
     """
     if fps:
         return Timing(fps)
@@ -135,20 +125,11 @@ def numbers_in(
 
 
 def timing_of(content: FileContent, times: Floats) -> Timing:
-    """The frame rate, the pauses, and what was seen of uneven times.
+    """The frame rate, the pauses, and what was seen of uneven times, in seconds; NaN has none.
 
     A rate within a millionth of whole thousandths of a hertz is taken as such, and so is
-    one that the times, as large as they are, cannot tell from it.
-
-    Parameters
-    ----------
-    times : ndarray of shape (rows,)
-        Seconds, NaN where a row has none.
-
-    Raises
-    ------
-    ReadError
-        Times stand still, are in no order, or are too few to tell a rate.
+    one that the times, as large as they are, cannot tell from it. ReadError where times stand
+    still, are in no order, or are too few to tell a rate.
     """
     finite = np.isfinite(times)
     if finite.sum() < 2 or finite.mean() < 0.5:
@@ -188,19 +169,8 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
 def seconds(values: ArrayLike, unit: str | None = None) -> Floats:
     """Times as seconds: numbers, dates of numpy and pandas, or text; NaN where there is none.
 
-    Parameters
-    ----------
-    values : array_like of shape (rows,)
-    unit : str, optional
-        Of numbers, one of `UNITS_OF_TIME`; None for seconds, or what numbers of this size since
-        1970 must be.
-
-    Raises
-    ------
-    ValueError
-        Text that is no date, or anything else that is no time.
-    TypeError
-        The same.
+    The unit is one of `UNITS_OF_TIME`; None for seconds, or what numbers of this size since 1970
+    must be. ValueError or TypeError where they are no times.
     """
     times = np.asarray(values)
     if times.dtype.kind in "mM":

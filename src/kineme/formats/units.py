@@ -119,11 +119,7 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
 def height_of(skeleton: Skeleton, means: Floats) -> float:
     """Three quarters of the longest path along the bones, in file units.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-    means : ndarray, shape (joints, 3)
-        Where each joint is in its parent's frame, in the mean.
+    ``means`` (joints, 3) is where each joint is in its parent's frame, on average.
     """
     return 0.75 * _longest_path(skeleton, np.linalg.norm(means, axis=1))
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, OUTPUT, RECORDINGS
+from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
 from kineme.cli.library.commands import Scheduler, path_or_url
 from kineme.cli.messages import Failures, one_line, progress, say_skipped
 from kineme.cli.options.inputs import Batch
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 def build(
     into: Annotated[
         Path,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Folder or URL of the library, new or to be brought up to date.",
             "--into",
             parser=path_or_url,
             metavar="LIB",
-            help="Folder or URL of the library, new or to be brought up to date.",
-            rich_help_panel=OUTPUT,
         ),
     ],
     files: Annotated[
@@ -46,11 +46,11 @@ def build(
     ] = None,
     remove: Annotated[
         list[Path] | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Take these files or folders out of the library; may be given again.",
             parser=path_or_url,
             metavar="PATH",
-            help="Take these files or folders out of the library; may be given again.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     jobs: Annotated[
@@ -60,12 +60,12 @@ def build(
     scheduler: Scheduler = None,
     recursive: Annotated[
         bool | None,
-        typer.Option(
+        option(
+            INPUT,
+            "Whether to look into the folders of a folder, too.",
             "--recursive/--flat",
             "-r",
-            help="Whether to look into the folders of a folder, too.",
             show_default="as the last time",
-            rich_help_panel=INPUT,
         ),
     ] = None,
     detail: Annotated[float | None, DETAIL] = None,

@@ -14,7 +14,7 @@ from typing import Annotated
 
 import typer
 
-from kineme.cli.help import INPUT, RECORDINGS
+from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
 from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for, targets_for
 from kineme.errors import KinemeError, ReadError, WriteError
@@ -27,10 +27,7 @@ Files = Annotated[
     ),
 ]
 Recursive = Annotated[
-    bool,
-    typer.Option(
-        "--recursive", "-r", help="Look into the folders of a folder, too.", rich_help_panel=INPUT
-    ),
+    bool, option(INPUT, "Look into the folders of a folder, too.", "--recursive", "-r")
 ]
 
 SKELETON, MOTION = ".asf", ".amc"
@@ -38,17 +35,7 @@ SKELETON, MOTION = ".asf", ".amc"
 
 
 class Batch:
-    """The recordings of a command, each of which may fail by itself.
-
-    Parameters
-    ----------
-    given : list of Path
-        Files, and folders that stand for the recordings in them.
-    recursive : bool
-        Whether folders in folders count.
-    quiet : bool
-        Show no progress.
-    """
+    """The recordings of a command, given by themselves or by folder; each may fail by itself."""
 
     def __init__(self, given: list[Path], *, recursive: bool = False, quiet: bool = False):
         self._quiet = quiet

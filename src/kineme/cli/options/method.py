@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin
 
 import typer
 
-from kineme.cli.help import METHOD, PRESETS
+from kineme.cli.help import METHOD, PRESETS, option
 from kineme.errors import ParameterError
 from kineme.methods.presets import resolve_preset
 
@@ -21,46 +21,36 @@ if TYPE_CHECKING:
     from kineme.methods.constants import Constant
 
 SET = "--set"
-PRESET = typer.Option(
+PRESET = option(
+    METHOD,
+    f"How to segment: {PRESETS}. `kineme presets` says what each is for.",
     "--preset",
     metavar="NAME",
-    help=f"How to segment: {PRESETS}. `kineme presets` says what each is for.",
-    rich_help_panel=METHOD,
 )
 PresetName = Annotated[str, PRESET]
 Constants = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
+        METHOD,
+        "Change a constant of the preset, such as min_action=2; may be given again. "
+        "`kineme presets NAME` lists them.",
         SET,
         metavar="NAME=VALUE",
-        help="Change a constant of the preset, such as min_action=2; may be given again. "
-        "`kineme presets NAME` lists them.",
-        rich_help_panel=METHOD,
     ),
 ]
-DETAIL = typer.Option(
+DETAIL = option(
+    METHOD,
+    "Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as 0.5.",
     "--detail",
     metavar="NUMBER",
-    help="Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as "
-    "0.5.",
-    rich_help_panel=METHOD,
 )
 Detail = Annotated[float, DETAIL]
 
 
 def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:
-    """The constants in texts such as ``min_action=2``, checked.
+    """The constants in texts such as ``min_action=2``, checked; each preset takes those it has.
 
-    Parameters
-    ----------
-    presets : sequence of str
-        Names of those that they are for; each takes the constants that it has.
-    given : sequence of str
-
-    Raises
-    ------
-    typer.BadParameter
-        No such preset, a constant that none of them has, or a value that it cannot take.
+    typer.BadParameter names what is wrong: a preset, a constant that none has, or its value.
 
     Examples
     --------
@@ -94,18 +84,13 @@ def _divided(text: str) -> tuple[str, str]:
 
 
 def parsed(constant: Constant, text: str) -> Any:
-    """A text as a value of the type that a constant has.
-
-    Raises
-    ------
-    ParameterError
-        It is none; the message says which would be.
+    """A text as a value of the type that a constant has; ParameterError says which would be one.
 
     Examples
     --------
     >>> from kineme.methods import PRESETS
-    >>> known = {each.name: each for each in PRESETS["voegele2014"].constants()}
-    >>> parsed(known["max_lag"], "none"), parsed(known["offsets"], "-0.1,0,0.1")
+    >>> constants = {each.name: each for each in PRESETS["voegele2014"].constants()}
+    >>> parsed(constants["max_lag"], "none"), parsed(constants["offsets"], "-0.1,0,0.1")
     (None, (-0.1, 0.0, 0.1))
     """
     try:

@@ -31,15 +31,7 @@ _FIELD = re.compile(r"\{(name|parent)\}")
 def targets_for(
     option: str, given: Path | None, inputs: list[Path], suffix: str
 ) -> list[Path | None]:
-    """One path per recording; None for each where the option was not given.
-
-    Raises
-    ------
-    WriteError
-        The folder to write to has none to lie in.
-    typer.BadParameter
-        One file for several recordings, or one that is a recording itself.
-    """
+    """One path per recording; None for each where the option was not given."""
     if given is None:
         return [None] * len(inputs)
     return [*files_for(option, given, inputs, suffix)]

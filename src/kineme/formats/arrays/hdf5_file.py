@@ -27,15 +27,7 @@ _DAMAGE = (
 
 
 def parse_hdf5(content: FileContent) -> dict[str, Any]:
-    """The contents of an HDF5 file by name.
-
-    Raises
-    ------
-    MissingDependencyError
-        h5py is not installed.
-    ReadError
-        It is no HDF5 file, or is damaged.
-    """
+    """The contents of an HDF5 file by name; ReadError where it is none or damaged."""
     try:
         import h5py
     except ImportError as error:

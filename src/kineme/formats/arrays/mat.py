@@ -88,25 +88,9 @@ def arrays_of(variables: Mapping[str, Any]) -> dict[str, Array]:
 def channels_of(
     content: FileContent, arrays: Arrays, columns: Sequence[str] | None
 ) -> ChannelTable:
-    """The channels in a MAT file's arrays: those wanted, or those of the most usual length.
+    """The channels in a MAT file's arrays: those named, or those of the most usual length.
 
     A matrix is a channel for each column, ``NAME_1`` and so on; its longer side is time.
-
-    Parameters
-    ----------
-    content : FileContent
-    arrays : mapping of str to ndarray
-    columns : sequence of str or None
-        By name and in this order.
-
-    Returns
-    -------
-    ChannelTable
-
-    Raises
-    ------
-    ReadError
-        There is no such channel, or those wanted differ in length.
     """
     rates = {name.lower(): array for name, array in arrays.items() if array.ndim == 0}
     rate = next((float(rates[key]) for key in _RATES if key in rates), None)

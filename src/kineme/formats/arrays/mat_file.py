@@ -55,13 +55,7 @@ class _DamagedError(ValueError):
 
 
 def parse_mat(content: FileContent) -> dict[str, Value]:
-    """The variables of a MAT file by name.
-
-    Raises
-    ------
-    ReadError
-        It is no MAT file of version 5, or is damaged.
-    """
+    """The variables of a MAT file by name; ReadError where it is none or damaged."""
     data = memoryview(content.data)
     order = {b"IM": "<", b"MI": ">"}.get(bytes(data[126:128]))
     if len(data) < _HEADER or order is None:

@@ -32,13 +32,7 @@ Arrays = Mapping[str, Array]
 def arrays_to_motion(
     content: FileContent, name: str, arrays: Arrays, options: ReadOptions
 ) -> Motion:
-    """The motion that named arrays describe; ``name`` is that of the format.
-
-    Raises
-    ------
-    ReadError
-        None of the kinds above, shapes that disagree, or no frame rate.
-    """
+    """The motion that named arrays describe; ``name`` is that of the format."""
     if "poses" in arrays:
         return poses_to_motion(content, arrays, options)
     if "positions" in arrays:

@@ -78,10 +78,7 @@ def write_npz(motion: Motion, path: Path) -> None:
 def members(content: FileContent) -> dict[str, Array]:
     """The arrays of an npz by name; those of another kind than numbers or text are passed over.
 
-    Raises
-    ------
-    ReadError
-        It is no npz archive, damaged, or claims to hold much more than it can.
+    ReadError where it is damaged, or claims to hold much more than it can.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content.data)) as archive:

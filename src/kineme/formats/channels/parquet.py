@@ -21,23 +21,7 @@ from kineme.formats.timing import is_timing
 
 
 def parquet_file(content: FileContent) -> Any:
-    """A Parquet file, opened but not read.
-
-    Parameters
-    ----------
-    content : FileContent
-
-    Returns
-    -------
-    pyarrow.parquet.ParquetFile
-
-    Raises
-    ------
-    ReadError
-        It is none, damaged, or claims to hold much more than it can.
-    MissingDependencyError
-        pyarrow is not installed.
-    """
+    """A `pyarrow.parquet.ParquetFile`, opened but not read; ReadError where it is damaged."""
     try:
         import pyarrow as pa
         from pyarrow import parquet
@@ -53,26 +37,10 @@ def parquet_file(content: FileContent) -> Any:
 
 
 def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> Any:
-    """Columns of a Parquet file as they are, none larger than the file can honestly hold.
+    """Columns of a Parquet file as a table, none larger than the file can honestly hold.
 
     Texts are first read as the file keeps them, each different one once, and weighed:
     ten kilobytes can repeat a long text for gigabytes.
-
-    Parameters
-    ----------
-    content : FileContent
-    file : pyarrow.parquet.ParquetFile
-        In it.
-    columns : sequence of str
-
-    Returns
-    -------
-    pyarrow.Table
-
-    Raises
-    ------
-    ReadError
-        The columns are damaged, or would take more memory than the file can honestly fill.
     """
     import pyarrow as pa
     from pyarrow import parquet
@@ -97,25 +65,7 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
 def parquet_channels(
     content: FileContent, file: Any, columns: Sequence[str] | None
 ) -> ChannelTable:
-    """The channels of a Parquet file: those wanted, or all that hold numbers.
-
-    Parameters
-    ----------
-    content : FileContent
-    file : pyarrow.parquet.ParquetFile
-        In it.
-    columns : sequence of str or None
-        By name or pattern, in this order.
-
-    Returns
-    -------
-    ChannelTable
-
-    Raises
-    ------
-    ReadError
-        There is no such column, or one holds no numbers, or nothing is a channel.
-    """
+    """The channels of a Parquet file: those named, in this order, or all that hold numbers."""
     import pyarrow as pa
 
     names = named(file.schema_arrow.names)

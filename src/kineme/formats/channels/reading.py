@@ -89,27 +89,7 @@ class ChannelTable:
 
 
 def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float | None) -> Signals:
-    """The signals in a table of channels.
-
-    Parameters
-    ----------
-    content : FileContent
-        Where the table comes from.
-    name : str
-        Of the format.
-    table : ChannelTable
-    fps : float or None
-        In place of what the table tells.
-
-    Returns
-    -------
-    Signals
-
-    Raises
-    ------
-    ReadError
-        Nothing tells the frame rate, or holes leave nothing.
-    """
+    """The signals in a table of channels; ``fps`` stands in place of what the table tells."""
     timing = table.timed(content, fps)
     values, gaps, filled = without_gaps(content, table.values, timing, table.names)
     provenance = content.provenance(name, [*table.notes, *timing.notes, *filled])
@@ -117,23 +97,7 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
 
 
 def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
-    """The channels of a text table: those wanted, or all that hold numbers.
-
-    Parameters
-    ----------
-    text : DelimitedText
-    columns : sequence of str or None
-        By name or pattern, in this order.
-
-    Returns
-    -------
-    ChannelTable
-
-    Raises
-    ------
-    ReadError
-        There is no such column, a cell is no number, or nothing is a channel.
-    """
+    """The channels of a text table: those named, in this order, or all that hold numbers."""
     text = text.numbered()
     text.refuse_interleaved()
     names, numeric = list(text.names), text.numeric()
@@ -216,19 +180,8 @@ def without_gaps(
 ) -> tuple[Floats, list[tuple[int, int]], list[str]]:
     """Finite values, the spans in which a channel is missing for long, and what was done.
 
-    Parameters
-    ----------
-    values : ndarray of shape (frames, channels)
-        NaN or infinite where there is nothing.
-    timing : Timing
-        Frames per second, and the frames at which the times jump.
-    names : sequence of str
-        Of the channels.
-
-    Raises
-    ------
-    ReadError
-        The holes leave nothing.
+    Values are (frames, channels), NaN or infinite where there is nothing. ReadError where the holes
+    leave nothing.
     """
     missing = ~np.isfinite(values)
     if not missing.any():

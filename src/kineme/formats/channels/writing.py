@@ -93,11 +93,7 @@ def write_signals(
 def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
     """The frames of signals as rows of their own file, or of a CSV where these are others.
 
-    Parameters
-    ----------
-    signals : Signals
-    shortest : int, optional
-        How many rows are written at once at least; all by default.
+    ``shortest`` is how many rows are written at once at least; all by default.
     """
     alone = min(signals.n_frames, shortest or signals.n_frames) < 2
     path = signals.provenance.path

@@ -96,22 +96,10 @@ def landmarks_to_motion(
     frames: Sequence[int] = (),
     notes: Sequence[str] = (),
 ) -> Motion:
-    """The motion of one person's landmarks.
+    """The motion of one person's landmarks: x, y and z of 33 in every frame.
 
-    Parameters
-    ----------
-    people : sequence of Person
-        With x, y and z of the 33 landmarks each.
-    world : bool, optional
-        Whether they are world landmarks, None to judge by the hips.
-    fps : float, optional
-        Frames per second, if the file tells.
-    size : sequence of float or None, optional
-        Width and height of the image, if the file tells.
-    frames : sequence of int, optional
-        Numbers of all frames, of those without anybody, too.
-    notes : sequence of str, optional
-        Sentences on what was done so far.
+    ``world`` tells whether they are world landmarks, None judges by the hips; ``size`` is width and
+    height of the image, where the file tells; ``frames`` numbers all frames, with anybody or not.
     """
     if world is None and people:
         middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])

@@ -50,12 +50,9 @@ class Detections:
 def rows_of_person(
     content: FileContent, found: Detections, person: str | None
 ) -> tuple[Rows, list[str]]:
-    """The rows of the person wanted, or of the only one; and what was done.
+    """The rows of this person, or of the only one; and what was done.
 
-    Raises
-    ------
-    SeveralPeopleError
-        There are several and none was chosen, or nobody of this name.
+    SeveralPeopleError where there are several and none was chosen, or nobody of this name.
     """
     people = _people(found)
     if not people:

@@ -87,13 +87,7 @@ class Video:
 
 
 def video_to_motion(content: FileContent, video: Video, options: ReadOptions) -> Motion:
-    """The motion of one person in a video.
-
-    Raises
-    ------
-    ReadError
-        Several people and none chosen, nobody, or no frame rate.
-    """
+    """The motion of one person in a video; ReadError where nothing tells which one, or the rate."""
     fps = options.fps or video.fps
     if not fps:
         raise content.error("keypoints have no frame rate: give fps= (--fps), that of the video")

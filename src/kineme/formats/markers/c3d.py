@@ -116,19 +116,7 @@ def _up(file: C3D) -> str | None:
 def read_analog(content: FileContent, options: ReadOptions) -> Signals:
     """The analog channels of a C3D: ``options.columns``, or muscles with ``emg``, or all.
 
-    Parameters
-    ----------
-    content : FileContent
-    options : ReadOptions
-
-    Returns
-    -------
-    Signals
-
-    Raises
-    ------
-    ReadError
-        It has none, or not those that were asked for.
+    ReadError where it has none, or not those that were asked for.
     """
     file = parse_c3d(content)
     columns, notes = options.columns or None, []
@@ -145,13 +133,7 @@ def read_analog(content: FileContent, options: ReadOptions) -> Signals:
 
 
 def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
-    """The names of the channels that are muscles', and a sentence on what was taken.
-
-    Raises
-    ------
-    ReadError
-        Nothing tells that a channel is one.
-    """
+    """The names of the channels that are muscles', and a sentence on what was taken."""
     names = unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
     described = file.parameters.strings("ANALOG", "DESCRIPTIONS")

@@ -85,13 +85,7 @@ class C3D:
 
 
 def parse_c3d(content: FileContent) -> C3D:
-    """The contents of a C3D file.
-
-    Raises
-    ------
-    ReadError
-        It is no C3D file, or holds less than one frame.
-    """
+    """The contents of a C3D file; ReadError where it is none, or holds less than one frame."""
     parameters = read_parameters(content)
     file = Layout(content, parameters, read_header(content, parameters))
     raw = file.frames()
@@ -373,13 +367,7 @@ class Parameters:
 
 
 def read_parameters(content: FileContent) -> Parameters:
-    """Where each parameter of the file is.
-
-    Raises
-    ------
-    ReadError
-        There is no parameter section, or its processor is unknown.
-    """
+    """Where each parameter of the file is; ReadError where there are none of a known processor."""
     data = content.data
     start = (max(data[0], 1) - 1) * BLOCK if data else 0
     if len(data) < max(start + 4, BLOCK):
