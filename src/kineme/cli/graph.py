@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, METHOD, OUTPUT, option
+from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.messages import Failures, progress
-from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.reading import Quiet, with_body_options
 from kineme.cli.options.request import Request
 from kineme.cli.options.targets import check_place, check_writable
@@ -26,14 +26,7 @@ if TYPE_CHECKING:
 def graph(
     files: Files,
     output: Annotated[Path, option(OUTPUT, "The motion graph: a .json file.", "--output", "-o")],
-    segments: Annotated[
-        Path | None,
-        option(
-            INPUT,
-            "Segment tables to take primitives and labels from, instead of segmenting anew; "
-            "of several recordings a folder, or a path with {name} in it.",
-        ),
-    ] = None,
+    segments: SegmentTable = None,
     plot: Annotated[Path | None, option(OUTPUT, "Draw the graph: .png, .pdf or .svg.")] = None,
     threshold: Annotated[
         float,

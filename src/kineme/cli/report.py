@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.help import INPUT, OUTPUT, option
-from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.options.request import Request
@@ -30,14 +30,7 @@ def report(
             show_default=False,
         ),
     ] = Path(),
-    segments: Annotated[
-        Path | None,
-        option(
-            INPUT,
-            "Segment table or labels to show, instead of segmenting anew; of several "
-            "recordings a folder, or a path with {name} in it.",
-        ),
-    ] = None,
+    segments: SegmentTable = None,
     preset: PresetName = DEFAULT,
     detail: Detail = 1.0,
     recursive: Recursive = False,

@@ -11,7 +11,7 @@ import typer
 from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import Constants, Detail, PresetName
-from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
+from kineme.cli.options.reading import Effectors, Json, PrintedLevel, Quiet, with_reading_options
 from kineme.cli.options.request import Request
 from kineme.cli.options.targets import check_writable
 from kineme.methods.presets import DEFAULT
@@ -49,9 +49,7 @@ def segment(
             "with {name} in it.",
         ),
     ] = None,
-    level: Annotated[
-        Level, option(OUTPUT, "Print activities with what lies between them, or each primitive.")
-    ] = "activity",
+    level: PrintedLevel = "activity",
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
@@ -85,14 +83,7 @@ def segment(
 
                 drawn = request.drawn(recording)
                 write_report(drawn, result, page, effectors=request.effectors)
-            if json:
-                from kineme.labels.json_table import as_object
-
-                typer.echo(dumps(as_object(result)))
-            elif not quiet:
-                from kineme.cli.tables import show_segments
-
-                show_segments(result, level, written=[table, picture, page])
+            print_segments(result, level, [table, picture, page], json=json, quiet=quiet)
     batch.exit()
 
 
@@ -111,3 +102,17 @@ def write_results(
         from kineme.plot import plot_segmentation
 
         plot_segmentation(result, found, picture)
+
+
+def print_segments(
+    result: Segmentation, level: Level, written: list[Path | None], *, json: bool, quiet: bool
+) -> None:
+    """The segments as JSON, or as a table above the files that were written."""
+    if json:
+        from kineme.labels.json_table import as_object
+
+        typer.echo(dumps(as_object(result)))
+    elif not quiet:
+        from kineme.cli.tables import show_segments
+
+        show_segments(result, level, written=written)

@@ -8,8 +8,8 @@ from typing import Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, OUTPUT, option
-from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.options.request import Request
@@ -36,14 +36,7 @@ def split(
     loop: Annotated[
         bool, option(OUTPUT, "Blend the ends, so that each clip plays as a cycle.", "--loop")
     ] = False,
-    segments: Annotated[
-        Path | None,
-        option(
-            INPUT,
-            "Segment table or labels to cut by, instead of segmenting anew; of several "
-            "recordings a folder, or a path with {name} in it.",
-        ),
-    ] = None,
+    segments: SegmentTable = None,
     detail: Detail = 1.0,
     preset: PresetName = DEFAULT,
     recursive: Recursive = False,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,10 +10,10 @@ import typer
 from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.reading import Effectors, Json, Quiet, with_body_options
+from kineme.cli.options.reading import Effectors, Json, PrintedLevel, Quiet, with_body_options
 from kineme.cli.options.request import Request, Stage
 from kineme.cli.options.targets import check_writable
-from kineme.segments.table import Level
+from kineme.cli.segment import print_segments
 
 if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation
@@ -54,9 +53,7 @@ def transfer(
             "-o",
         ),
     ] = None,
-    level: Annotated[
-        Level, option(OUTPUT, "Print activities with what lies between them, or each primitive.")
-    ] = "primitive",
+    level: PrintedLevel = "primitive",
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
@@ -93,14 +90,7 @@ def transfer(
                 from kineme.labels import write_segments
 
                 write_segments(result, table)
-            if json:
-                from kineme.labels.json_table import as_object
-
-                typer.echo(dumps(as_object(result)))
-            elif not quiet:
-                from kineme.cli.tables import show_segments
-
-                show_segments(result, level, written=[table])
+            print_segments(result, level, [table], json=json, quiet=quiet)
     batch.exit()
 
 

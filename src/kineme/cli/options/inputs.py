@@ -29,6 +29,14 @@ Files = Annotated[
 Recursive = Annotated[
     bool, option(INPUT, "Look into the folders of a folder, too.", "--recursive", "-r")
 ]
+SegmentTable = Annotated[
+    Path | None,
+    option(
+        INPUT,
+        "Segment table or labels to take, instead of segmenting anew; of several recordings a "
+        "folder, or a path with {name} in it.",
+    ),
+]
 
 SKELETON, MOTION = ".asf", ".amc"
 """Of what lies in two files, which ``*`` gives both of."""
