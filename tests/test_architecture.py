@@ -109,7 +109,6 @@ HELPERS = {
     "_colors": set(),
     "_counts": set(),
     "_compiled": set(),
-    "_doors": {"_files", "errors"},
     "_files": {"errors"},
     "_interpolation": set(),
     "_json": {"_files", "errors"},

@@ -26,9 +26,7 @@ ROOT = SOURCES / "kineme"
 API = SOURCES.parent / "docs" / "api.md"
 
 NOT_DONE = {
-    "cli": 1,
     "evaluation": 18,
-    "formats": 9,
     "labels": 5,
     "library": 1,
     "methods": 9,

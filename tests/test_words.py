@@ -55,7 +55,6 @@ IN_TEXTS = re.compile(
 """Words of the table that have no other meaning in a sentence of this package."""
 
 ALLOWED = {
-    "_doors": "what the package opens when it is built and run; named by the build",
     "collect_usage_pieces": "a method of click, which the help overrides",
     "is_held": "a question, which a participle answers",
     "two_way_distance": "a public name; both directions are meant",

@@ -41,6 +41,11 @@ class ReadOptions:
     ------
     ParameterError
         A value that an option does not take.
+
+    Examples
+    --------
+    >>> ReadOptions(unit="mm").channels, ReadOptions(columns=["acc_*"]).channels
+    (False, True)
     """
 
     skeleton: AnyPath | None = None

@@ -73,6 +73,13 @@ class Format:
     sketch : callable, optional
         From `FileContent`, `ReadOptions` and a number of frames to a `Sketch` of so many at most,
         much sooner than ``read``; None where that cannot be.
+
+    Examples
+    --------
+    >>> def levels(content, options):
+    ...     return Signals([float(word) for word in content.text.split()], options.fps or 100.0)
+    >>> Format("levels", (".lvl",), lambda head: False, levels, channels=True).suffixes
+    ('.lvl',)
     """
 
     name: str
@@ -147,6 +154,13 @@ def register(new: Format, *, replace: bool = False) -> None:
     ------
     ParameterError
         There is a format of this name, or it is none.
+
+    Examples
+    --------
+    >>> register(Format("levels", (".lvl",), lambda head: False))
+    >>> supported_formats()[0].name
+    'levels'
+    >>> FORMATS.remove("levels")
     """
     FORMATS.register(new, replace=replace)
 

@@ -36,15 +36,8 @@ from kineme.recordings import Motion, Signals
 from kineme.recordings.coordinates import is_body
 
 _RATES = (
-    "fps",
-    "fs",
-    "rate",
-    "frame_rate",
-    "framerate",
-    "samplerate",
-    "sampling_rate",
-    "frequency",
-)
+    "fps", "fs", "rate", "frame_rate", "framerate", "samplerate", "sampling_rate", "frequency",
+)  # fmt: skip
 
 
 def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kineme.errors import MissingDependencyError, ReadError
 from kineme.formats.channels.reading import (
@@ -53,7 +52,9 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
         table = file.read(columns=list(columns), use_threads=False)
         content.claim(sum(map(_expanded_size, table.columns)), "texts that repeat")
         plain = [
-            pa.field(field.name, field.type.value_type) if _is_coded(field.type) else field
+            pa.field(field.name, field.type.value_type)
+            if pa.types.is_dictionary(field.type)
+            else field
             for field in table.schema
         ]
         return table.cast(pa.schema(plain, table.schema.metadata))
@@ -70,12 +71,12 @@ def parquet_channels(
 
     names = named(file.schema_arrow.names)
     types = dict(zip(names, file.schema_arrow.types, strict=True))
-    kinds = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
+    numbers = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
+    dates = (*numbers, pa.types.is_timestamp, pa.types.is_string)  # which may hold them
     numeric = [
         name
         for name in names
-        if any(kind(types[name]) for kind in kinds)
-        or (is_timing(name) and _may_be_dates(types[name]))
+        if any(is_kind(types[name]) for is_kind in (dates if is_timing(name) else numbers))
     ]
     columns = asked_for(content, names, columns, numeric)
     chosen = columns_read(columns, numeric)
@@ -83,7 +84,7 @@ def parquet_channels(
         stored = [file.schema_arrow.names[names.index(name)] for name in chosen]
         table = parquet_columns(content, file, stored)
         values = {
-            name: column.to_numpy() if is_timing(name) else _plain(column)
+            name: np.asarray(column.to_numpy(), None if is_timing(name) else np.float64)
             for name, column in zip(chosen, table.columns, strict=True)
         }
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
@@ -92,30 +93,20 @@ def parquet_channels(
     return channel_table(content, names, values, columns)
 
 
-def _may_be_dates(kind: Any) -> bool:
-    import pyarrow as pa
-
-    return bool(pa.types.is_timestamp(kind) or pa.types.is_string(kind))
-
-
 def _is_text(kind: Any) -> bool:
-    import pyarrow as pa
+    from pyarrow import types
 
-    texts = (pa.types.is_string, pa.types.is_large_string, pa.types.is_binary)
-    return any(is_text(kind) for is_text in (*texts, pa.types.is_large_binary, _is_coded))
-
-
-def _is_coded(kind: Any) -> bool:
-    import pyarrow as pa
-
-    return bool(pa.types.is_dictionary(kind))
+    kinds = (types.is_string, types.is_large_string, types.is_binary, types.is_large_binary)
+    return any(is_text(kind) for is_text in (*kinds, types.is_dictionary))
 
 
 def _expanded_size(column: Any) -> int:
     """Bytes of a column, with every row's text by itself."""
-    if not _is_coded(column.type):
-        return int(column.nbytes)
     import pyarrow.compute as pc
+    from pyarrow import types
+
+    if not types.is_dictionary(column.type):
+        return int(column.nbytes)
 
     if not _is_text(column.type.value_type):
         return 8 * len(column)
@@ -123,7 +114,3 @@ def _expanded_size(column: Any) -> int:
     return sum(
         len(chunk) * max(8, most or 0) for chunk, most in zip(column.chunks, longest, strict=True)
     )
-
-
-def _plain(column: Any) -> NDArray[np.float64]:
-    return np.asarray(column.to_numpy(), np.float64)

@@ -107,7 +107,8 @@ def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
                 return _ParquetRows.of(content, fps)
             rows = _TextRows.of(content, signals.n_frames)
             return rows if fps is None else _at_rate(rows, fps)
-    return _of_values(signals, with_rate=alone)
+    rows = _of_values(signals)
+    return _at_rate(rows, signals.fps) if alone else rows
 
 
 @dataclass(frozen=True)
@@ -245,13 +246,8 @@ def _at_rate(rows: _TextRows, fps: float) -> _TextRows:
     return _text_rows(suffix, [RATE, *(names[i] for i in at)], cells)
 
 
-def _of_values(signals: Signals, *, with_rate: bool) -> _TextRows:
+def _of_values(signals: Signals) -> _TextRows:
     """Times and channels as a CSV that reads back to the same numbers."""
-    rows = _values_of(signals)
-    return _at_rate(rows, signals.fps) if with_rate else rows
-
-
-def _values_of(signals: Signals) -> _TextRows:
     missing = covered(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels
     rows = (

@@ -24,7 +24,6 @@ from collections.abc import Iterator
 from itertools import chain, islice, pairwise, repeat, starmap
 from math import radians
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +40,9 @@ from kineme.formats.units import blocks, metres
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
+
+Layout = dict[str, int]
+"""How many values each bone of a frame has, in the order of the file."""
 
 FPS = 120.0
 CHUNK = 1 << 20
@@ -178,16 +180,10 @@ def read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, F
     return _quickly(content, start, figure) or _line_by_line(content, start, figure)
 
 
-class _Layout(NamedTuple):
-    """How many values each bone of a frame has, in the order of the file."""
-
-    counts: dict[str, int]
-
-
 def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floats] | None:
     """The values if every frame is laid out as the first, else None."""
     blocks: list[Floats] = []
-    layout: _Layout | None = None
+    layout: Layout | None = None
     following = np.nan
     for chunk in _chunks(content.data, start):
         text = _COMMENT.sub(b"", chunk) if b"#" in chunk else chunk
@@ -213,7 +209,7 @@ def _chunks(data: bytes, start: int) -> Iterator[bytes]:
         start = stop
 
 
-def _layout(text: bytes, figure: Figure) -> _Layout | None:
+def _layout(text: bytes, figure: Figure) -> Layout | None:
     """That of the first frame; None where a bone is unknown, named twice, or missing."""
     first, second = islice(chain(_FRAME.finditer(text), repeat(None)), 2)
     if first is None:
@@ -228,10 +224,10 @@ def _layout(text: bytes, figure: Figure) -> _Layout | None:
         counts[name] = len(figure.bones[name].dof)
         at += 1 + counts[name]
     complete = all(name in counts or not bone.dof for name, bone in figure.bones.items())
-    return _Layout(counts) if complete else None
+    return counts if complete else None
 
 
-def _rows(text: bytes, layout: _Layout) -> Floats | None:
+def _rows(text: bytes, layout: Layout) -> Floats | None:
     """A row per frame: its number, and the values of its bones; None where it is laid out else.
 
     By compiled code where there is some already: to load it takes longer than a recording.
@@ -241,14 +237,14 @@ def _rows(text: bytes, layout: _Layout) -> Floats | None:
         if rows is not None:
             return rows
     words = text.split()
-    n_words = 1 + sum(1 + count for count in layout.counts.values())
+    n_words = 1 + sum(1 + count for count in layout.values())
     if len(words) % n_words:
         return None
-    rows = np.empty((len(words) // n_words, 1 + sum(layout.counts.values())))
+    rows = np.empty((len(words) // n_words, 1 + sum(layout.values())))
     try:
         rows[:, 0] = list(map(int, words[::n_words]))
         at, column = 1, 1
-        for name, count in layout.counts.items():
+        for name, count in layout.items():
             if words[at::n_words].count(name.encode()) != len(rows):
                 return None
             for i in range(count):
@@ -259,12 +255,12 @@ def _rows(text: bytes, layout: _Layout) -> Floats | None:
     return rows if np.isfinite(rows).all() else None
 
 
-def _compiled_rows(text: bytes, layout: _Layout) -> Floats | None:
+def _compiled_rows(text: bytes, layout: Layout) -> Floats | None:
     """The same, unless there are numbers among them that only ``float`` reads."""
     from kineme.formats.skeletons._amc_kernels import read_rows
 
-    counts = np.array([*layout.counts.values()], np.int64)
-    names = [name.encode() for name in layout.counts]
+    counts = np.array([*layout.values()], np.int64)
+    names = [name.encode() for name in layout]
     shortest = 2 * (1 + len(names) + int(counts.sum()))  # a word is a sign and a space at least
     rows = np.empty((len(text) // shortest + 1, 1 + int(counts.sum())))
     found = read_rows(
@@ -277,10 +273,10 @@ def _compiled_rows(text: bytes, layout: _Layout) -> Floats | None:
     return rows[:found].copy() if found > 0 else None
 
 
-def _by_bone(blocks: list[Floats], layout: _Layout, figure: Figure) -> dict[str, Floats]:
+def _by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict[str, Floats]:
     """The values of each bone, none where it is not named."""
-    ends = np.cumsum([1, *layout.counts.values()])
-    columns = dict(zip(layout.counts, starmap(slice, pairwise(ends.tolist())), strict=True))
+    ends = np.cumsum([1, *layout.values()])
+    columns = dict(zip(layout, starmap(slice, pairwise(ends.tolist())), strict=True))
     return {
         name: np.concatenate([rows[:, columns.get(name, slice(0))] for rows in blocks])
         for name in figure.bones

@@ -65,17 +65,9 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     )
     provenance = content.provenance("BVH", head.notes)
     content.let_go()
-    rotations, slides = _local(head.joints, values)
+    turned = _local(head.joints, values)
     del values  # before as much again is made of it
-    return place(
-        _skeleton(head.joints),
-        rotations,
-        slides,
-        head.fps,
-        unit=options.unit,
-        up=options.up,
-        provenance=provenance,
-    )
+    return _placed(head.joints, turned, head.fps, options, provenance)
 
 
 def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch | None:
@@ -85,16 +77,8 @@ def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch 
     values = read_some(content.data, head.start, head.width, every) if every > 1 else None
     if values is None or len(values) != -(-head.declared // every):
         return None
-    rotations, slides = _local(head.joints, values)
-    motion = place(
-        _skeleton(head.joints),
-        rotations,
-        slides,
-        head.fps / every,
-        unit=options.unit,
-        up=options.up,
-        provenance=Provenance(str(content.path), "BVH"),
-    )
+    turned, provenance = _local(head.joints, values), Provenance(str(content.path), "BVH")
+    motion = _placed(head.joints, turned, head.fps / every, options, provenance)
     return Sketch(motion, head.declared, head.fps)
 
 
@@ -117,7 +101,7 @@ def _head(content: FileContent, options: ReadOptions) -> _Head:
     split = _MOTION.search(content.data)
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a whole BVH file")
-    joints = read_joints(content, split.start())
+    joints = _Hierarchy(content, split.start()).joints
     line = content.line_at(split.end() - 1)
     header = _HEADER.match(content.data, split.end())
     if header is None:
@@ -130,15 +114,22 @@ def _head(content: FileContent, options: ReadOptions) -> _Head:
     return _Head(joints, int(header.group(1)), fps, notes, line, header.end())
 
 
-def _skeleton(joints: list[Joint]) -> Skeleton:
+def _placed(
+    joints: list[Joint],
+    turned: tuple[Floats, dict[int, Floats]],
+    fps: float,
+    options: ReadOptions,
+    provenance: Provenance,
+) -> Motion:
+    """The motion of joints as `_local` gives them."""
     parents = tuple(joint.parent for joint in joints)
-    inner = set(parents)
-    return Skeleton(
+    skeleton = Skeleton(
         tuple(joint.name for joint in joints),
         parents,
         np.array([joint.offset for joint in joints]),
-        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
+        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in parents),
     )
+    return place(skeleton, *turned, fps, unit=options.unit, up=options.up, provenance=provenance)
 
 
 def _local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
@@ -191,13 +182,8 @@ class Joint:
     channels: list[tuple[str, str]] = field(default_factory=list)
 
 
-def read_joints(content: FileContent, stop: int) -> list[Joint]:
-    """The joints, parents first, from the bytes before ``stop``."""
-    return _Hierarchy(content, stop).joints
-
-
 class _Hierarchy:
-    """The joints of the HIERARCHY section, parents first."""
+    """The joints of the HIERARCHY section, the bytes before ``stop``; parents first."""
 
     def __init__(self, content: FileContent, stop: int):
         self.content = content
