@@ -126,7 +126,7 @@ def reading(path: str | os.PathLike[str]) -> Iterator[None]:
             raise
         raise ReadError(path, str(error)) from error
     except OSError as error:
-        raise ReadError(path, f"cannot be read: {error.strerror or _short(error)}") from error
+        raise ReadError(path, f"cannot be read: {error.strerror or short(error)}") from error
     except UnicodeDecodeError as error:
         encoding = error.encoding.upper()
         raise ReadError(path, f"is not {encoding} text (byte {error.start})") from error
@@ -137,7 +137,7 @@ def reading(path: str | os.PathLike[str]) -> Iterator[None]:
     except RecursionError as error:
         raise ReadError(path, "holds too much inside one another: it is damaged") from error
     except Exception as error:
-        message = _short(error)
+        message = short(error)
         reason = f"{type(error).__name__}: {message}" if message else type(error).__name__
         raise ReadError(path, f"cannot be understood, it is damaged ({reason})") from error
 
@@ -188,7 +188,7 @@ def tail_of(path: Path) -> bytes:
         return file.read()
 
 
-def _short(error: Exception) -> str:
+def short(error: Exception) -> str:
     """What an exception of another package says, on one line."""
     return " ".join(str(error).split())[:120]
 

@@ -21,28 +21,10 @@ from kineme.evaluation.truth import Truth, round_half_up
 
 
 def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Truth]:
-    """The annotation of each trial by its name.
+    """The truth of each trial by its name, at so many frames a second.
 
-    Parameters
-    ----------
-    path : path-like
-        ``annotations.json``, or the authors' ``mocap.txt``.
-    fps : float
-        Frames per second of the comparison.
-
-    Returns
-    -------
-    dict of str to Truth
-
-    Raises
-    ------
-    ReadError
-        Not such a file, or marks that run backwards beyond the known errors.
-
-    Warns
-    -----
-    KinemeWarning
-        For every row that was mended, see `kineme.datasets.annotated_trials`.
+    The file is ``annotations.json`` or the authors' ``mocap.txt``; ReadError where it is neither,
+    or marks run backwards beyond the known errors. A KinemeWarning names each mended row.
     """
     found = {}
     for name, rows in read_actions(path).items():
@@ -54,25 +36,9 @@ def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Tr
 
 
 def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
-    """The annotation of one trial; known errors are mended in silence.
+    """The truth of one trial; known errors are mended in silence.
 
-    Parameters
-    ----------
-    path : path-like
-        The benchmark's annotations.
-    name : str
-        Of the trial, such as ``86_01``.
-    fps : float
-        Frames per second of the comparison.
-
-    Returns
-    -------
-    Truth
-
-    Raises
-    ------
-    ReadError
-        Not such a file, or it holds no such trial.
+    ReadError where there is no such file, or it holds no such trial.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KinemeWarning)

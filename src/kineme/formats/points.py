@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._counts import counted
+from kineme._counts import counted, listed
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
@@ -87,7 +87,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     if not kept:
         raise ReadError(path, f"no marker is seen throughout: each has a gap above {LONGEST_S} s")
     if not is_visible.any():
-        hidden = _listed([names[i] for i in sorted(used & gaps.open.keys())])
+        hidden = listed([names[i] for i in sorted(used & gaps.open.keys())])
         raise ReadError(path, f"the body is whole in no frame: {hidden} are never seen together")
     kept = sorted([*kept, *_missing_with_the_body(positions, gaps, used, is_visible, points.fps)])
     notes = _gaps_notes(names, gaps, kept, len(positions))
@@ -170,8 +170,8 @@ def _splits_note(
     spans = [f"frames {a} to {b - 1} ({(b - a) / fps:.2f} s)" for a, b in missing]
     hidden = [names[point] for point in sorted(used & gaps.open.keys())]
     note = (
-        f"the body is not seen whole in {_listed(spans)}, for gaps above {LONGEST_S} s in "
-        f"{_listed(hidden)}: the recording is split there"
+        f"the body is not seen whole in {listed(spans)}, for gaps above {LONGEST_S} s in "
+        f"{listed(hidden)}: the recording is split there"
     )
     return [Note(note, "warning")]
 
@@ -187,13 +187,13 @@ def _gaps_notes(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) ->
         )
     never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
     if never:
-        notes.append(f"never seen, left out: {_listed([names[p] for p in never])}")
+        notes.append(f"never seen, left out: {listed([names[p] for p in never])}")
     broken = [p for p in gaps.open if p not in never and p not in kept]
     if broken:
         parts = [
             f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken
         ]
-        left_out = f"left out for gaps above {LONGEST_S} s: {_listed(parts)}"
+        left_out = f"left out for gaps above {LONGEST_S} s: {listed(parts)}"
         notes.append(Note(left_out, "warning"))
     return notes
 
@@ -220,8 +220,3 @@ def _tree(
     offsets = upright_pose - upright_pose[parents]
     offsets[0] = 0
     return Skeleton((*joints, *(names[i] for i in rest)), tuple(parents), offsets), placed
-
-
-def _listed(items: list[str], most: int = 8) -> str:
-    more = len(items) - most
-    return ", ".join(items[:most]) + (f" and {more} more" if more > 0 else "")

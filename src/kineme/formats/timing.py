@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._clock import Clock
-from kineme._counts import counted
+from kineme._counts import counted, listed
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S, spans_of
 
@@ -303,12 +303,8 @@ def _unevenness(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: flo
     if not jumps.any():
         return sentence
     at = np.flatnonzero(jumps)
-    shown = [f"{steps[i]:.4g} s after frame {i}" for i in at[:4].tolist()]
-    more = f" and {len(at) - 4} more" if len(at) > 4 else ""
-    return (
-        f"{sentence}; times jump {', '.join(shown)}{more}: the recording is split there, "
-        "and seconds count frames"
-    )
+    shown = listed([f"{steps[i]:.4g} s after frame {i}" for i in at.tolist()], most=4)
+    return f"{sentence}; times jump {shown}: the recording is split there, and seconds count frames"
 
 
 def _rounded(fps: float, share: float) -> float:

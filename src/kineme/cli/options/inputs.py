@@ -16,7 +16,7 @@ import typer
 
 from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
-from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for, targets_for
+from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for
 from kineme.errors import KinemeError, ReadError, WriteError
 
 Files = Annotated[
@@ -78,8 +78,9 @@ class Batch:
 
     def targets(self, option: str, given: Path | None, suffix: str) -> list[Path | None]:
         """Where the result of each recording goes; see `kineme.cli.options.targets`."""
-        with self._nothing_without():
-            return targets_for(option, given, self.paths, suffix)
+        if given is None:
+            return [None] * len(self.paths)
+        return [*self.files(option, given, suffix)]
 
     def files(self, option: str, given: Path, suffix: str = "") -> list[Path]:
         """The same where the option is never left out."""
@@ -93,8 +94,10 @@ class Batch:
 
     def tables(self, option: str, given: Path | None) -> list[Path | None]:
         """The table or label file that belongs to each recording."""
+        if given is None:
+            return [None] * len(self.paths)
         with self._nothing_without():
-            return tables_for(option, given, self.paths)
+            return [*tables_for(option, given, self.paths)]
 
     @contextmanager
     def caught(self, path: Path) -> Iterator[None]:

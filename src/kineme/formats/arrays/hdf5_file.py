@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from kineme._files import short
 from kineme.errors import MissingDependencyError
 from kineme.formats.files import FileContent
 
@@ -36,8 +37,7 @@ def parse_hdf5(content: FileContent) -> dict[str, Any]:
         with h5py.File(io.BytesIO(content.data), "r") as file:
             return _Reader(content, file).group(file, 0)
     except _DAMAGE as error:
-        reason = " ".join(str(error).split())
-        raise content.error(f"is no whole HDF5 file: {reason[:120]}") from error
+        raise content.error(f"is no whole HDF5 file: {short(error)}") from error
 
 
 class _Reader:

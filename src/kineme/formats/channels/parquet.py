@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from kineme._files import short
 from kineme.errors import MissingDependencyError, ReadError
 from kineme.formats.channels.reading import (
     ChannelTable,
@@ -59,8 +60,8 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
         ]
         return table.cast(pa.schema(plain, table.schema.metadata))
     except (pa.ArrowException, OSError, LookupError) as error:
-        reason = " ".join(str(error).split())[:120]
-        raise content.error(f"is damaged, its columns cannot be read: {reason}") from error
+        reason = f"is damaged, its columns cannot be read: {short(error)}"
+        raise content.error(reason) from error
 
 
 def parquet_channels(
@@ -88,8 +89,8 @@ def parquet_channels(
             for name, column in zip(chosen, table.columns, strict=True)
         }
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
-        reason = " ".join(str(error).split())
-        raise content.error(f"its columns cannot be read as numbers: {reason}") from error
+        reason = f"its columns cannot be read as numbers: {short(error)}"
+        raise content.error(reason) from error
     return channel_table(content, names, values, columns)
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._counts import listed
 from kineme.errors import SeveralPeopleError
 from kineme.formats.files import FileContent
 
@@ -142,10 +143,10 @@ def _strides(found: Detections, before: Rows, row: int) -> Floats:
     return np.asarray(np.where(np.isfinite(strides), strides, np.inf))
 
 
-def _listing(people: dict[str, Rows], found: Detections, most: int = 8) -> str:
-    entries = [
-        f"{name} ({len(rows)} frames from {found.frames[rows[0]]} on)"
-        for name, rows in people.items()
-    ]
-    more = f" and {len(entries) - most} more" if len(entries) > most else ""
-    return ", ".join(entries[:most]) + more
+def _listing(people: dict[str, Rows], found: Detections) -> str:
+    return listed(
+        [
+            f"{name} ({len(rows)} frames from {found.frames[rows[0]]} on)"
+            for name, rows in people.items()
+        ]
+    )
