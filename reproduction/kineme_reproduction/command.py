@@ -10,8 +10,8 @@ import typer
 
 from kineme._counts import counted
 from kineme._files import atomic_write
-from kineme.cli.evaluate.tables import show_scores
 from kineme.cli.messages import progress
+from kineme.cli.tables import show_scores
 from kineme.errors import ParameterError, WriteError
 from kineme_reproduction.benchmark import (
     METHODS,

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from kineme._version import __version__
-from kineme.cli.on_demand import on_demand
+from kineme.cli.help import on_demand
 
 COMMANDS = (
     "segment",

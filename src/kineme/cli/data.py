@@ -5,9 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -21,15 +20,9 @@ if TYPE_CHECKING:
     from kineme.datasets.download import Progress
 
 
-class Database(StrEnum):
-    """What can be fetched."""
-
-    CMU = "cmu"
-
-
 def data(
     database: Annotated[  # noqa: ARG001 (there is one so far)
-        Database, typer.Argument(help="cmu: the CMU Graphics Lab Motion Capture Database.")
+        Literal["cmu"], typer.Argument(help="cmu: the CMU Graphics Lab Motion Capture Database.")
     ],
     subject: Annotated[int, typer.Argument(min=1, help="Number of the subject, such as 86.")],
     trials: Annotated[
@@ -109,15 +102,7 @@ def _numbers(text: str | None) -> list[int] | None:
 @contextmanager
 def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], None]]]:
     """What shows the progress of a file, and what prints a line above it."""
-    from rich.progress import (
-        BarColumn,
-        DownloadColumn,
-        TaskID,
-        TransferSpeedColumn,
-    )
-    from rich.progress import (
-        Progress as Bars,
-    )
+    from rich import progress as rich_progress
 
     from kineme.cli.terminal import Console
 
@@ -128,9 +113,14 @@ def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], Non
     if not console.is_terminal:
         yield None, lambda line: typer.echo(line, err=True)
         return
-    columns = "[progress.description]{task.description}", BarColumn(), DownloadColumn()
-    with Bars(*columns, TransferSpeedColumn(), console=console, transient=True) as bars:
-        tasks: dict[str, TaskID] = {}
+    columns = (
+        "[progress.description]{task.description}",
+        rich_progress.BarColumn(),
+        rich_progress.DownloadColumn(),
+        rich_progress.TransferSpeedColumn(),
+    )
+    with rich_progress.Progress(*columns, console=console, transient=True) as bars:
+        tasks: dict[str, rich_progress.TaskID] = {}
 
         def show(name: str, done: int, total: int | None) -> None:
             if name not in tasks:

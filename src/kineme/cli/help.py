@@ -1,4 +1,4 @@
-"""Help that fits on a page: options in named groups, one column of names, one of sentences.
+"""Commands and their help, which fits on a page: options in named groups, in two columns.
 
 Where a help text names the registered formats or presets, these are filled in only when
 it is shown: they are many modules, and other packages may add theirs, so that importing them
@@ -8,7 +8,9 @@ takes time that a command which needs none of them does not have.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from importlib import import_module
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +18,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 if TYPE_CHECKING:
+    from typer import _click
     from typer._click import Context, HelpFormatter, Parameter
 
 RECORDINGS = "@recordings@"
@@ -87,6 +90,43 @@ class Commands(TyperGroup):
         with formatter.section("Commands"):
             formatter.write_dl(lines)
         _write_groups(self.get_params(ctx), ctx, formatter)
+
+
+def on_demand(homes: Mapping[str, str]) -> type[TyperGroup]:
+    """A group of commands in the order of the help, each the function of its name in a module."""
+
+    class OnDemand(Commands):
+        def __init__(self, **attributes: Any) -> None:
+            super().__init__(**{**attributes, "commands": _Homes(homes)})
+
+    return OnDemand
+
+
+class _Homes(Mapping[str, "_click.Command"]):
+    """The commands by name."""
+
+    def __init__(self, homes: Mapping[str, str]):
+        self._homes = dict(homes)
+
+    def __getitem__(self, name: str) -> _click.Command:
+        return _command(self._homes[name], name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._homes)
+
+    def __len__(self) -> int:
+        return len(self._homes)
+
+
+@cache
+def _command(module: str, name: str) -> _click.Command:
+    """A command, or a group of them."""
+    found = getattr(import_module(module), name)
+    if isinstance(found, typer.Typer):
+        return typer.main.get_command(found)
+    alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    alone.command(name, cls=Command)(found)
+    return typer.main.get_command(alone)
 
 
 def _write_groups(parameters: Sequence[Parameter], ctx: Context, formatter: HelpFormatter) -> None:

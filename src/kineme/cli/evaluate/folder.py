@@ -9,8 +9,8 @@ from typing import Any
 import typer
 
 from kineme._counts import listed
-from kineme.cli.evaluate.tables import show_table
 from kineme.cli.messages import progress
+from kineme.cli.tables import show_table
 from kineme.cli.terminal import harmless
 from kineme.errors import ParameterError
 from kineme.evaluation.folder import Evaluated, FolderScores, Mapped, evaluate_folder

@@ -7,7 +7,7 @@ from typing import Any
 
 import typer
 
-from kineme.cli.evaluate.tables import show_scores
+from kineme.cli.tables import show_scores
 from kineme.errors import KinemeError, ReadError
 from kineme.evaluation.annotations import is_annotations, read_trial
 from kineme.evaluation.inputs import comparison, read_result, read_truth, recording_of, score

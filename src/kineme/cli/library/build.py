@@ -88,7 +88,9 @@ def build(
         DEFAULT_DETAIL if detail is None else detail,
     )
     failures = Failures()
-    processes = _cores() if jobs is None else jobs
+    from kineme._threads import n_threads
+
+    processes = jobs or n_threads()
     with failures.caught(into):
         if processes > 1 and scheduler is None and _is_much(files or (), into):
             from kineme.library.executors import start_soon
@@ -164,9 +166,3 @@ def _summary(built: Built) -> str:
     parts += [f"{built.removed} taken out"] * bool(built.removed)
     parts += [f"{len(built.failed)} failed"] * bool(built.failed)
     return ", ".join(parts)
-
-
-def _cores() -> int:
-    from kineme._threads import n_threads
-
-    return n_threads()
