@@ -11,7 +11,7 @@ import typer
 from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import Constants, Detail, PresetName
-from kineme.cli.options.reading import Effectors, Json, PrintedLevel, Quiet, with_reading_options
+from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
 from kineme.cli.options.request import Request
 from kineme.cli.options.targets import check_writable
 from kineme.methods.presets import DEFAULT
@@ -20,6 +20,10 @@ from kineme.segments.table import Level
 if TYPE_CHECKING:
     from kineme.methods.base import Found
     from kineme.segments.segmentation import Segmentation
+
+PrintedLevel = Annotated[
+    Level, option(OUTPUT, "Print activities with what lies between them, or each primitive.")
+]
 
 
 @with_reading_options

@@ -10,10 +10,10 @@ import typer
 from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.reading import Effectors, Json, PrintedLevel, Quiet, with_body_options
+from kineme.cli.options.reading import Effectors, Json, Quiet, with_body_options
 from kineme.cli.options.request import Request, Stage
 from kineme.cli.options.targets import check_writable
-from kineme.cli.segment import print_segments
+from kineme.cli.segment import PrintedLevel, print_segments
 
 if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation

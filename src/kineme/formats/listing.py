@@ -41,38 +41,21 @@ _ANYTHING = {".json", ".txt", ".dat"}
 
 @dataclass(frozen=True)
 class Listing:
-    """What a folder holds.
+    """What a folder holds: recordings by name, those of a folder before those deeper in it.
 
-    Parameters
-    ----------
-    recordings : list of Path
-        In the order of their names, those of a folder before those deeper in it.
-    folders : list of Path
-        Folders in it that were not looked into.
-    passed_over : list of (Path, str)
-        What was left out, and why: files and folders that cannot be opened or are damaged,
-        frames beside recordings.
+    What was passed over, and why, are files and folders that cannot be opened or are damaged, and
+    frames beside recordings.
     """
 
     recordings: list[Path]
-    folders: list[Path]
+    folders: list[Path]  # that were not looked into
     passed_over: list[tuple[Path, str]]
 
 
 def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
-    """The recordings in a folder.
+    """The recordings in a folder, and where ``recursive`` in its folders.
 
     A folder with nothing but the frames of a video, a file each, is one recording.
-
-    Parameters
-    ----------
-    folder : Path
-    recursive : bool
-        Look into its folders, too.
-
-    Returns
-    -------
-    Listing
 
     Examples
     --------

@@ -27,21 +27,11 @@ from kineme.recordings import Motion, Signals
 
 @dataclass(frozen=True)
 class Sketch:
-    """What a long file shows of itself before it is read.
+    """What a long file shows of itself before it is read."""
 
-    Parameters
-    ----------
-    motion : Motion
-        Of few frames, evenly apart.
-    n_frames : int
-        That the file says it has.
-    fps : float
-        Those in a second.
-    """
-
-    motion: Motion
-    n_frames: int
-    fps: float
+    motion: Motion  # of few frames, evenly apart
+    n_frames: int  # that the file says it has
+    fps: float  # those in a second
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,6 @@ import typer
 
 from kineme.cli.help import INPUT, OUTPUT, UNSAID, option
 from kineme.errors import ParameterError
-from kineme.segments.table import Level
 
 Skeleton = Annotated[Path | None, option(UNSAID, "ASF skeleton of an AMC file.", metavar="FILE")]
 Fps = Annotated[float | None, option(UNSAID, "Frames per second, in place of the file's.")]
@@ -62,9 +61,6 @@ Emg = Annotated[
     ),
 ]
 Quiet = Annotated[bool, option(OUTPUT, "Print warnings and errors only.", "--quiet", "-q")]
-PrintedLevel = Annotated[
-    Level, option(OUTPUT, "Print activities with what lies between them, or each primitive.")
-]
 Json = Annotated[bool, option(OUTPUT, "Print JSON, one line per recording.", "--json")]
 
 BODY: dict[str, Any] = {

@@ -54,30 +54,14 @@ CLOCK_ROWS = 200
 
 @dataclass(frozen=True)
 class ChannelTable:
-    """Columns of numbers.
+    """Columns of numbers, with what tells their rate."""
 
-    Parameters
-    ----------
-    names : list of str
-        Of the channels.
-    values : ndarray, shape (rows, channels)
-        NaN where there is nothing.
-    timing : mapping of str to array_like
-        Columns that tell times or a rate.
-    rate : float, optional
-        The file's own.
-    notes : tuple of str
-        On what was left out.
-    hint : str
-        On what may tell the rate, where nothing does.
-    """
-
-    names: list[str]
-    values: Floats
-    timing: Mapping[str, ArrayLike]
-    rate: float | None = None
-    notes: tuple[str, ...] = ()
-    hint: str = ""
+    names: list[str]  # of the channels
+    values: Floats  # (rows, channels), NaN where there is nothing
+    timing: Mapping[str, ArrayLike]  # columns that tell times or a rate
+    rate: float | None = None  # the file's own
+    notes: tuple[str, ...] = ()  # on what was left out
+    hint: str = ""  # on what may tell the rate, where nothing does
 
     def timed(self, content: FileContent, fps: float | None) -> Timing:
         """Frames per second, pauses, and what was seen of the times."""

@@ -31,21 +31,11 @@ _REMEMBERED = 50  # people last seen, who may come back
 
 @dataclass(frozen=True)
 class Detections:
-    """One row for each person found in a frame.
-
-    Parameters
-    ----------
-    frames : ndarray of shape (rows,)
-        Ascending.
-    points : ndarray of shape (rows, keypoints, 3)
-        NaN where not found.
-    who : sequence of str or None
-        One per row: how the file calls this person, or None.
-    """
+    """One row for each person found in a frame, the frames ascending."""
 
     frames: Rows
-    points: Floats
-    who: Sequence[str | None]
+    points: Floats  # (rows, keypoints, 3), NaN where not found
+    who: Sequence[str | None]  # how the file calls this person, if it does
 
 
 def rows_of_person(

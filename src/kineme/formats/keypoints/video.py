@@ -32,55 +32,24 @@ MOST_FRAMES_MORE = 20
 
 @dataclass(frozen=True)
 class Person:
-    """Someone found in a frame.
+    """Someone found in a frame."""
 
-    Parameters
-    ----------
-    frame : int
-        Counted from any number.
-    points : (keypoints, 2 or 3)
-    sure : sequence of float
-        (keypoints,) confidences.
-    who : str, optional
-        How the file calls this person, if it does.
-    """
-
-    frame: int
-    points: Sequence[Sequence[float]] | Floats
-    confidence: Sequence[float] | Floats
-    who: str | None = None
+    frame: int  # counted from any number
+    points: Sequence[Sequence[float]] | Floats  # (keypoints, 2 or 3)
+    confidence: Sequence[float] | Floats  # (keypoints,)
+    who: str | None = None  # how the file calls this person, if it does
 
 
 @dataclass(frozen=True)
 class Video:
-    """What a pose estimator left.
-
-    Parameters
-    ----------
-    format : str
-        Its name.
-    names : sequence of str
-        Of the keypoints.
-    people : sequence of Person
-        In any order.
-    limit : float
-        Confidence from which a keypoint counts as seen.
-    fps : float, optional
-        Frames per second, or None if the file does not tell.
-    frames : sequence of int, optional
-        Numbers of frames that are there, whether somebody was found in them or not.
-    unit : str or float, optional
-        As in `Points`.
-    up : str, optional
-        See `unit`.
-    """
+    """What a pose estimator left; unit and axis as in `Points`."""
 
     format: str
-    names: Sequence[str]
-    people: Sequence[Person]
-    limit: float
-    fps: float | None = None
-    frames: Sequence[int] = ()
+    names: Sequence[str]  # of the keypoints
+    people: Sequence[Person]  # in any order
+    limit: float  # confidence from which a keypoint counts as seen
+    fps: float | None = None  # where the file tells
+    frames: Sequence[int] = ()  # numbers of all, whether somebody was found in them or not
     unit: str | float | None = "pixel"
     up: str | None = "-y"
     notes: Sequence[str] = ()

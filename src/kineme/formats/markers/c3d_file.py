@@ -48,39 +48,17 @@ _HEADER_EVENTS = 12345  # marks a header whose events have labels of four letter
 
 @dataclass(frozen=True)
 class C3D:
-    """What a C3D file holds.
+    """What a C3D file holds."""
 
-    Parameters
-    ----------
-    labels : list of str
-        One per point.
-    points : ndarray of shape (frames, points, 3)
-        In ``unit``, NaN where not seen.
-    rate : float
-        Frames per second, 0 if the file has none.
-    first_frame : int
-        The number of the first frame, counted from 1.
-    analog : ndarray of shape (samples, channels)
-        Scaled.
-    analog_labels, analog_units : list of str
-        One per channel.
-    analog_rate : float
-        Samples per second.
-    events : tuple of (float, str)
-        Second from the first frame, and label.
-    parameters : Parameters
-        Everything in the parameter section.
-    """
-
-    labels: list[str]
-    points: Floats
-    rate: float
-    first_frame: int
-    analog: Floats
+    labels: list[str]  # one per point
+    points: Floats  # (frames, points, 3) in the file's unit, NaN where not seen
+    rate: float  # frames per second, 0 if the file has none
+    first_frame: int  # its number, counted from 1
+    analog: Floats  # (samples, channels), scaled
     analog_labels: list[str]
     analog_units: list[str]
-    analog_rate: float
-    events: tuple[tuple[float, str], ...]
+    analog_rate: float  # samples per second
+    events: tuple[tuple[float, str], ...]  # second from the first frame, and label
     parameters: Parameters
 
 

@@ -36,25 +36,13 @@ _MARKERS = re.compile(r'[ ",;\t]*trajectories[ ",;\t]*', re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Capture:
-    """Where the columns of a table stand, and what stands above them.
+    """Where the columns of a table stand, and what stands above them."""
 
-    Parameters
-    ----------
-    axes : int
-        The line of the axes, counted from 0.
-    below : int
-        The first row.
-    columns : dict of str to int
-        The column of x of each point; y and z follow it.
-    rate, unit : str
-        As they are written.
-    """
-
-    axes: int
-    below: int
-    columns: dict[str, int]
-    rate: str
-    unit: str
+    axes: int  # the line of them, counted from 0
+    below: int  # the first row
+    columns: dict[str, int]  # that of x of each point; y and z follow it
+    rate: str  # as written
+    unit: str  # as written
 
 
 def is_nexus(lines: Sequence[str]) -> bool:
