@@ -134,11 +134,8 @@ def _primitive_rows(segmentation: Segmentation) -> Table:
 def columns_of(names: Iterable[str]) -> RenderableType:
     """Names side by side; in a file or a pipe each on a line of its own."""
     texts = [Text(name) for name in names]
-    return Columns(texts, padding=(0, 2), column_first=True) if _on_terminal() else Group(*texts)
-
-
-def _on_terminal() -> bool:
-    return Console().is_terminal
+    on_terminal = Console().is_terminal
+    return Columns(texts, padding=(0, 2), column_first=True) if on_terminal else Group(*texts)
 
 
 def new_table(*names: str) -> Table:

@@ -63,7 +63,8 @@ DIALECTS: Registry[Dialect] = Registry(
 
 def dialect_of(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | None:
     """The dialect that a table is in, by its columns and by its lines where it is text; or None."""
-    return next((each for each in DIALECTS.values() if speaks(each, names, lines)), None)
+    dialects = DIALECTS.values()
+    return next((d for d in dialects if speaks(d.name, d.recognises, names, lines)), None)
 
 
 def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:

@@ -126,7 +126,7 @@ def _is_recording(path: Path) -> bool:
         return False
     if suffix in _ANYTHING:
         ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
-        return any(speaks(each, ends) for each in formats)
+        return any(speaks(each.name, each.recognises, ends) for each in formats)
     if suffix in (".csv", ".tsv"):
         return not _names_spans(path)
     if suffix == ".parquet":

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from kineme._checks import check_suffixes
 from kineme._files import HEAD
@@ -85,15 +85,6 @@ class Format:
 
     def __post_init__(self) -> None:
         check_suffixes(self.suffixes, self.name)
-
-
-class Candidate(Protocol):
-    """What a file may be in."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def recognises(self) -> Callable[..., bool]: ...
 
 
 _EXPORT = "export BVH or C3D from the program that made it"
@@ -175,7 +166,9 @@ def recognise(content: FileContent) -> Format:
     head = content.data[:HEAD]
     suffix = content.path.suffix.lower()
     formats = supported_formats()
-    by_content = [candidate for candidate in formats if speaks(candidate, head)]
+    by_content = [
+        candidate for candidate in formats if speaks(candidate.name, candidate.recognises, head)
+    ]
     by_suffix = [candidate for candidate in formats if suffix in candidate.suffixes]
     if suffix in INSTEAD and not by_suffix:
         raise ReadError(content.path, f"{suffix} is not read: {INSTEAD[suffix]}")
@@ -189,11 +182,11 @@ def recognise(content: FileContent) -> Format:
     )
 
 
-def speaks(candidate: Candidate, *evidence: Any) -> bool:
-    """Whether a file looks like a format or dialect; one that cannot tell costs itself only."""
+def speaks(name: str, recognises: Callable[..., bool], *evidence: Any) -> bool:
+    """Whether a format or dialect knows a file; one that cannot tell costs itself only."""
     try:
-        return candidate.recognises(*evidence)
+        return recognises(*evidence)
     except Exception as error:  # noqa: BLE001 (whatever a stranger's format raises)
         reason = f"{type(error).__name__}: {error}"
-        warn(f"the format {candidate.name} is passed over, it cannot tell its files: {reason:.200}")
+        warn(f"the format {name} is passed over, it cannot tell its files: {reason:.200}")
         return False

@@ -107,7 +107,9 @@ def table_timing(
     for column in columns:
         if match := _TIME.fullmatch(column.strip()):
             timing = timing_of(content, _times(content, columns, column, match[2]))
-            return _in_seconds(content, timing)
+            if timing.fps <= _SLOWEST:
+                raise content.error(_hardly_seconds(timing.fps))
+            return timing
     raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
 
 
@@ -218,16 +220,13 @@ def _times(
     return numbers_in(content, {name: times}, name)
 
 
-def _in_seconds(content: FileContent, timing: Timing) -> Timing:
-    """What the times tell, refused where they are so far apart that they are hardly seconds."""
-    rate = timing.fps
-    if rate <= _SLOWEST:
-        unit = next((unit for unit in _FINER if rate * _FINER[unit] > _SLOWEST), "milliseconds")
-        raise content.error(
-            f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
-            f"(--fps; {rate * _FINER[unit]:g} for {unit})"
-        )
-    return timing
+def _hardly_seconds(rate: float) -> str:
+    """What to do about times that are so far apart that they are hardly seconds."""
+    unit = next((unit for unit in _FINER if rate * _FINER[unit] > _SLOWEST), "milliseconds")
+    return (
+        f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
+        f"(--fps; {rate * _FINER[unit]:g} for {unit})"
+    )
 
 
 def _one_rate(content: FileContent, rates: Floats) -> float:

@@ -53,20 +53,14 @@ class _Reader:
         self.content.claim(self.claimed, "to unpack to much more than it holds")
 
     def group(self, group: Any, depth: int) -> dict[str, Any]:
+        """What lies in a group, each time that it is linked to."""
+        import h5py
+
         if depth > _DEEPEST:
             raise ValueError("groups too deep in one another")
         if group in self.open:
             raise ValueError(f"its group {group.name!r:.60} is linked into itself")
         self.open.append(group)
-        try:
-            return self.linked(group, depth)
-        finally:
-            self.open.pop()
-
-    def linked(self, group: Any, depth: int) -> dict[str, Any]:
-        """What lies in a group, each time that it is linked to."""
-        import h5py
-
         found: dict[str, Any] = {}
         for name in group:
             if name.startswith("#"):  # MATLAB's references
@@ -76,6 +70,7 @@ class _Reader:
                 continue
             self.claim(_BYTES_PER_LINK)
             found[name] = self.value(group[name], depth)
+        self.open.pop()
         return found
 
     def value(self, item: Any, depth: int) -> Any:

@@ -19,7 +19,7 @@ from itertools import islice
 from math import isclose
 from os import PathLike
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -38,21 +38,6 @@ TEXT = ("table", "MOT/STO")
 PARQUET = "Parquet table"
 
 _ROW_COUNT = re.compile(r"^(\s*(?:nrows\s*=|datarows\s)\s*)\d+", re.IGNORECASE | re.MULTILINE)
-
-
-class Rows(Protocol):
-    """The frames of a recording as rows of a file; ``names`` is None where the file has none."""
-
-    @property
-    def suffix(self) -> str: ...
-    @property
-    def names(self) -> Sequence[str] | None: ...
-
-    def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
-        """Leave rows [start, stop) in a file of the suffix, whole or not at all."""
-
-    def cells(self) -> Iterator[Sequence[str]]:
-        """The cells of each row."""
 
 
 def write_signals(
@@ -149,6 +134,7 @@ class _TextRows:
         )
 
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
+        """Leave rows [start, stop) in a file of the suffix, whole or not at all."""
         lines = self.lines[start:stop]
         head = _ROW_COUNT.sub(rf"\g<1>{len(lines)}", self.head)
         text = "".join((head, *lines))
@@ -156,6 +142,7 @@ class _TextRows:
             draft.write_bytes(text.encode("utf-8", errors="surrogateescape"))
 
     def cells(self) -> Iterator[Sequence[str]]:
+        """The cells of each row."""
         reader = csv.reader(self.records, delimiter=self.separator)
         full = (cells for cells in reader if any(map(str.strip, cells)))
         as_read = ([*map(dotted, cells)] if self.comma else cells for cells in full)
@@ -208,6 +195,10 @@ class _ParquetRows:
         columns = (column.to_pylist() for column in self.table.columns)
         for row in zip(*columns, strict=True):
             yield ["" if cell is None else str(cell) for cell in row]
+
+
+Rows = _TextRows | _ParquetRows
+"""The frames of a recording as rows of a file; ``names`` is None where the file has none."""
 
 
 def _source_table(content: FileContent, signals: Signals) -> ChannelTable | None:
