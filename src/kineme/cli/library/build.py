@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
+from kineme._threads import n_threads
 from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
 from kineme.cli.library.commands import Scheduler, path_or_url
 from kineme.cli.messages import Failures, one_line, progress, say_skipped
@@ -88,8 +89,6 @@ def build(
         DEFAULT_DETAIL if detail is None else detail,
     )
     failures = Failures()
-    from kineme._threads import n_threads
-
     processes = jobs or n_threads()
     with failures.caught(into):
         if processes > 1 and scheduler is None and _is_much(files or (), into):
@@ -101,9 +100,8 @@ def build(
         from kineme.library.planning import known_sources
         from kineme.library.storage.places import is_remote
 
-        has_options = any((preset, constants, reading, effectors, detail))
         settings: Settings | None = None
-        if has_options:
+        if any((preset, constants, reading, effectors, detail)):
             settings = Settings(
                 preset or DEFAULT,
                 request.options.constants,
