@@ -53,6 +53,10 @@ SPREADS = (0.3, 3.0)
 """Metres over which markers on a person spread, in the middle of the recording:
 a factor of ten, as between two of m, cm and mm."""
 
+METRIC = ("m", "cm", "mm")
+"""The units of markers and of most files."""
+
+_METRES = re.compile("(centi|milli)?met(?:er|re)s?")
 _HEAD = re.compile("head", re.IGNORECASE)
 _FOOT = re.compile("foot|feet|toe|ankle", re.IGNORECASE)
 _HEIGHT = 1.7  # metres, given to a body measured in pixels
@@ -72,12 +76,9 @@ def metres(unit: str | float) -> float:
 def unit_named(word: str) -> str | None:
     """The unit that a file calls ``word`` ("mm", "Millimeters", "in"), or None."""
     word = word.strip().lower()
-    prefixes = {"": "m", "centi": "cm", "milli": "mm"}
-    longer = {
-        f"{p}met{e}{s}": u for p, u in prefixes.items() for e in ("er", "re") for s in ("", "s")
-    }
-    short = {"m": "m", "cm": "cm", "mm": "mm", "in": "inch", "inch": "inch", "inches": "inch"}
-    return (longer | short).get(word)
+    if metric := _METRES.fullmatch(word):
+        return {"centi": "cm", "milli": "mm"}.get(metric[1], "m")
+    return "inch" if word in ("in", "inch", "inches") else word if word in METRIC else None
 
 
 def upright(points: Floats, up: str) -> Floats:
@@ -176,7 +177,7 @@ def scale_of(unit: str | float | None, positions: Floats) -> tuple[float, list[s
         return _HEIGHT / (spread or 1.0), [
             f"no unit: {spread:.3g}, the larger side of the body, taken as {_HEIGHT} m"
         ]
-    for name in ("m", "cm", "mm"):
+    for name in METRIC:
         size = UNITS[name]
         if SPREADS[0] <= spread * size < SPREADS[1]:
             note = f"unit {name} inferred: the points then spread over {spread * size:.2f} m"
