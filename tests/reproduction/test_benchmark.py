@@ -15,7 +15,7 @@ from agreement import CONFIGURATIONS
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.evaluation import Labelling, evaluate_segmentation
-from kineme.evaluation.tables import markdown_scores, write_records
+from kineme.evaluation.tables import write_records
 from kineme.methods.region_growing.preset import VOEGELE2014
 from kineme_reproduction.benchmark import (
     METHODS,
@@ -27,6 +27,7 @@ from kineme_reproduction.benchmark import (
     run,
     score_published_cuts,
 )
+from kineme_reproduction.figures import markdown_scores
 from kineme_reproduction.figures.reoccurrence import reoccurring
 from kineme_reproduction.trials import Trial, find_folder, load_trials
 
