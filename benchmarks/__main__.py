@@ -165,8 +165,9 @@ def command(script: Path, options: Sequence[str]) -> list[str]:
 
 
 def environment(script: Path) -> dict[str, str]:
-    """Ours, where benchmarks find what they share, and each other."""
-    folders = [HERE, *sorted({path.parent for path in HERE.glob("*/[!_]*.py")}), script.parent]
+    """Ours, where benchmarks find what they share, each other, and the reproduction's trials."""
+    ours = sorted({path.parent for path in HERE.glob("*/[!_]*.py")})
+    folders = [HERE, *ours, script.parent, HERE.parent / "reproduction"]
     path = os.pathsep.join([*map(str, folders), os.environ.get("PYTHONPATH", "")])
     return os.environ | {"PYTHONPATH": path.rstrip(os.pathsep)}
 

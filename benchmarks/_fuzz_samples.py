@@ -18,13 +18,13 @@ import numpy as np
 import kineme
 from kineme import formats, labels
 from kineme.datasets import bundled_recording, bundled_truth
+from kineme.evaluation.annotations import is_annotations, read_trials
 from kineme.formats.listing import recordings_in
 from kineme.labels import json_table
 from kineme.labels.collections import labels_of
 from kineme.library import Library, build
 from kineme.library.storage.layout import SEEN
 from kineme.recordings import Motion
-from kineme.reproduction.trials import is_annotations, read_trials
 from kineme.segments import editing
 from kineme.segments.editing.marks import marked
 from kineme.segments.segmentation import Segmentation

@@ -19,8 +19,8 @@ from _options import DATA, few, needed
 from kineme.datasets import ACTIONS, Action, Exercise, exercise_sequence, synthesize
 from kineme.evaluation import Truth, labelling_of
 from kineme.recordings import Motion
-from kineme.reproduction.trials import find_folder, load_trials
 from kineme.segments.segmentation import Segmentation
+from kineme_reproduction.trials import find_folder, load_trials
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 

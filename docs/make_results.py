@@ -18,9 +18,9 @@ from string import Template
 
 from kineme._version import __version__
 from kineme.evaluation.tables import shown
-from kineme.reproduction.benchmark import METHODS, mean_scores, run
-from kineme.reproduction.figures import make_figures
-from kineme.reproduction.trials import find_folder, load_trials
+from kineme_reproduction.benchmark import METHODS, mean_scores, run
+from kineme_reproduction.figures import make_figures
+from kineme_reproduction.trials import find_folder, load_trials
 
 HERE = Path(__file__).parent
 PICTURES = HERE / "images" / "results"

@@ -88,11 +88,7 @@ ROOMS = {
     ),
     "evaluation": Room(
         "scores of any result against any truth, and of methods over a folder",
-        "features formats labels methods recordings segmentation segments transfer",
-    ),
-    "reproduction": Room(
-        "the papers' own figures and tables on subject 86",
-        "datasets evaluation formats graph methods plot recordings segmentation segments",
+        "datasets features formats labels methods recordings segmentation segments transfer",
     ),
     "web": Room(
         "sources of the pages, the built pages, and what they are told",
@@ -113,7 +109,6 @@ HELPERS = {
     "_colors": set(),
     "_counts": set(),
     "_compiled": set(),
-    "_doors": {"_files", "errors"},
     "_files": {"errors"},
     "_interpolation": set(),
     "_json": {"_files", "errors"},

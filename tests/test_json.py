@@ -15,8 +15,8 @@ from kineme._json import DEEPEST, decoded, loaded
 from kineme.datasets import bundled_truth
 from kineme.errors import ParameterError, ReadError
 from kineme.evaluation import Truth
+from kineme.evaluation.annotations import is_annotations, read_trials
 from kineme.labels.collections import labels_of
-from kineme.reproduction.trials import is_annotations, read_trials
 from kineme.synthesis import MotionGraph
 from kineme.synthesis.graph_file import load_sources, read_graph, write_graph
 

@@ -21,13 +21,13 @@ from threadpoolctl import threadpool_limits
 import kineme
 from _options import DATA, command_line, few, needed
 from kineme.evaluation import Labelling
+from kineme.evaluation.annotations import read_trials
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods import PRESETS
 from kineme.methods.baselines import aca, haca
 from kineme.methods.baselines.constants import AcaConstants, HacaConstants
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
-from kineme.reproduction import read_trials
-from kineme.reproduction.benchmark import aca_accuracy
+from kineme_reproduction.benchmark import aca_accuracy
 
 FOLDER = DATA / "cmu86"
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")

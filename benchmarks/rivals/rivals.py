@@ -36,8 +36,8 @@ from kineme.evaluation import (
 )
 from kineme.features import pose_features
 from kineme.recordings.operations import resample
-from kineme.reproduction.benchmark import METHODS
-from kineme.reproduction.trials import FPS, Trial, find_folder, load_trials
+from kineme_reproduction.benchmark import METHODS
+from kineme_reproduction.trials import FPS, Trial, find_folder, load_trials
 
 WINDOW = int(FPS)
 

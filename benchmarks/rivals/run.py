@@ -28,9 +28,8 @@ def prepare() -> None:
     if installed.is_file() and installed.read_text() == REQUIREMENTS.read_text():
         return
     venv.create(ENVIRONMENT, with_pip=True, clear=True)
-    subprocess.run(
-        [PYTHON, "-m", "pip", "install", "-q", "-r", REQUIREMENTS, "-e", CHECKOUT], check=True
-    )
+    packages = ["-r", REQUIREMENTS, "-e", CHECKOUT, "-e", CHECKOUT / "reproduction"]
+    subprocess.run([PYTHON, "-m", "pip", "install", "-q", *packages], check=True)
     installed.write_text(REQUIREMENTS.read_text())
 
 

@@ -29,7 +29,7 @@ from kineme.features import end_effectors, pose_features
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import world_rotations
 from kineme.recordings.operations import resample
-from kineme.reproduction.trials import find_folder, load_trials
+from kineme_reproduction.trials import find_folder, load_trials
 
 Floats = NDArray[np.float64]
 Recording = tuple[Truth, Signals]

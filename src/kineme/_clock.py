@@ -68,19 +68,7 @@ class Clock:
 
     @classmethod
     def of(cls, times: ArrayLike, fps: float) -> Clock | None:
-        """The clock that shows these times, or None for one that counts the frames from 0.
-
-        Parameters
-        ----------
-        times : array_like of shape (frames,)
-            Seconds.
-        fps : float
-            Frames per second.
-
-        Returns
-        -------
-        Clock or None
-        """
+        """The clock that shows these times, in seconds; None for one that counts frames from 0."""
         shown = np.asarray(times, np.float64)
         seconds = np.arange(len(shown)) / fps
         ahead = shown - seconds

@@ -47,14 +47,6 @@ def label_colors(rows: Iterable[Row]) -> dict[str, str]:
     """``#RRGGBB`` of each label, the same as in the pages.
 
     That of the cluster that has the label most; else one made from the text itself.
-
-    Parameters
-    ----------
-    rows : iterable of segments
-
-    Returns
-    -------
-    dict of str
     """
     most: dict[str, Counter[int]] = {}
     used = set()

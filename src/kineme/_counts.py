@@ -1,6 +1,8 @@
-"""How many there are of something, as people say it."""
+"""How many there are of something, and which, as people say it."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 MANY = {"activity": "activities", "person": "people"}
 
@@ -14,3 +16,15 @@ def counted(n: int, one: str) -> str:
     ('1 gap', '0 gaps', '2 activities')
     """
     return f"{n} {one if n == 1 else MANY.get(one, f'{one}s')}"
+
+
+def listed(names: Sequence[str], most: int = 8) -> str:
+    """The first names, and how many more there are.
+
+    Examples
+    --------
+    >>> listed(["hip", "knee", "toe"], most=2), listed(["hip", "knee"])
+    ('hip, knee and 1 more', 'hip, knee')
+    """
+    more = len(names) - most
+    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")

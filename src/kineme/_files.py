@@ -1,4 +1,4 @@
-"""Files and folders as such: made whole or not at all, known by their first and last bytes."""
+"""Files and folders: made whole or not at all, known by their ends, read to one kind of error."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ import shutil
 import stat
 import sys
 import time
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from kineme.errors import ReadError, WriteError
+from kineme.errors import FileError, KinemeError, ReadError, WriteError
 
 HEAD = 4096
 """Bytes by which a file is known without reading it whole."""
@@ -100,6 +101,47 @@ def atomic_folder(target: Path) -> Iterator[Path]:
         shutil.rmtree(draft, ignore_errors=True)
 
 
+@contextmanager
+def reading(path: str | os.PathLike[str]) -> Iterator[None]:
+    """A block that reads a file: it ends well, or in an error of the package.
+
+    Readers check what they can say something useful about; this is for the rest.
+    Numbers too large to compute with are refused by what is made of them, so numpy
+    need not warn of them.
+
+    Raises
+    ------
+    ReadError
+        In place of any exception but the package's own; the cause is kept.
+    """
+    import numpy as np
+
+    try:
+        refuse_pipe(path)
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)
+            yield
+    except KinemeError as error:
+        if isinstance(error, FileError | ImportError) or not isinstance(error, ValueError):
+            raise
+        raise ReadError(path, str(error)) from error
+    except OSError as error:
+        raise ReadError(path, f"cannot be read: {error.strerror or short(error)}") from error
+    except UnicodeDecodeError as error:
+        encoding = error.encoding.upper()
+        raise ReadError(path, f"is not {encoding} text (byte {error.start})") from error
+    except MemoryError as error:
+        raise ReadError(
+            path, "needs more memory than there is: it is damaged, or cut it"
+        ) from error
+    except RecursionError as error:
+        raise ReadError(path, "holds too much inside one another: it is damaged") from error
+    except Exception as error:
+        message = short(error)
+        reason = f"{type(error).__name__}: {message}" if message else type(error).__name__
+        raise ReadError(path, f"cannot be understood, it is damaged ({reason})") from error
+
+
 def refuse_link(path: Path) -> None:
     """WriteError where a file or folder is a link, through which others would choose the place."""
     try:
@@ -144,6 +186,11 @@ def tail_of(path: Path) -> bytes:
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - TAIL))
         return file.read()
+
+
+def short(error: Exception) -> str:
+    """What an exception of another package says, on one line."""
+    return " ".join(str(error).split())[:120]
 
 
 def _places(path: str | os.PathLike[str]) -> tuple[Path, Path]:

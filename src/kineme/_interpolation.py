@@ -9,18 +9,7 @@ Floats = NDArray[np.float64]
 
 
 def at_frames(values: ArrayLike, at: ArrayLike) -> Floats:
-    """The values at fractional frames; beyond the last frame the line is carried on.
-
-    Parameters
-    ----------
-    values : array_like, shape (frames, ...)
-        At least one frame.
-    at : array_like, shape (n,)
-        Frames, from 0.
-
-    Returns
-    -------
-    ndarray, shape (n, ...)
+    """Values (frames, ...) at fractional frames; beyond the last frame the line is carried on.
 
     Examples
     --------
@@ -39,12 +28,6 @@ def bridge_line(track: Floats, hidden: NDArray[np.bool_]) -> None:
     """Fill the hidden frames of one coordinate, in place, from the frames around them.
 
     Before the first and after the last frame that is not hidden its value is kept.
-
-    Parameters
-    ----------
-    track : ndarray, shape (frames,)
-    hidden : ndarray of bool, shape (frames,)
-        At least one frame is not.
     """
     present = np.flatnonzero(~hidden)
     track[hidden] = np.interp(np.flatnonzero(hidden), present, track[present])

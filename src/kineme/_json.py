@@ -49,27 +49,10 @@ def decoded(text: str | bytes, path: AnyPath) -> Any: ...
 @overload
 def decoded(text: str | bytes, path: AnyPath, shape: type[Shape]) -> Shape: ...
 def decoded(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
-    """What a JSON text holds.
+    """What a JSON text of this path holds, in a shape that msgspec knows; other names are left out.
 
-    Parameters
-    ----------
-    text : str or bytes
-    path : path-like
-        Where it was read, for messages.
-    shape : type, optional
-        Any that msgspec knows: a Struct, ``list[str]``, and so on. Names it does not have are
-        left out.
-
-    Returns
-    -------
-    object
-        Of that shape.
-
-    Raises
-    ------
-    ReadError
-        It is no JSON, holds too much inside one another, or numbers that are none or too large,
-        or is of another shape.
+    ReadError where it is no JSON, holds too much inside one another, or numbers that are none or
+    too large, or is of another shape.
 
     Examples
     --------
@@ -105,13 +88,7 @@ def sentence(problem: str, everything: str = "the whole of it") -> str:
 
 
 def fault_of(found: Any) -> str:
-    """What of JSON no reader takes, in words; empty where it is sound.
-
-    Parameters
-    ----------
-    found : object
-        Of what JSON has.
-    """
+    """What of JSON no reader takes, in words; empty where it is sound."""
     level: list[Any] = [[found]]
     for _ in range(DEEPEST + 1):
         inner: list[Any] = []

@@ -17,14 +17,7 @@ from kineme._threads import n_threads
 
 
 def pool_of(processes: int, imports: Sequence[str] = ()) -> ProcessPoolExecutor:
-    """So many processes, which share the cores and end when this one does.
-
-    Parameters
-    ----------
-    processes : int
-    imports : sequence of str
-        Modules that all of them need and that take long to import.
-    """
+    """So many processes, which share the cores, import these modules and end when this one does."""
     share = max(1, n_threads() // processes)
     return ProcessPoolExecutor(
         processes, mp_context=context(imports), initializer=_prepare, initargs=(share,)

@@ -86,20 +86,7 @@ class Registry(Mapping[str, T]):
         self._loading = self._loaded = False
 
     def register(self, new: T, *, replace: bool = False) -> None:
-        """Add an object under its name.
-
-        Parameters
-        ----------
-        new : object
-            Of the kind of this registry.
-        replace : bool
-            Whether it takes the place of one that has the name.
-
-        Raises
-        ------
-        ParameterError
-            The name is taken, or the object is of another kind.
-        """
+        """Add an object under its name; ParameterError where it is taken, or of another kind."""
         self._load()
         self._add(new, replace=replace)
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import csv
 import json
+import tomllib
 from pathlib import Path
 
 import pytest
 
 import kineme as package
 from kineme.datasets import bundled_recording, bundled_truth
+
+REPRODUCTION = Path(__file__).parents[2] / "reproduction"
 
 
 @pytest.fixture(scope="module")
@@ -21,6 +24,23 @@ def table(tmp_path_factory) -> Path:
     return path
 
 
+@pytest.fixture
+def benchmark(tmp_path_factory, monkeypatch) -> None:
+    """The part of the package that reproduces papers, as an installer leaves it."""
+    project = tomllib.loads((REPRODUCTION / "pyproject.toml").read_text())["project"]
+    site = tmp_path_factory.mktemp("site")
+    info = site / "kineme_reproduction-0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: 0\n")
+    lines = [
+        line
+        for group, points in project["entry-points"].items()
+        for line in (f"[{group}]", *(f"{name} = {place}" for name, place in points.items()))
+    ]
+    (info / "entry_points.txt").write_text("\n".join(lines))
+    monkeypatch.syspath_prepend(str(site))
+
+
 @pytest.fixture(scope="module")
 def seconds() -> float:
     return package.read_segments(bundled_truth()).activities.stop_s[-1]
@@ -30,6 +50,7 @@ def scores(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(path.read_text().splitlines()))
 
 
+@pytest.mark.usefixtures("benchmark")
 def test_the_benchmark_prints_a_table_per_trial_and_the_means(kineme, data_dir, tmp_path):
     ran = kineme(
         *("evaluate", "cmu86", "--data", data_dir, "--trial", "86_01", "--trial", "86_11"),
@@ -144,8 +165,6 @@ def test_annotations_that_overlap_run_backwards_or_pass_the_end(
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        (("cmu86", "--method", "kmeans"), 2, "no method 'kmeans'"),
-        (("cmu86", "--data", "."), 1, "kineme data cmu 86"),
         (("cmu86", "-o", "scores.xlsx"), 1, ".json or .csv"),
         (("cmu86", "-o", "nowhere/scores.csv"), 1, "does not exist"),
         (("cmu86", "--against", "labels.csv"), 2, "brings its own truth"),
@@ -160,6 +179,28 @@ def test_a_call_that_cannot_work_is_one_sentence(kineme, tmp_path, arguments, co
     assert ran.returncode == code
     assert message in " ".join(ran.stderr.split())
     assert "Traceback" not in ran.stderr
+
+
+@pytest.mark.usefixtures("benchmark")
+@pytest.mark.parametrize(
+    ("option", "code", "message"),
+    [
+        (("--method", "kmeans"), 2, "no method 'kmeans'"),
+        (("--data", "."), 1, "kineme data cmu 86"),
+    ],
+)
+def test_a_benchmark_that_cannot_run_is_one_sentence(kineme, option, code, message):
+    ran = kineme("evaluate", "cmu86", *option)
+    assert ran.returncode == code
+    assert message in " ".join(ran.stderr.split())
+
+
+def test_the_benchmark_that_is_not_installed_is_one_sentence(kineme, monkeypatch):
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda **_: ())
+    ran = kineme("evaluate", "cmu86")
+    assert ran.returncode == 1
+    assert ran.stderr.count("\n") == 1
+    assert "pip install ./reproduction" in ran.stderr
 
 
 def test_another_length_of_labels_names_both(kineme, table, seconds, tmp_path):

@@ -30,7 +30,8 @@ from kineme.evaluation import (
     one_to_one_accuracy,
     strict_and_tolerant,
 )
-from kineme.reproduction import published, read_trials
+from kineme.evaluation.annotations import read_trials
+from kineme_reproduction import published
 
 of = Comparison.of
 

@@ -15,9 +15,9 @@ from agreement import CONFIGURATIONS
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.evaluation import Labelling, evaluate_segmentation
-from kineme.evaluation.tables import markdown_scores, write_records
+from kineme.evaluation.tables import write_records
 from kineme.methods.region_growing.preset import VOEGELE2014
-from kineme.reproduction.benchmark import (
+from kineme_reproduction.benchmark import (
     METHODS,
     as_records,
     mean,
@@ -27,8 +27,9 @@ from kineme.reproduction.benchmark import (
     run,
     score_published_cuts,
 )
-from kineme.reproduction.figures.reoccurrence import reoccurring
-from kineme.reproduction.trials import Trial, find_folder, load_trials
+from kineme_reproduction.figures import markdown_scores
+from kineme_reproduction.figures.reoccurrence import reoccurring
+from kineme_reproduction.trials import Trial, find_folder, load_trials
 
 
 @pytest.fixture(scope="module")
@@ -196,8 +197,8 @@ def test_poses_reoccur_in_repetitions_and_not_in_a_single_motion():
 
 
 def test_the_papers_figures_and_tables_are_made_anew(results, folder, tmp_path, monkeypatch):
-    from kineme.reproduction import figures
-    from kineme.reproduction.figures import costs
+    from kineme_reproduction import figures
+    from kineme_reproduction.figures import costs
 
     (tmp_path / "data" / "cmu86").mkdir(parents=True)
     for name in ("86.asf", "86_11.amc", "annotations.json", "published.json"):
@@ -220,7 +221,7 @@ def test_the_papers_figures_and_tables_are_made_anew(results, folder, tmp_path, 
 
 
 def test_a_cluster_has_the_colour_of_the_class_it_is_assigned_to():
-    from kineme.reproduction.figures.segments import _colors
+    from kineme_reproduction.figures.segments import _colors
 
     truth = Labelling.from_cuts([10], ["walk", "run"], frames=20, fps=10.0)
     found = Labelling.from_cuts([8, 10], ["a", "b", "c"], frames=20, fps=10.0)
@@ -233,8 +234,8 @@ def test_a_cluster_has_the_colour_of_the_class_it_is_assigned_to():
 
 
 def test_a_preset_segmentation_scores_the_same_read_back_from_its_table(trial, tmp_path):
+    from kineme.evaluation.annotations import read_trial
     from kineme.evaluation.inputs import comparison, read_result, score
-    from kineme.reproduction.trials import read_trial
 
     found = kineme.segment(trial.motion, preset="voegele2014")
     kineme.write_segments(found, tmp_path / "found.csv")

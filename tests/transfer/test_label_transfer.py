@@ -12,9 +12,9 @@ import pytest
 import kineme
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
-from kineme.reproduction.trials import load_trials
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer import KnowledgeBase, name_primitives, transfer_features, transfer_labels
+from kineme_reproduction.trials import load_trials
 
 TAUGHT = synthesize(
     [Action("walk", 3), Action("kick", 3), Action("walk", 2), Action("jump", 3)], fps=60, seed=1

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from kineme._version import __version__
-from kineme.cli.on_demand import on_demand
+from kineme.cli.help import on_demand
 
 COMMANDS = (
     "segment",
@@ -39,8 +39,8 @@ app = typer.Typer(
 )
 
 
-def _show_version(wanted: bool) -> None:
-    if wanted:
+def _show_version(requested: bool) -> None:
+    if requested:
         typer.echo(f"kineme {__version__}")
         raise typer.Exit
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.help import INPUT, LABELS, OUTPUT
+from kineme.cli.help import INPUT, LABELS, OUTPUT, option
 from kineme.cli.options.inputs import Batch, Recursive
 from kineme.cli.options.reading import Quiet, with_reading_options
 from kineme.cli.options.request import Request
@@ -17,7 +17,7 @@ from kineme.labels import read_segments, write_segments
 from kineme.segments.table import Level
 
 
-def _known(name: str | None) -> str | None:
+def _checked_format(name: str | None) -> str | None:
     if name is None:
         return None
     from kineme.labels import label_formats
@@ -63,37 +63,29 @@ def convert(
     ],
     from_format: Annotated[
         str | None,
-        typer.Option(
+        option(
+            INPUT,
+            f"Format of labels to read, by default by the suffix: {LABELS}.",
             "--from",
             metavar="FORMAT",
-            callback=_known,
-            help=f"Format of labels to read, by default by the suffix: {LABELS}.",
-            rich_help_panel=INPUT,
+            callback=_checked_format,
         ),
     ] = None,
     to_format: Annotated[
         str | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Format of labels to write, one of the same.",
             "--to",
             metavar="FORMAT",
-            callback=_known,
-            help="Format of labels to write, one of the same.",
-            rich_help_panel=OUTPUT,
+            callback=_checked_format,
         ),
     ] = None,
     level: Annotated[
-        Level | None,
-        typer.Option(
-            help="Segments to write; by default all that the format can hold.",
-            rich_help_panel=OUTPUT,
-        ),
+        Level | None, option(OUTPUT, "Segments to write; by default all that the format can hold.")
     ] = None,
     frames: Annotated[
-        int | None,
-        typer.Option(
-            help="Length of the recording in frames, where labels end before it.",
-            rich_help_panel=INPUT,
-        ),
+        int | None, option(INPUT, "Length of the recording in frames, where labels end before it.")
     ] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,

@@ -5,14 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, OUTPUT
+from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.reading import Quiet
 
@@ -21,34 +20,28 @@ if TYPE_CHECKING:
     from kineme.datasets.download import Progress
 
 
-class Database(StrEnum):
-    """What can be fetched."""
-
-    CMU = "cmu"
-
-
 def data(
     database: Annotated[  # noqa: ARG001 (there is one so far)
-        Database, typer.Argument(help="cmu: the CMU Graphics Lab Motion Capture Database.")
+        Literal["cmu"], typer.Argument(help="cmu: the CMU Graphics Lab Motion Capture Database.")
     ],
     subject: Annotated[int, typer.Argument(min=1, help="Number of the subject, such as 86.")],
     trials: Annotated[
         str | None,
-        typer.Option(
-            metavar="NUMBER,NUMBER,…",
-            help="Recordings of the subject to fetch, such as 1,2,9-11; by default from 1 up to "
+        option(
+            INPUT,
+            "Recordings of the subject to fetch, such as 1,2,9-11; by default from 1 up to "
             "the first that does not exist.",
-            rich_help_panel=INPUT,
+            metavar="NUMBER,NUMBER,…",
         ),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Where to keep the files, instead of the cache of kineme.",
             "--output",
             "-o",
             metavar="FOLDER",
-            help="Where to keep the files, instead of the cache of kineme.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     site: Annotated[str | None, typer.Option(envvar="KINEME_CMU_SITE", hidden=True)] = None,
@@ -56,11 +49,7 @@ def data(
         str | None, typer.Option(envvar="KINEME_CMU_ANNOTATIONS", hidden=True)
     ] = None,
     timeout: Annotated[
-        float,
-        typer.Option(
-            help="Seconds of silence after which a connection is tried again.",
-            rich_help_panel=INPUT,
-        ),
+        float, option(INPUT, "Seconds of silence after which a connection is tried again.")
     ] = 30.0,
     quiet: Quiet = False,
 ) -> None:
@@ -113,15 +102,7 @@ def _numbers(text: str | None) -> list[int] | None:
 @contextmanager
 def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], None]]]:
     """What shows the progress of a file, and what prints a line above it."""
-    from rich.progress import (
-        BarColumn,
-        DownloadColumn,
-        TaskID,
-        TransferSpeedColumn,
-    )
-    from rich.progress import (
-        Progress as Bars,
-    )
+    from rich import progress as rich_progress
 
     from kineme.cli.terminal import Console
 
@@ -132,9 +113,14 @@ def _bars(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], Non
     if not console.is_terminal:
         yield None, lambda line: typer.echo(line, err=True)
         return
-    columns = "[progress.description]{task.description}", BarColumn(), DownloadColumn()
-    with Bars(*columns, TransferSpeedColumn(), console=console, transient=True) as bars:
-        tasks: dict[str, TaskID] = {}
+    columns = (
+        "[progress.description]{task.description}",
+        rich_progress.BarColumn(),
+        rich_progress.DownloadColumn(),
+        rich_progress.TransferSpeedColumn(),
+    )
+    with rich_progress.Progress(*columns, console=console, transient=True) as bars:
+        tasks: dict[str, rich_progress.TaskID] = {}
 
         def show(name: str, done: int, total: int | None) -> None:
             if name not in tasks:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from kineme.cli.help import OUTPUT
+from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.reading import Quiet
 from kineme.cli.options.request import Request
@@ -18,13 +18,13 @@ from kineme.cli.segment import write_results
 def demo(
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Folder for the table and the picture.",
             "--output",
             "-o",
             metavar="FOLDER",
-            help="Folder for the table and the picture.",
             show_default="the one you are in",
-            rich_help_panel=OUTPUT,
         ),
     ] = Path(),
     quiet: Quiet = False,

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, METHOD, OUTPUT
+from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.messages import Failures, progress
-from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.reading import Quiet, with_body_options
 from kineme.cli.options.request import Request
 from kineme.cli.options.targets import check_place, check_writable
@@ -25,46 +25,26 @@ if TYPE_CHECKING:
 @with_body_options
 def graph(
     files: Files,
-    output: Annotated[
-        Path,
-        typer.Option(
-            "--output", "-o", help="The motion graph: a .json file.", rich_help_panel=OUTPUT
-        ),
-    ],
-    segments: Annotated[
-        Path | None,
-        typer.Option(
-            help="Segment tables to take primitives and labels from, instead of segmenting anew; "
-            "of several recordings a folder, or a path with {name} in it.",
-            rich_help_panel=INPUT,
-        ),
-    ] = None,
-    plot: Annotated[
-        Path | None,
-        typer.Option(help="Draw the graph: .png, .pdf or .svg.", rich_help_panel=OUTPUT),
-    ] = None,
+    output: Annotated[Path, option(OUTPUT, "The motion graph: a .json file.", "--output", "-o")],
+    segments: SegmentTable = None,
+    plot: Annotated[Path | None, option(OUTPUT, "Draw the graph: .png, .pdf or .svg.")] = None,
     threshold: Annotated[
         float,
-        typer.Option(
-            help="Metres by which joints may be apart, on average, where one primitive is "
+        option(
+            METHOD,
+            "Metres by which joints may be apart, on average, where one primitive is "
             "followed by another.",
-            rich_help_panel=METHOD,
         ),
     ] = 0.08,
     window: Annotated[
-        float,
-        typer.Option(
-            help="Seconds that are compared and blended there.",
-            show_default="0.33",
-            rich_help_panel=METHOD,
-        ),
+        float, option(METHOD, "Seconds that are compared and blended there.", show_default="0.33")
     ] = 1 / 3,
     keep_dead_ends: Annotated[
         bool,
-        typer.Option(
+        option(
+            METHOD,
+            "Keep primitives after which nothing, or not all, can follow.",
             "--keep-dead-ends",
-            help="Keep primitives after which nothing, or not all, can follow.",
-            rich_help_panel=METHOD,
         ),
     ] = False,
     recursive: Recursive = False,
@@ -106,8 +86,8 @@ def graph(
             motions, found, threshold=threshold, window=window, prune=not keep_dead_ends
         )
         options = {k: v for k, v in request.reading.items() if v is not None}
-        own = {k: str(v) if isinstance(v, Path) else v for k, v in options.items()}
-        made = replace(made, sources=tuple(replace(s, options=own) for s in made.sources))
+        stored = {k: str(v) if isinstance(v, Path) else v for k, v in options.items()}
+        made = replace(made, sources=tuple(replace(s, options=stored) for s in made.sources))
         write_graph(made, output)
         if plot is not None:
             from kineme.synthesis.picture import plot_graph

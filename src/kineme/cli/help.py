@@ -1,4 +1,4 @@
-"""Help that fits on a page: options in named groups, one column of names, one of sentences.
+"""Commands and their help, which fits on a page: options in named groups, in two columns.
 
 Where a help text names the registered formats or presets, these are filled in only when
 it is shown: they are many modules, and other packages may add theirs, so that importing them
@@ -8,14 +8,17 @@ takes time that a command which needs none of them does not have.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from importlib import import_module
 from itertools import zip_longest
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 
 if TYPE_CHECKING:
+    from typer import _click
     from typer._click import Context, HelpFormatter, Parameter
 
 RECORDINGS = "@recordings@"
@@ -36,6 +39,11 @@ _COLUMN = 26
 _TYPES = {"path": "PATH", "int": "N", "int range": "N", "float": "NUMBER", "str": "TEXT"}
 
 
+def option(group: str, text: str, *names: str, **more: Any) -> Any:
+    """An option in a group of the help; called as its parameter is, unless names are given."""
+    return typer.Option(*names, help=text, rich_help_panel=group, **more)
+
+
 class Command(TyperCommand):
     """A command whose options stand in groups."""
 
@@ -50,15 +58,15 @@ class Command(TyperCommand):
             raise
 
     def _check_constants(self, ctx: Context, args: Sequence[str]) -> None:
-        own = {name for each in self.get_params(ctx) for name in each.opts + each.secondary_opts}
+        flags = {name for each in self.get_params(ctx) for name in each.opts + each.secondary_opts}
         for arg, following in zip_longest(args, args[1:], fillvalue=""):
             flag, equals, value = arg.partition("=")
-            if not flag.startswith("--") or flag in own:
+            if not flag.startswith("--") or flag in flags:
                 continue
-            from kineme.methods import PRESETS as KNOWN
+            from kineme.methods import PRESETS as ALL_PRESETS
 
             name = flag[2:].replace("-", "_")
-            if any(name in preset.parameters() for preset in KNOWN.values()):
+            if any(name in preset.parameters() for preset in ALL_PRESETS.values()):
                 value = value if equals else following
                 ctx.fail(f"No such option: {flag}; use --set {name}={value or 'VALUE'}")
 
@@ -82,6 +90,43 @@ class Commands(TyperGroup):
         with formatter.section("Commands"):
             formatter.write_dl(lines)
         _write_groups(self.get_params(ctx), ctx, formatter)
+
+
+def on_demand(homes: Mapping[str, str]) -> type[TyperGroup]:
+    """A group of commands in the order of the help, each the function of its name in a module."""
+
+    class OnDemand(Commands):
+        def __init__(self, **attributes: Any) -> None:
+            super().__init__(**{**attributes, "commands": _Homes(homes)})
+
+    return OnDemand
+
+
+class _Homes(Mapping[str, "_click.Command"]):
+    """The commands by name."""
+
+    def __init__(self, homes: Mapping[str, str]):
+        self._homes = dict(homes)
+
+    def __getitem__(self, name: str) -> _click.Command:
+        return _command(self._homes[name], name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._homes)
+
+    def __len__(self) -> int:
+        return len(self._homes)
+
+
+@cache
+def _command(module: str, name: str) -> _click.Command:
+    """A command, or a group of them."""
+    found = getattr(import_module(module), name)
+    if isinstance(found, typer.Typer):
+        return typer.main.get_command(found)
+    alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    alone.command(name, cls=Command)(found)
+    return typer.main.get_command(alone)
 
 
 def _write_groups(parameters: Sequence[Parameter], ctx: Context, formatter: HelpFormatter) -> None:
@@ -134,15 +179,15 @@ def _filled(text: str) -> str:
         return text
     from kineme.formats import supported_formats
     from kineme.labels import label_formats, written_suffixes
-    from kineme.methods import PRESETS as KNOWN
+    from kineme.methods import PRESETS as ALL_PRESETS
 
     recordings = [each.name for each in supported_formats() if each.read is not None]
     names = {
         RECORDINGS: reversed(recordings),  # the oldest first
         LABELS: label_formats(),
         TABLES: written_suffixes(),
-        PRESETS: KNOWN,
+        PRESETS: ALL_PRESETS,
     }
-    for mark, known in names.items():
-        text = text.replace(mark, ", ".join(known))
+    for mark, entries in names.items():
+        text = text.replace(mark, ", ".join(entries))
     return text

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import OUTPUT
+from kineme.cli.help import OUTPUT, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Effectors, Json, with_reading_options
 from kineme.cli.options.request import Request
@@ -26,9 +26,7 @@ IN_A_LINE = 12
 @with_reading_options
 def info(
     files: Files,
-    joints: Annotated[
-        bool, typer.Option("--joints", help="Show the tree of joints.", rich_help_panel=OUTPUT)
-    ] = False,
+    joints: Annotated[bool, option(OUTPUT, "Show the tree of joints.", "--joints")] = False,
     recursive: Recursive = False,
     json: Json = False,
     effectors: Effectors = None,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, OUTPUT
+from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Effectors, Quiet, with_body_options
@@ -23,20 +23,16 @@ def label(
     files: Files,
     labels: Annotated[
         Path,
-        typer.Option(
-            metavar="TABLE",
-            help="Their labels: a segment table, or a label file of another program; of several "
+        option(
+            INPUT,
+            "Their labels: a segment table, or a label file of another program; of several "
             "recordings a folder, or a path with {name} in it.",
-            rich_help_panel=INPUT,
+            metavar="TABLE",
         ),
     ],
     knowledge: Annotated[
         Path,
-        typer.Option(
-            metavar="FILE",
-            help="Knowledge base to add to, .npz; made if it is not there.",
-            rich_help_panel=OUTPUT,
-        ),
+        option(OUTPUT, "Knowledge base to add to, .npz; made if it is not there.", metavar="FILE"),
     ],
     recursive: Recursive = False,
     quiet: Quiet = False,
@@ -56,9 +52,9 @@ def label(
     failures = Failures()
     from kineme.transfer import KnowledgeBase
 
-    known = []
+    bases = []
     with failures.caught(knowledge):
-        known += [KnowledgeBase.load(knowledge)] if knowledge.exists() else []
+        bases += [KnowledgeBase.load(knowledge)] if knowledge.exists() else []
     failures.exit()
     added: dict[Path, KnowledgeBase] = {}
     for path, table in zip(batch.paths, tables, strict=True):
@@ -66,7 +62,7 @@ def label(
             added[path] = _labelled(request, path, table, stage)
     with failures.caught(knowledge):
         if added:
-            merged = KnowledgeBase.merged(*known, *added.values())
+            merged = KnowledgeBase.merged(*bases, *added.values())
             merged.save(knowledge)
             if not quiet:
                 _show(knowledge, added, len(merged))

@@ -37,22 +37,22 @@ def presets(
     if name is None:
         width = max(map(len, PRESETS))
         for preset in PRESETS.values():
-            told = " (default)" if preset.name == DEFAULT else ""
-            typer.echo(f"{preset.name:<{width}}  {preset.help}{told}")
+            remark = " (default)" if preset.name == DEFAULT else ""
+            typer.echo(f"{preset.name:<{width}}  {preset.help}{remark}")
         return
     try:
         chosen = resolve_preset(name)
     except ParameterError as error:
         raise typer.BadParameter(str(error), param_hint="NAME") from error
-    known = sorted(chosen.constants(), key=lambda each: each.fine)
+    constants = sorted(chosen.constants(), key=lambda each: each.fine)
     if not typer.get_text_stream("stdout").isatty():
-        _write_rows(known)
+        _write_rows(constants)
         return
     typer.echo(f"{chosen.name}: {chosen.help}")
     if chosen.unit != "any":
         typer.echo(f"Lengths are in {chosen.unit}.")
-    fine = [each for each in known if each.fine]
-    _show("Constants", known[: len(known) - len(fine)])
+    fine = [each for each in constants if each.fine]
+    _show("Constants", constants[: len(constants) - len(fine)])
     if fine:
         _show("Finer constants, which hardly anybody needs to change", fine)
 

@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.help import INPUT, OUTPUT
-from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.options.request import Request
@@ -21,23 +21,16 @@ def report(
     files: Files,
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Page to write: .html; of several recordings a folder, or a path with {name} in "
+            "it.  [default: beside you, named as the recording is]",
             "--output",
             "-o",
-            help="Page to write: .html; of several recordings a folder, or a path with {name} in "
-            "it.  [default: beside you, named as the recording is]",
             show_default=False,
-            rich_help_panel=OUTPUT,
         ),
     ] = Path(),
-    segments: Annotated[
-        Path | None,
-        typer.Option(
-            help="Segment table or labels to show, instead of segmenting anew; of several "
-            "recordings a folder, or a path with {name} in it.",
-            rich_help_panel=INPUT,
-        ),
-    ] = None,
+    segments: SegmentTable = None,
     preset: PresetName = DEFAULT,
     detail: Detail = 1.0,
     recursive: Recursive = False,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.help import OUTPUT, TABLES
+from kineme.cli.help import OUTPUT, TABLES, option
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Json, Quiet, with_reading_options
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from kineme.methods.base import Found
     from kineme.segments.segmentation import Segmentation
 
+PrintedLevel = Annotated[
+    Level, option(OUTPUT, "Print activities with what lies between them, or each primitive.")
+]
+
 
 @with_reading_options
 def segment(
@@ -29,36 +33,27 @@ def segment(
     detail: Detail = 1.0,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            f"Write the segments as a table, or as labels of another program: {TABLES}. Of "
+            "several recordings: a folder, or a path with {name} in it.",
             "--output",
             "-o",
-            help=f"Write the segments as a table, or as labels of another program: {TABLES}. Of "
-            "several recordings: a folder, or a path with {name} in it.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            help="Draw them: .png, .pdf, .svg; or a folder, or a path with {name} in it.",
-            rich_help_panel=OUTPUT,
-        ),
+        option(OUTPUT, "Draw them: .png, .pdf, .svg; or a folder, or a path with {name} in it."),
     ] = None,
     report: Annotated[
         Path | None,
-        typer.Option(
-            help="Write a page that plays the recording beside them: .html; or a folder, or a path "
+        option(
+            OUTPUT,
+            "Write a page that plays the recording beside them: .html; or a folder, or a path "
             "with {name} in it.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
-    level: Annotated[
-        Level,
-        typer.Option(
-            help="Print activities with what lies between them, or each primitive.",
-            rich_help_panel=OUTPUT,
-        ),
-    ] = "activity",
+    level: PrintedLevel = "activity",
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
@@ -92,14 +87,7 @@ def segment(
 
                 drawn = request.drawn(recording)
                 write_report(drawn, result, page, effectors=request.effectors)
-            if json:
-                from kineme.labels.json_table import as_object
-
-                typer.echo(dumps(as_object(result)))
-            elif not quiet:
-                from kineme.cli.tables import show_segments
-
-                show_segments(result, level, written=[table, picture, page])
+            print_segments(result, level, [table, picture, page], json=json, quiet=quiet)
     batch.exit()
 
 
@@ -118,3 +106,17 @@ def write_results(
         from kineme.plot import plot_segmentation
 
         plot_segmentation(result, found, picture)
+
+
+def print_segments(
+    result: Segmentation, level: Level, written: list[Path | None], *, json: bool, quiet: bool
+) -> None:
+    """The segments as JSON, or as a table above the files that were written."""
+    if json:
+        from kineme.labels.json_table import as_object
+
+        typer.echo(dumps(as_object(result)))
+    elif not quiet:
+        from kineme.cli.tables import show_segments
+
+        show_segments(result, level, written=written)

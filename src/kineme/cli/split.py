@@ -8,8 +8,8 @@ from typing import Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, OUTPUT
-from kineme.cli.options.inputs import Batch, Files, Recursive
+from kineme.cli.help import OUTPUT, option
+from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import Constants, Detail, PresetName
 from kineme.cli.options.reading import Effectors, Quiet, with_reading_options
 from kineme.cli.options.request import Request
@@ -23,38 +23,20 @@ def split(
     files: Files,
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Folder to make, new or empty. Of several recordings each gets a folder in it, "
+            "or one by a path with {name} in it.",
             "--output",
             "-o",
-            help="Folder to make, new or empty. Of several recordings each gets a folder in it, "
-            "or one by a path with {name} in it.",
-            rich_help_panel=OUTPUT,
         ),
     ],
-    level: Annotated[
-        Level,
-        typer.Option(help="Write activities, or each primitive.", rich_help_panel=OUTPUT),
-    ] = "activity",
-    cluster: Annotated[
-        int | None,
-        typer.Option(help="Write those of this cluster only.", rich_help_panel=OUTPUT),
-    ] = None,
+    level: Annotated[Level, option(OUTPUT, "Write activities, or each primitive.")] = "activity",
+    cluster: Annotated[int | None, option(OUTPUT, "Write those of this cluster only.")] = None,
     loop: Annotated[
-        bool,
-        typer.Option(
-            "--loop",
-            help="Blend the ends, so that each clip plays as a cycle.",
-            rich_help_panel=OUTPUT,
-        ),
+        bool, option(OUTPUT, "Blend the ends, so that each clip plays as a cycle.", "--loop")
     ] = False,
-    segments: Annotated[
-        Path | None,
-        typer.Option(
-            help="Segment table or labels to cut by, instead of segmenting anew; of several "
-            "recordings a folder, or a path with {name} in it.",
-            rich_help_panel=INPUT,
-        ),
-    ] = None,
+    segments: SegmentTable = None,
     detail: Detail = 1.0,
     preset: PresetName = DEFAULT,
     recursive: Recursive = False,

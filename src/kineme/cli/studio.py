@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.help import OUTPUT
+from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.reading import Effectors, effector_names, with_body_options
 from kineme.errors import ParameterError
@@ -24,20 +24,20 @@ def studio(
     ] = None,
     port: Annotated[
         int | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Port to listen on; 0 for any.",
             metavar="N",
-            help="Port to listen on; 0 for any.",
             show_default="the first free from 8750",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     browser: Annotated[
         bool,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Whether to open the page in the browser.",
             "--browser/--no-browser",
-            help="Whether to open the page in the browser.",
             show_default="--browser",
-            rich_help_panel=OUTPUT,
         ),
     ] = True,
     effectors: Effectors = None,

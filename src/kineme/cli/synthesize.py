@@ -7,57 +7,46 @@ from typing import Annotated
 
 import typer
 
-from kineme.cli.help import OUTPUT
+from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures, progress
 from kineme.cli.options.reading import Quiet
 from kineme.errors import ParameterError
 
-WANTED = "What is to be played"
+PLAYED = "What is to be played"
 
 
 def synthesize(
     graph: Annotated[
         Path, typer.Argument(metavar="GRAPH", help="Motion graph that `kineme graph` made.")
     ],
-    output: Annotated[
-        Path,
-        typer.Option("--output", "-o", help="The new motion: a .bvh file.", rich_help_panel=OUTPUT),
-    ],
+    output: Annotated[Path, option(OUTPUT, "The new motion: a .bvh file.", "--output", "-o")],
     actions: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAME*COUNT,…",
-            help="Labels or cluster numbers in order, as in walk,run*3,jump; "
+        option(
+            PLAYED,
+            "Labels or cluster numbers in order, as in walk,run*3,jump; "
             "with --path those that may be played, without counts.",
-            rich_help_panel=WANTED,
+            metavar="NAME*COUNT,…",
         ),
     ] = None,
     path: Annotated[
         str | None,
-        typer.Option(
-            metavar="X,Z;X,Z;…",
-            help="A line on the floor to follow, metres, as in 0,0;3,0;3,3.",
-            rich_help_panel=WANTED,
+        option(
+            PLAYED, "A line on the floor to follow, metres, as in 0,0;3,0;3,3.", metavar="X,Z;X,Z;…"
         ),
     ] = None,
     tolerance: Annotated[
-        float,
-        typer.Option(
-            help="Metres that the figure may get away from that line.", rich_help_panel=WANTED
-        ),
+        float, option(PLAYED, "Metres that the figure may get away from that line.")
     ] = 0.5,
     duration: Annotated[
         float | None,
-        typer.Option(
-            help="Seconds of any primitives that can follow each other, drawn by chance, in place "
+        option(
+            PLAYED,
+            "Seconds of any primitives that can follow each other, drawn by chance, in place "
             "of actions.",
-            rich_help_panel=WANTED,
         ),
     ] = None,
-    seed: Annotated[
-        int,
-        typer.Option(min=0, help="Another number draws other primitives.", rich_help_panel=WANTED),
-    ] = 0,
+    seed: Annotated[int, option(PLAYED, "Another number draws other primitives.", min=0)] = 0,
     quiet: Quiet = False,
 ) -> None:
     """Make a new motion of recorded ones: given actions, along a line, or drawn by chance."""
@@ -73,17 +62,17 @@ def synthesize(
         motions = synthesis.load_sources(made)
         stage("searching")
         start = None
-        wanted = synthesis.parse_actions(actions) if actions is not None else []
+        named = synthesis.parse_actions(actions) if actions is not None else []
         if path is not None:
             route, start = synthesis.line_route(
                 made,
                 motions,
                 synthesis.parse_line(path),
-                actions=_without_counts(wanted),
+                actions=_without_counts(named),
                 tolerance=tolerance,
             )
-        elif wanted:
-            route = synthesis.action_route(made, wanted)
+        elif named:
+            route = synthesis.action_route(made, named)
         else:
             route = synthesis.random_route(made, duration or 0, seed)
         stage("blending")

@@ -1,4 +1,4 @@
-"""Segments and recordings as tables for people, on a terminal, in a file or a pipe."""
+"""Segments, recordings and scores as tables for people, on a terminal, in a file or a pipe."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from kineme._colors import cluster_color
 from kineme.cli.terminal import Console
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
+
+Section = tuple[str, Sequence[tuple[str, Sequence[str]]]]
+"""A title, and rows: a name and the cells beside it."""
 
 WORDS = ("kind", "cluster", "label", "recording", "example")
 """Columns that hold no numbers."""
@@ -71,6 +74,29 @@ def show_segments(
     console.print()
 
 
+def show_scores(title: str, columns: Mapping[str, Mapping[str, float]]) -> None:
+    """Print scores by the columns that have them."""
+    from kineme.evaluation.tables import score_rows
+
+    show_table(title, list(columns), score_rows(columns))
+
+
+def show_table(title: str, header: Sequence[str], sections: Sequence[Section]) -> None:
+    """Print a table: a column of names, one per title in the header, rows in sections."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    table.add_column("", no_wrap=True)
+    for name in header:
+        table.add_column(name, justify="right", overflow="fold")
+    for section, rows in sections:
+        if section:
+            table.add_row(Text(section, style="bold"))
+        for name, cells in rows:
+            table.add_row(f"  {name}" if section else name, *cells)
+    console = Console(highlight=False)
+    console.print(Text(title, style="bold"))
+    console.print(table)
+
+
 def _activity_rows(segmentation: Segmentation) -> Table:
     """Activities and transitions with their repetitions counted."""
     table = new_table("#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label")
@@ -108,11 +134,8 @@ def _primitive_rows(segmentation: Segmentation) -> Table:
 def columns_of(names: Iterable[str]) -> RenderableType:
     """Names side by side; in a file or a pipe each on a line of its own."""
     texts = [Text(name) for name in names]
-    return Columns(texts, padding=(0, 2), column_first=True) if _on_terminal() else Group(*texts)
-
-
-def _on_terminal() -> bool:
-    return Console().is_terminal
+    on_terminal = Console().is_terminal
+    return Columns(texts, padding=(0, 2), column_first=True) if on_terminal else Group(*texts)
 
 
 def new_table(*names: str) -> Table:

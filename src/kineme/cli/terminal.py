@@ -36,8 +36,8 @@ class Console(rich.console.Console):
     ) -> Iterable[Segment]:
         """The segments of a renderable; rich's own control codes are segments of their own."""
         for segment in super().render(renderable, options):
-            told = segment.text if segment.control else harmless(segment.text)
-            yield segment if told == segment.text else segment._replace(text=told)
+            text = segment.text if segment.control else harmless(segment.text)
+            yield segment if text == segment.text else segment._replace(text=text)
 
 
 def harmless(text: str) -> str:

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES
+from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.inputs import Batch, Files, Recursive
 from kineme.cli.options.reading import Effectors, Json, Quiet, with_body_options
 from kineme.cli.options.request import Request, Stage
 from kineme.cli.options.targets import check_writable
-from kineme.segments.table import Level
+from kineme.cli.segment import PrintedLevel, print_segments
 
 if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation
@@ -26,46 +25,35 @@ def transfer(
     files: Files,
     knowledge: Annotated[
         list[Path],
-        typer.Option(
+        option(
+            INPUT,
+            "Knowledge base that `kineme label` made, .npz; may be given again.",
             metavar="FILE",
-            help="Knowledge base that `kineme label` made, .npz; may be given again.",
-            rich_help_panel=INPUT,
         ),
     ],
     threshold: Annotated[
         float | None,
-        typer.Option(
-            help="How different a movement may be from one that is known, from 0 to 2; lower "
+        option(
+            METHOD,
+            "How different a movement may be from one that is known, from 0 to 2; lower "
             "gives fewer labels, more of them right.",
             show_default="0.85",
-            rich_help_panel=METHOD,
         ),
     ] = None,
     spread: Annotated[
-        bool,
-        typer.Option(
-            "--spread",
-            help="Give all of a cluster the label that most of it got.",
-            rich_help_panel=METHOD,
-        ),
+        bool, option(METHOD, "Give all of a cluster the label that most of it got.", "--spread")
     ] = False,
     output: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            f"Segment table or labels: {TABLES}. Of several recordings: a folder, or a path "
+            "with {name} in it.",
             "--output",
             "-o",
-            help=f"Segment table or labels: {TABLES}. Of several recordings: a folder, or a path "
-            "with {name} in it.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
-    level: Annotated[
-        Level,
-        typer.Option(
-            help="Print activities with what lies between them, or each primitive.",
-            rich_help_panel=OUTPUT,
-        ),
-    ] = "primitive",
+    level: PrintedLevel = "primitive",
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
@@ -102,14 +90,7 @@ def transfer(
                 from kineme.labels import write_segments
 
                 write_segments(result, table)
-            if json:
-                from kineme.labels.json_table import as_object
-
-                typer.echo(dumps(as_object(result)))
-            elif not quiet:
-                from kineme.cli.tables import show_segments
-
-                show_segments(result, level, written=[table])
+            print_segments(result, level, [table], json=json, quiet=quiet)
     batch.exit()
 
 

@@ -60,15 +60,6 @@ def markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def markdown_scores(columns: Mapping[str, Mapping[str, float]]) -> str:
-    """The table of `score_rows`, groups in bold."""
-    rows: list[list[str]] = []
-    for group, lines in score_rows(columns):
-        rows.append([f"**{group}**", *[""] * len(columns)])
-        rows += [[title, *cells] for title, cells in lines]
-    return markdown(["", *columns], rows)
-
-
 def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
     """Write records as JSON (with the version) or CSV, by suffix.
 

@@ -39,7 +39,7 @@ Floats = NDArray[np.float64]
 Joints = Mapping[str, Mapping[str, str]]
 """For each joint the columns of its axes."""
 
-SURE = 0.5
+LIMIT = 0.5
 """Confidence from which a keypoint counts as seen."""
 
 _CONFIDENCE = re.compile(
@@ -56,35 +56,22 @@ def columns_to_motion(
     columns: Mapping[str, ArrayLike],
     options: ReadOptions,
     *,
-    limit: float = SURE,
+    limit: float = LIMIT,
 ) -> Motion:
-    """The motion of the joints in a table's columns.
+    """The motion of the joints in a table's columns, one number per row each.
 
-    Parameters
-    ----------
-    name : str
-        Of the format.
-    columns : mapping of str to array_like
-        (rows,) each, numbers, by their names.
-    limit : float, optional
-        Confidence from which a keypoint counts as seen.
-
-    Raises
-    ------
-    ReadError
-        No joints are found, columns differ in length, or nothing tells the rate.
+    ``name`` is that of the format, ``limit`` the confidence from which a keypoint counts as seen.
+    ReadError where no joints are found, columns differ in length, or nothing tells the rate.
     """
     joints = _joints(content, columns)
-    names, positions, sure = _positions(content, columns, joints)
+    names, positions, confidence = _positions(content, columns, joints)
     limit = limit if options.confidence is None else options.confidence
-    positions[sure < limit] = np.nan
+    positions[confidence < limit] = np.nan
     flat = all(len(axes) == 2 for axes in joints.values())
     timing = table_timing(content, columns, options.fps)
     notes = list(timing.notes)
-    if (sure < limit).any():
-        notes.append(
-            f"{counted(int((sure < limit).sum()), 'position')} less sure than {limit:g} not used"
-        )
+    if unsure := int((confidence < limit).sum()):
+        notes.append(f"{counted(unsure, 'position')} less sure than {limit:g} not used")
     unit, up = options.unit, options.up
     if unit is None:
         unit, remarks = _in_one_unit(content, joints, positions)
@@ -171,16 +158,16 @@ def _positions(
     content: FileContent, columns: Mapping[str, ArrayLike], joints: Joints
 ) -> tuple[list[str], Floats, Floats]:
     """Names, positions (rows, joints, 3) and confidences (rows, joints)."""
-    sureness = {
+    confidence_columns = {
         match[1]: column for column in columns if (match := _CONFIDENCE.fullmatch(column.strip()))
     }
     rows = len(numbers_in(content, columns, next(iter(next(iter(joints.values())).values()))))
     positions = np.zeros((rows, len(joints), 3))
-    sure = np.ones((rows, len(joints)))
+    confidence = np.ones((rows, len(joints)))
     for j, (joint, axes) in enumerate(joints.items()):
         for axis, column in axes.items():
             positions[:, j, "xyz".index(axis)] = numbers_in(content, columns, column, rows)
-        if joint in sureness:
-            sure[:, j] = numbers_in(content, columns, sureness[joint], rows)
+        if joint in confidence_columns:
+            confidence[:, j] = numbers_in(content, columns, confidence_columns[joint], rows)
     positions[np.isinf(positions)] = np.nan
-    return list(joints), positions, sure
+    return list(joints), positions, confidence

@@ -16,7 +16,7 @@ from __future__ import annotations
 import csv
 import re
 from array import array
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice, pairwise
@@ -156,7 +156,7 @@ class DelimitedText:
         Parameters
         ----------
         columns : sequence of int, optional
-            Those wanted, all by default; the others may hold anything.
+            These alone, all by default; the others may hold anything.
 
         Raises
         ------
@@ -164,8 +164,8 @@ class DelimitedText:
             A cell is not a number, or a line is too short or too long.
         """
         content, width, first = self.content, len(self.names), self.below + 1
-        wanted = range(width) if columns is None else columns
-        dates = [i for i in self.dates if i in wanted]
+        chosen = range(width) if columns is None else columns
+        dates = [i for i in self.dates if i in chosen]
         values = array("d")
         reader = csv.reader(self.rows, delimiter=self.separator)
         try:
@@ -181,13 +181,13 @@ class DelimitedText:
                     break
                 for i in dates:
                     cells[i] = _seconds(content, cells[i].strip(), line)
-                row = [cells[i] for i in wanted]
+                row = [cells[i] for i in chosen]
                 values.extend(_numbers(content, [*map(dotted, row)] if self.comma else row, line))
         except csv.Error as error:
             raise content.error(str(error), first + reader.line_num - 1) from None
         if not values:
             raise content.error("no row of numbers found")
-        return np.array(values).reshape(-1, len(wanted))
+        return np.array(values).reshape(-1, len(chosen))
 
     def refuse_interleaved(self) -> None:
         """ReadError where rows of one time or frame are of several people, devices or joints."""
@@ -331,15 +331,15 @@ def _is_head(lines: Sequence[str], full: Sequence[int], at: int, separator: str 
     """Whether names stand in a line, rows of as many cells below it, and fewer cells above it."""
     head = lines[full[at]]
     sep = separator or separator_of(head)
-    if sep not in head or _has(cells_of(head, sep), is_number):
+    if sep not in head or any(map(is_number, cells_of(head, sep))):
         return False
     width = head.count(sep) + 1
     above = (lines[i].strip().rstrip(sep) for i in full[:at])  # spreadsheets fill lines up
     rows = [cells_of(lines[i], sep) for i in full[at + 1 : at + 4]]
-    rows = rows[1:] if rows and not _has(rows[0], is_number) else rows[:2]
+    rows = rows[1:] if rows and not any(map(is_number, rows[0])) else rows[:2]
     return (
         bool(rows)
-        and all(len(row) == width and _has(row, is_number) for row in rows)
+        and all(len(row) == width and any(map(is_number, row)) for row in rows)
         and all(line.count(sep) + 1 < width for line in above)
     )
 
@@ -347,7 +347,7 @@ def _is_head(lines: Sequence[str], full: Sequence[int], at: int, separator: str 
 def _has_units(lines: Sequence[str], full: Sequence[int], separator: str) -> bool:
     """Whether words stand below the names, and numbers below these."""
     names, *rows = (cells_of(lines[i], separator) for i in full[:3])
-    if len(rows) < 2 or separator not in lines[full[0]] or _has(names, is_number):
+    if len(rows) < 2 or separator not in lines[full[0]] or any(map(is_number, names)):
         return False
     words = [i for i, cell in enumerate(rows[0]) if cell.lower() not in EMPTY]
     return (
@@ -356,10 +356,6 @@ def _has_units(lines: Sequence[str], full: Sequence[int], separator: str) -> boo
         and not any(is_number(rows[0][i]) or is_date(rows[0][i]) for i in words)
         and all(is_number(rows[1][i]) or is_date(rows[1][i]) for i in words)
     )
-
-
-def _has(cells: Sequence[str], kind: Callable[[str], bool]) -> bool:
-    return any(map(kind, cells))
 
 
 def _is_finite(cell: str) -> bool:

@@ -62,20 +62,9 @@ DIALECTS: Registry[Dialect] = Registry(
 
 
 def dialect_of(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | None:
-    """The dialect that a table is in, if any.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Of its columns.
-    lines : sequence of str
-        Of its file, where it is text.
-
-    Returns
-    -------
-    Dialect or None
-    """
-    return next((each for each in DIALECTS.values() if speaks(each, names, lines)), None)
+    """The dialect that a table is in, by its columns and by its lines where it is text; or None."""
+    dialects = DIALECTS.values()
+    return next((d for d in dialects if speaks(d.name, d.recognises, names, lines)), None)
 
 
 def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
@@ -83,17 +72,6 @@ def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
 
     A table whose columns are coordinates of joints is a motion. Sensors have coordinates, too:
     ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Of its columns.
-    lines : sequence of str
-        Of its file, where it is text.
-
-    Returns
-    -------
-    bool
 
     Examples
     --------

@@ -30,7 +30,7 @@ LEAST_ROOM = 1 << 20
 
 @dataclass(frozen=True)
 class FileContent:
-    """A file's path and all of its bytes, and what its reader remarks on the way.
+    r"""A file's path and all of its bytes, and what its reader remarks on the way.
 
     Parameters
     ----------
@@ -38,6 +38,14 @@ class FileContent:
     data : bytes
     remarks : list of Note
         Filled by `warn`; part of every `provenance` made from then on.
+
+    Examples
+    --------
+    >>> content = FileContent(Path("walk.csv"), b"time,hip_x\n0,one\n")
+    >>> content.text.splitlines()[0]
+    'time,hip_x'
+    >>> print(content.error("'one' is not a number", line=2))
+    walk.csv, line 2: 'one' is not a number
     """
 
     path: Path

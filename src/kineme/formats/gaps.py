@@ -60,7 +60,7 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
 
 
 def bridge(
-    points: Floats, gaps: Gaps, which: Iterable[int], fps: float
+    points: Floats, gaps: Gaps, chosen: Iterable[int], fps: float
 ) -> tuple[tuple[int, int], ...]:
     """The frames [start, stop) in which any of these points has an open gap; they are filled.
 
@@ -69,7 +69,7 @@ def bridge(
     """
     n, longest = len(points), int(LONGEST_S * fps + 1e-9)
     missing = np.zeros(n, np.bool_)
-    for point in which:
+    for point in chosen:
         if point not in gaps.open:
             continue
         hidden = covered(gaps.open[point].tolist(), n)

@@ -41,38 +41,21 @@ _ANYTHING = {".json", ".txt", ".dat"}
 
 @dataclass(frozen=True)
 class Listing:
-    """What a folder holds.
+    """What a folder holds: recordings by name, those of a folder before those deeper in it.
 
-    Parameters
-    ----------
-    recordings : list of Path
-        In the order of their names, those of a folder before those deeper in it.
-    folders : list of Path
-        Folders in it that were not looked into.
-    passed_over : list of (Path, str)
-        What was left out, and why: files and folders that cannot be opened or are damaged,
-        frames beside recordings.
+    What was passed over, and why, are files and folders that cannot be opened or are damaged, and
+    frames beside recordings.
     """
 
     recordings: list[Path]
-    folders: list[Path]
+    folders: list[Path]  # that were not looked into
     passed_over: list[tuple[Path, str]]
 
 
 def recordings_in(folder: Path, *, recursive: bool = False) -> Listing:
-    """The recordings in a folder.
+    """The recordings in a folder, and where ``recursive`` in its folders.
 
     A folder with nothing but the frames of a video, a file each, is one recording.
-
-    Parameters
-    ----------
-    folder : Path
-    recursive : bool
-        Look into its folders, too.
-
-    Returns
-    -------
-    Listing
 
     Examples
     --------
@@ -114,17 +97,7 @@ def files_in(folder: Path) -> list[Path]:
 
 
 def holds_recording(path: Path) -> bool:
-    """Whether a file is a recording, as far as its suffix and head tell.
-
-    Parameters
-    ----------
-    path : Path
-
-    Returns
-    -------
-    bool
-        False where the file cannot be opened or is damaged.
-    """
+    """Whether a file is a recording, by suffix and head; none where it is damaged."""
     try:
         return _is_recording(path)
     except Exception:  # noqa: BLE001 (whatever is wrong with a file, it is no recording)
@@ -153,7 +126,7 @@ def _is_recording(path: Path) -> bool:
         return False
     if suffix in _ANYTHING:
         ends = head_of(path) + (tail_of(path) if suffix == ".json" else b"")
-        return any(speaks(each, ends) for each in formats)
+        return any(speaks(each.name, each.recognises, ends) for each in formats)
     if suffix in (".csv", ".tsv"):
         return not _names_spans(path)
     if suffix == ".parquet":

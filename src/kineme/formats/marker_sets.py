@@ -114,14 +114,9 @@ _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
 
 def find_body(names: Sequence[str], usable: Collection[int]) -> dict[str, tuple[int, ...]]:
-    """For each joint of the body that the usable points make up: which of them it is the middle of.
+    """For each joint of the body that the points at usable indices make up, whose middle it is.
 
-    Parameters
-    ----------
-    names : sequence of str
-        Of all points, without the subject's name.
-    usable : collection of int
-        Indices of those that may be taken.
+    Names are those of all points, without the subject's.
     """
     at: dict[str, int] = {}
     for point in sorted(usable):
@@ -160,20 +155,20 @@ def is_nameless(name: str) -> bool:
     return _NAMELESS.fullmatch(name.rpartition(":")[2]) is not None
 
 
-def of_one_subject(names: Sequence[str], wanted: str | None = None) -> tuple[list[str], list[str]]:
+def of_one_subject(names: Sequence[str], person: str | None = None) -> tuple[list[str], list[str]]:
     """The names without the subject's, and the subjects whose points make up a pelvis.
 
-    ``Ann:LANK`` becomes ``LANK`` for the one wanted of those subjects, else the first, or where
+    ``Ann:LANK`` becomes ``LANK`` for that person of those subjects, else the first, or where
     all names begin with the same one; points of others keep their full names.
     """
     points: dict[str, list[int]] = {}
     for i, name in enumerate(names):
         points.setdefault(name.rpartition(":")[0], []).append(i)
     short = [name.rpartition(":")[2] for name in names]
-    subjects = [who for who, which in points.items() if "pelvis" in find_body(short, which)]
+    subjects = [who for who, members in points.items() if "pelvis" in find_body(short, members)]
     chosen = names[0].rpartition(":")[0] if len(points) == 1 else ""
     if subjects:
-        chosen = wanted if wanted in subjects else subjects[0]
+        chosen = person if person in subjects else subjects[0]
     members = set(points.get(chosen, ()))
     return [short[i] if i in members else name for i, name in enumerate(names)], subjects
 
@@ -188,5 +183,5 @@ def described(body: Mapping[str, Iterable[int]], names: Sequence[str]) -> str:
 
 def _made_of(line: str, side: str, at: Mapping[str, int]) -> tuple[int, ...]:
     """The points that a line of the table names, none unless all are there."""
-    wanted = line.replace("*", side).split()
-    return tuple(at[name] for name in wanted) if all(name in at for name in wanted) else ()
+    points = line.replace("*", side).split()
+    return tuple(at[name] for name in points) if all(name in at for name in points) else ()

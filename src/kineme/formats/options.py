@@ -17,30 +17,17 @@ AnyPath = str | PathLike[str]
 class ReadOptions:
     """What the user knows better than the file; None where the file is right.
 
-    Parameters
-    ----------
-    skeleton : str or PathLike, optional
-        The ASF file of an AMC, if it is not found beside it.
-    fps : float, optional
-        Frames per second.
-    unit : str or float, optional
-        "m", "cm", "mm", "inch", "cmu" (1/0.45 inch) or the metres in one unit.
-    up : str, optional
-        The file's vertical axis, "x", "y", "z", "-x", "-y" or "-z".
-    person : str, optional
-        Which of several people in a file, by name or number.
-    confidence : float, optional
-        From which a keypoint counts as seen.
-    columns : sequence of str, optional
-        Take these columns or analog channels as signals, by name or pattern (``acc_*``), in this
-        order; all if it is empty.
-    emg : bool
-        Take channels as signals; of the analog channels of a C3D those of muscles.
+    They are the keywords of `kineme.read`, which says what each means.
 
     Raises
     ------
     ParameterError
         A value that an option does not take.
+
+    Examples
+    --------
+    >>> ReadOptions(unit="mm").channels, ReadOptions(columns=["acc_*"]).channels
+    (False, True)
     """
 
     skeleton: AnyPath | None = None

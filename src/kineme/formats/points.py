@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._counts import counted
+from kineme._counts import counted, listed
 from kineme.errors import ReadError, SeveralPeopleError
 from kineme.formats.files import unique
 from kineme.formats.gaps import LONGEST_S, Gaps, bridge, covered, fill_gaps
@@ -69,10 +69,7 @@ class Points:
 def to_motion(points: Points, provenance: Provenance) -> Motion:
     """The motion in metres with y up.
 
-    Raises
-    ------
-    ReadError
-        No point was seen throughout, the body in no frame, or the person is none of several.
+    ReadError where no point was seen throughout, the body in no frame, or the person is not there.
     """
     path = provenance.path or "recording"
     given = [name.strip() or "point" for name in points.names]
@@ -86,16 +83,16 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     used = _used(body)
     kept = [i for i in range(len(names)) if i not in gaps.open or i in used]
     missing = bridge(positions, gaps, used, points.fps)
-    seen = ~covered(missing, len(positions))
+    is_visible = ~covered(missing, len(positions))
     if not kept:
         raise ReadError(path, f"no marker is seen throughout: each has a gap above {LONGEST_S} s")
-    if not seen.any():
-        which = _listed([names[i] for i in sorted(used & gaps.open.keys())])
-        raise ReadError(path, f"the body is whole in no frame: {which} are never seen together")
-    kept = sorted([*kept, *_gone_with_the_body(positions, gaps, used, seen, points.fps)])
+    if not is_visible.any():
+        hidden = listed([names[i] for i in sorted(used & gaps.open.keys())])
+        raise ReadError(path, f"the body is whole in no frame: {hidden} are never seen together")
+    kept = sorted([*kept, *_missing_with_the_body(positions, gaps, used, is_visible, points.fps)])
     notes = _gaps_notes(names, gaps, kept, len(positions))
     notes += _splits_note(names, gaps, used, missing, points.fps)
-    visible = positions if seen.all() else positions[seen]
+    visible = positions if is_visible.all() else positions[is_visible]
     scale, note = scale_of(points.unit, visible if len(kept) == len(names) else visible[:, kept])
     notes += note
     up = points.up
@@ -104,7 +101,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
         notes += note
     del visible
     positions *= scale
-    skeleton, positions = _tree(names, upright(positions, up), body, kept, seen)
+    skeleton, positions = _tree(names, upright(positions, up), body, kept, is_visible)
     if "pelvis" in body:
         notes.append(f"{BODY}: {described(body, names)}")
     return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)
@@ -141,15 +138,15 @@ def _least_broken(names: list[str], gaps: Gaps, n_frames: int) -> Body:
     return body
 
 
-def _gone_with_the_body(
-    positions: Floats, gaps: Gaps, used: set[int], seen: NDArray[np.bool_], fps: float
+def _missing_with_the_body(
+    positions: Floats, gaps: Gaps, used: set[int], is_visible: NDArray[np.bool_], fps: float
 ) -> list[int]:
     """Points that are missing where the body is, for long, and not elsewhere; they are bridged."""
     n = len(positions)
     found = [
         point
         for point, spans in gaps.open.items()
-        if point not in used and not (seen & covered(spans.tolist(), n)).any()
+        if point not in used and not (is_visible & covered(spans.tolist(), n)).any()
     ]
     bridge(positions, gaps, found, fps)
     return found
@@ -171,10 +168,10 @@ def _splits_note(
     if not missing:
         return []
     spans = [f"frames {a} to {b - 1} ({(b - a) / fps:.2f} s)" for a, b in missing]
-    which = [names[point] for point in sorted(used & gaps.open.keys())]
+    hidden = [names[point] for point in sorted(used & gaps.open.keys())]
     note = (
-        f"the body is not seen whole in {_listed(spans)}, for gaps above {LONGEST_S} s in "
-        f"{_listed(which)}: the recording is split there"
+        f"the body is not seen whole in {listed(spans)}, for gaps above {LONGEST_S} s in "
+        f"{listed(hidden)}: the recording is split there"
     )
     return [Note(note, "warning")]
 
@@ -190,13 +187,13 @@ def _gaps_notes(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) ->
         )
     never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
     if never:
-        notes.append(f"never seen, left out: {_listed([names[p] for p in never])}")
+        notes.append(f"never seen, left out: {listed([names[p] for p in never])}")
     broken = [p for p in gaps.open if p not in never and p not in kept]
     if broken:
         parts = [
             f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken
         ]
-        left_out = f"left out for gaps above {LONGEST_S} s: {_listed(parts)}"
+        left_out = f"left out for gaps above {LONGEST_S} s: {listed(parts)}"
         notes.append(Note(left_out, "warning"))
     return notes
 
@@ -206,7 +203,7 @@ def _tree(
     positions: Floats,
     body: Body,
     kept: list[int],
-    seen: NDArray[np.bool_],
+    is_visible: NDArray[np.bool_],
 ) -> tuple[Skeleton, Floats]:
     """The skeleton and its joints' positions: the body's joints first, then the points."""
     if not {"pelvis", "left_hip", "right_hip"} <= body.keys():
@@ -219,12 +216,7 @@ def _tree(
     placed = np.concatenate([np.stack(middles, axis=1), positions[:, rest]], axis=1)
     parents = [joints.index(PARENTS[joint] or "") if PARENTS[joint] else -1 for joint in joints]
     parents += [0] * len(rest)
-    upright_pose = placed[(np.ptp(placed[:, :, 1], axis=1) * seen).argmax()]
+    upright_pose = placed[(np.ptp(placed[:, :, 1], axis=1) * is_visible).argmax()]
     offsets = upright_pose - upright_pose[parents]
     offsets[0] = 0
     return Skeleton((*joints, *(names[i] for i in rest)), tuple(parents), offsets), placed
-
-
-def _listed(items: list[str], most: int = 8) -> str:
-    more = len(items) - most
-    return ", ".join(items[:most]) + (f" and {more} more" if more > 0 else "")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from kineme._checks import check_path, check_type
-from kineme._doors import reading
+from kineme._files import reading
 from kineme.errors import ReadError, WriteError
 from kineme.formats.files import FileContent, load, warn
 from kineme.formats.options import AnyPath, ReadOptions
@@ -100,6 +100,12 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
     Returns
     -------
     Motion or Signals
+
+    Examples
+    --------
+    >>> import kineme
+    >>> read_quietly(kineme.bundled_recording()).provenance.warnings
+    ()
     """
     check_path(path, "read")
     options = options or ReadOptions()
@@ -122,6 +128,12 @@ def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
     -------
     Signals or None
         All of them, at their own rate; None where there are none.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> read_analog(kineme.bundled_recording(), ReadOptions()) is None
+    True
     """
     with reading(path):
         if Path(path).is_dir():
@@ -152,6 +164,13 @@ def sketch(path: AnyPath, options: ReadOptions, most: int) -> Sketch | None:
     -------
     Sketch or None
         None where the format has none, or the file no more frames than that.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> shown = sketch(kineme.bundled_recording(), ReadOptions(), 10)
+    >>> shown.motion.n_frames, shown.n_frames
+    (10, 2898)
     """
     with reading(path):
         if Path(path).is_dir():
@@ -178,6 +197,12 @@ def read_motion(path: AnyPath, **options: Any) -> Motion:
     ------
     ReadError
         The file holds signals; or as `read`.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> read_motion(kineme.bundled_recording()).skeleton
+    <Skeleton of 26 joints, 5 of them end sites>
     """
     recording = read(path, **options)
     if not isinstance(recording, Motion):
@@ -198,6 +223,13 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
     WriteError
         Unknown suffix, a recording the format cannot hold, or a place that cannot be
         written.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> kineme.write(kineme.read(kineme.bundled_recording())[:60], "second.bvh")
+    >>> kineme.read("second.bvh").duration
+    1.0
     """
     check_type(recording, (Motion, Signals), "write", "kineme.read(path) gives one")
     check_path(path, "write")

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from kineme._checks import check_suffixes
 from kineme._files import HEAD
@@ -27,21 +27,11 @@ from kineme.recordings import Motion, Signals
 
 @dataclass(frozen=True)
 class Sketch:
-    """What a long file shows of itself before it is read.
+    """What a long file shows of itself before it is read."""
 
-    Parameters
-    ----------
-    motion : Motion
-        Of few frames, evenly apart.
-    n_frames : int
-        That the file says it has.
-    fps : float
-        Those in a second.
-    """
-
-    motion: Motion
-    n_frames: int
-    fps: float
+    motion: Motion  # of few frames, evenly apart
+    n_frames: int  # that the file says it has
+    fps: float  # those in a second
 
 
 @dataclass(frozen=True)
@@ -73,6 +63,13 @@ class Format:
     sketch : callable, optional
         From `FileContent`, `ReadOptions` and a number of frames to a `Sketch` of so many at most,
         much sooner than ``read``; None where that cannot be.
+
+    Examples
+    --------
+    >>> def levels(content, options):
+    ...     return Signals([float(word) for word in content.text.split()], options.fps or 100.0)
+    >>> Format("levels", (".lvl",), lambda head: False, levels, channels=True).suffixes
+    ('.lvl',)
     """
 
     name: str
@@ -88,15 +85,6 @@ class Format:
 
     def __post_init__(self) -> None:
         check_suffixes(self.suffixes, self.name)
-
-
-class Candidate(Protocol):
-    """What a file may be in."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def recognises(self) -> Callable[..., bool]: ...
 
 
 _EXPORT = "export BVH or C3D from the program that made it"
@@ -147,6 +135,13 @@ def register(new: Format, *, replace: bool = False) -> None:
     ------
     ParameterError
         There is a format of this name, or it is none.
+
+    Examples
+    --------
+    >>> register(Format("levels", (".lvl",), lambda head: False))
+    >>> supported_formats()[0].name
+    'levels'
+    >>> FORMATS.remove("levels")
     """
     FORMATS.register(new, replace=replace)
 
@@ -171,7 +166,9 @@ def recognise(content: FileContent) -> Format:
     head = content.data[:HEAD]
     suffix = content.path.suffix.lower()
     formats = supported_formats()
-    by_content = [candidate for candidate in formats if speaks(candidate, head)]
+    by_content = [
+        candidate for candidate in formats if speaks(candidate.name, candidate.recognises, head)
+    ]
     by_suffix = [candidate for candidate in formats if suffix in candidate.suffixes]
     if suffix in INSTEAD and not by_suffix:
         raise ReadError(content.path, f"{suffix} is not read: {INSTEAD[suffix]}")
@@ -185,11 +182,11 @@ def recognise(content: FileContent) -> Format:
     )
 
 
-def speaks(candidate: Candidate, *evidence: Any) -> bool:
-    """Whether a file looks like a format or dialect; one that cannot tell costs itself only."""
+def speaks(name: str, recognises: Callable[..., bool], *evidence: Any) -> bool:
+    """Whether a format or dialect knows a file; one that cannot tell costs itself only."""
     try:
-        return candidate.recognises(*evidence)
+        return recognises(*evidence)
     except Exception as error:  # noqa: BLE001 (whatever a stranger's format raises)
         reason = f"{type(error).__name__}: {error}"
-        warn(f"the format {candidate.name} is passed over, it cannot tell its files: {reason:.200}")
+        warn(f"the format {name} is passed over, it cannot tell its files: {reason:.200}")
         return False

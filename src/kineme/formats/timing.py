@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._clock import Clock
-from kineme._counts import counted
+from kineme._counts import counted, listed
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import LONGEST_S, spans_of
 
@@ -95,19 +95,9 @@ def date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
 def table_timing(
     content: FileContent, columns: Mapping[str, ArrayLike], fps: float | None = None
 ) -> Timing:
-    """Frames per second, pauses, and what was seen of the times.
+    """Frames per second, pauses, and what was seen of the times; ``fps`` stands in place of these.
 
-    Parameters
-    ----------
-    columns : mapping of str to array_like
-        (rows,) each, by their names; one of them tells the time or the rate.
-    fps : float, optional
-        In place of what the columns tell.
-
-    Raises
-    ------
-    ReadError
-        Nothing tells the rate, or what does contradicts itself.
+    ReadError where no column tells the rate, or one contradicts itself.
     """
     if fps:
         return Timing(fps)
@@ -117,7 +107,9 @@ def table_timing(
     for column in columns:
         if match := _TIME.fullmatch(column.strip()):
             timing = timing_of(content, _times(content, columns, column, match[2]))
-            return _in_seconds(content, timing)
+            if timing.fps <= _SLOWEST:
+                raise content.error(_hardly_seconds(timing.fps))
+            return timing
     raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
 
 
@@ -135,20 +127,11 @@ def numbers_in(
 
 
 def timing_of(content: FileContent, times: Floats) -> Timing:
-    """The frame rate, the pauses, and what was seen of uneven times.
+    """The frame rate, the pauses, and what was seen of uneven times, in seconds; NaN has none.
 
     A rate within a millionth of whole thousandths of a hertz is taken as such, and so is
-    one that the times, as large as they are, cannot tell from it.
-
-    Parameters
-    ----------
-    times : ndarray of shape (rows,)
-        Seconds, NaN where a row has none.
-
-    Raises
-    ------
-    ReadError
-        Times stand still, are in no order, or are too few to tell a rate.
+    one that the times, as large as they are, cannot tell from it. ReadError where times stand
+    still, are in no order, or are too few to tell a rate.
     """
     finite = np.isfinite(times)
     if finite.sum() < 2 or finite.mean() < 0.5:
@@ -188,24 +171,13 @@ def timing_of(content: FileContent, times: Floats) -> Timing:
 def seconds(values: ArrayLike, unit: str | None = None) -> Floats:
     """Times as seconds: numbers, dates of numpy and pandas, or text; NaN where there is none.
 
-    Parameters
-    ----------
-    values : array_like of shape (rows,)
-    unit : str, optional
-        Of numbers, one of `UNITS_OF_TIME`; None for seconds, or what numbers of this size since
-        1970 must be.
-
-    Raises
-    ------
-    ValueError
-        Text that is no date, or anything else that is no time.
-    TypeError
-        The same.
+    The unit is one of `UNITS_OF_TIME`; None for seconds, or what numbers of this size since 1970
+    must be. ValueError or TypeError where they are no times.
     """
     times = np.asarray(values)
     if times.dtype.kind in "mM":
-        whole = times.astype(f"{times.dtype.kind}8[ns]")
-        return np.where(np.isnat(whole), np.nan, whole.astype(np.int64) / 1e9)
+        stamps = times.astype(f"{times.dtype.kind}8[ns]")
+        return np.where(np.isnat(stamps), np.nan, stamps.astype(np.int64) / 1e9)
     if times.dtype.kind in "OUS" and any(isinstance(value, str) for value in times.ravel()[:9]):
         return np.array([_nan_or_date(value) for value in times.tolist()])
     numbers = np.asarray(times, np.float64)
@@ -248,16 +220,13 @@ def _times(
     return numbers_in(content, {name: times}, name)
 
 
-def _in_seconds(content: FileContent, timing: Timing) -> Timing:
-    """What the times tell, refused where they are so far apart that they are hardly seconds."""
-    rate = timing.fps
-    if rate <= _SLOWEST:
-        unit = next((unit for unit in _FINER if rate * _FINER[unit] > _SLOWEST), "milliseconds")
-        raise content.error(
-            f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
-            f"(--fps; {rate * _FINER[unit]:g} for {unit})"
-        )
-    return timing
+def _hardly_seconds(rate: float) -> str:
+    """What to do about times that are so far apart that they are hardly seconds."""
+    unit = next((unit for unit in _FINER if rate * _FINER[unit] > _SLOWEST), "milliseconds")
+    return (
+        f"its times are {1 / rate:g} apart; if these are not seconds, give fps "
+        f"(--fps; {rate * _FINER[unit]:g} for {unit})"
+    )
 
 
 def _one_rate(content: FileContent, rates: Floats) -> float:
@@ -312,8 +281,8 @@ def _period(steps: Floats, jumps: NDArray[np.bool_]) -> float:
     if median > 0 and ordinary.mean() >= _MOST:
         period = float(steps[ordinary].mean())
         lasted = float(steps[~jumps].sum())
-        whole = period * float(np.maximum(np.rint(steps[~jumps] / period), 1).sum())
-        if abs(whole - lasted) <= _ADDS_UP * lasted:
+        expected = period * float(np.maximum(np.rint(steps[~jumps] / period), 1).sum())
+        if abs(expected - lasted) <= _ADDS_UP * lasted:
             return period
     changes = np.flatnonzero(steps > 0)
     between = slice(changes[0] + 1, changes[-1] + 1) if len(changes) > 1 else slice(None)
@@ -333,15 +302,11 @@ def _unevenness(steps: Floats, jumps: NDArray[np.bool_], period: float, fps: flo
     if not jumps.any():
         return sentence
     at = np.flatnonzero(jumps)
-    shown = [f"{steps[i]:.4g} s after frame {i}" for i in at[:4].tolist()]
-    more = f" and {len(at) - 4} more" if len(at) > 4 else ""
-    return (
-        f"{sentence}; times jump {', '.join(shown)}{more}: the recording is split there, "
-        "and seconds count frames"
-    )
+    shown = listed([f"{steps[i]:.4g} s after frame {i}" for i in at.tolist()], most=4)
+    return f"{sentence}; times jump {shown}: the recording is split there, and seconds count frames"
 
 
 def _rounded(fps: float, share: float) -> float:
     """The rate to thousandths of a hertz where it is within this share of that."""
-    whole = round(fps, 3)
-    return whole if whole > 0 and abs(fps - whole) <= share * fps else fps
+    rounded = round(fps, 3)
+    return rounded if rounded > 0 and abs(fps - rounded) <= share * fps else fps

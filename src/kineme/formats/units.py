@@ -53,6 +53,10 @@ SPREADS = (0.3, 3.0)
 """Metres over which markers on a person spread, in the middle of the recording:
 a factor of ten, as between two of m, cm and mm."""
 
+METRIC = ("m", "cm", "mm")
+"""The units of markers and of most files."""
+
+_METRES = re.compile("(centi|milli)?met(?:er|re)s?")
 _HEAD = re.compile("head", re.IGNORECASE)
 _FOOT = re.compile("foot|feet|toe|ankle", re.IGNORECASE)
 _HEIGHT = 1.7  # metres, given to a body measured in pixels
@@ -72,12 +76,9 @@ def metres(unit: str | float) -> float:
 def unit_named(word: str) -> str | None:
     """The unit that a file calls ``word`` ("mm", "Millimeters", "in"), or None."""
     word = word.strip().lower()
-    prefixes = {"": "m", "centi": "cm", "milli": "mm"}
-    longer = {
-        f"{p}met{e}{s}": u for p, u in prefixes.items() for e in ("er", "re") for s in ("", "s")
-    }
-    short = {"m": "m", "cm": "cm", "mm": "mm", "in": "inch", "inch": "inch", "inches": "inch"}
-    return (longer | short).get(word)
+    if metric := _METRES.fullmatch(word):
+        return {"centi": "cm", "milli": "mm"}.get(metric[1], "m")
+    return "inch" if word in ("in", "inch", "inches") else word if word in METRIC else None
 
 
 def upright(points: Floats, up: str) -> Floats:
@@ -119,11 +120,7 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
 def height_of(skeleton: Skeleton, means: Floats) -> float:
     """Three quarters of the longest path along the bones, in file units.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-    means : ndarray, shape (joints, 3)
-        Where each joint is in its parent's frame, in the mean.
+    ``means`` (joints, 3) is where each joint is in its parent's frame, on average.
     """
     return 0.75 * _longest_path(skeleton, np.linalg.norm(means, axis=1))
 
@@ -136,16 +133,8 @@ def infer_up(skeleton: Skeleton, positions: Floats) -> str:
         return "y"
     standing = np.broadcast_to(rot.IDENTITY, (1, skeleton.n_joints, 4))
     at_rest = forward_kinematics(skeleton, standing)
-    axes = []
-    for pose, least in ((at_rest, 0.9), (positions, 0.7)):
-        body = pose[:, head].mean(axis=1) - pose[:, feet].mean(axis=1)
-        length = np.linalg.norm(body, axis=1, keepdims=True)
-        along = np.median(body / np.where(length > 0, length, 1), axis=0)
-        axis = int(np.abs(along).argmax())
-        if abs(along[axis]) < least:
-            return "y"
-        axes.append(("-" if along[axis] < 0 else "") + "xyz"[axis])
-    return axes[0] if axes[0] == axes[1] else "y"
+    axis = _axis_of(at_rest, feet, head, 0.9)
+    return axis if axis and axis == _axis_of(positions, feet, head, 0.7) else "y"
 
 
 def rate_from_period(word: str) -> tuple[float, str | None]:
@@ -161,9 +150,8 @@ def rate_from_period(word: str) -> tuple[float, str | None]:
         return float(1 / period), None
     lowest, highest = ceil(1 / (period + half)), floor(1 / (period - half))
     if lowest == highest and float(1 / period) != lowest:
-        return float(
-            lowest
-        ), f"frame rate {lowest} Hz: the frame time {word} s is a rounded 1/{lowest}"
+        note = f"frame rate {lowest} Hz: the frame time {word} s is a rounded 1/{lowest}"
+        return float(lowest), note
     return float(1 / period), None
 
 
@@ -189,20 +177,17 @@ def scale_of(unit: str | float | None, positions: Floats) -> tuple[float, list[s
         return _HEIGHT / (spread or 1.0), [
             f"no unit: {spread:.3g}, the larger side of the body, taken as {_HEIGHT} m"
         ]
-    sizes = {name: UNITS[name] for name in ("m", "cm", "mm")}
-    fits = [name for name, size in sizes.items() if SPREADS[0] <= spread * size < SPREADS[1]]
-    if fits:
-        found = fits[0]
-    else:
-        found = "m" if spread < 1 else "mm"
-        remark = (
-            f"markers {spread:.3g} units apart are in no unit those of a person: "
-            f"{found} assumed; give unit= (--unit)"
-        )
-        return sizes[found], [Note(remark, "warning")]
-    return sizes[found], [
-        f"unit {found} inferred: the points then spread over {spread * sizes[found]:.2f} m"
-    ]
+    for name in METRIC:
+        size = UNITS[name]
+        if SPREADS[0] <= spread * size < SPREADS[1]:
+            note = f"unit {name} inferred: the points then spread over {spread * size:.2f} m"
+            return size, [note]
+    name = "m" if spread < 1 else "mm"
+    remark = (
+        f"markers {spread:.3g} units apart are in no unit those of a person: "
+        f"{name} assumed; give unit= (--unit)"
+    )
+    return UNITS[name], [Note(remark, "warning")]
 
 
 def up_axis(usual: str, positions: Floats, body: Body) -> tuple[str, list[str]]:
@@ -210,11 +195,18 @@ def up_axis(usual: str, positions: Floats, body: Body) -> tuple[str, list[str]]:
     head = list(body.get("head", ()))
     feet = [i for joint in ("left_ankle", "right_ankle") for i in body.get(joint, ())]
     if head and feet:
-        trunk = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
-        length = np.linalg.norm(trunk, axis=1, keepdims=True)
-        along = np.median(trunk / np.where(length > 0, length, 1), axis=0)
-        axis = int(np.abs(along).argmax())
-        if abs(along[axis]) > 0.7:
-            up = ("-" if along[axis] < 0 else "") + "xyz"[axis]
+        up = _axis_of(positions, feet, head, 0.7)
+        if up is not None:
             return up, [f"up axis {up} inferred: head and feet lie along it"]
     return usual, [f"up axis {usual} assumed; give up= if it is another"]
+
+
+def _axis_of(positions: Floats, feet: list[int], head: list[int], least: float) -> str | None:
+    """The axis that points from feet to head, ``-z`` among them, for a share at least."""
+    body = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
+    length = np.linalg.norm(body, axis=1, keepdims=True)
+    direction = np.median(body / np.where(length > 0, length, 1), axis=0)
+    axis = int(np.abs(direction).argmax())
+    if abs(direction[axis]) < least:
+        return None
+    return ("-" if direction[axis] < 0 else "") + "xyz"[axis]

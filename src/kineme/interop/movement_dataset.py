@@ -22,9 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.errors import MissingDependencyError, ParameterError, ReadError
-from kineme.formats.columns import SURE
+from kineme.formats.columns import LIMIT
 from kineme.formats.files import FileContent, warn
-from kineme.formats.gaps import split_at
+from kineme.formats.gaps import covered, split_at
 from kineme.formats.points import Points, to_motion
 from kineme.formats.timing import Timing, timing_of
 from kineme.recordings import Motion, Provenance
@@ -70,11 +70,9 @@ def to_movement(
         import xarray as xr
     except ImportError as error:
         raise MissingDependencyError("xarray", "xarray") from error
-    present = np.ones(motion.n_frames)
-    for start, stop in motion.gaps:
-        present[start:stop] = 0.0
-    positions = np.where(present[:, None, None] > 0, motion.positions, np.nan)
-    confidence = np.repeat(present[:, None], motion.skeleton.n_joints, axis=1)
+    missing = covered(motion.gaps, motion.n_frames)
+    positions = np.where(missing[:, None, None], np.nan, motion.positions)
+    confidence = np.repeat(1.0 - missing[:, None], motion.skeleton.n_joints, axis=1)
     variables: dict[str, Any] = {
         "position": (DIMS, positions.transpose(0, 2, 1)[..., None]),
         "confidence": (("time", "keypoints", "individuals"), confidence[..., None]),
@@ -108,7 +106,7 @@ def from_movement(
     fps: float | None = None,
     unit: str | float | None = None,
     up: str | None = None,
-    confidence: float = SURE,
+    confidence: float = LIMIT,
 ) -> Motion:
     """The motion of one individual of a poses dataset, in metres with y up.
 

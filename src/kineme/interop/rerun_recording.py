@@ -21,6 +21,7 @@ import numpy as np
 from kineme._colors import cluster_color
 from kineme._files import atomic_write
 from kineme.errors import MissingDependencyError, ParameterError
+from kineme.formats.gaps import covered
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion
 from kineme.segments.table import Level
@@ -90,10 +91,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
     )
     recording.log("body/joints", names, static=True)
     recording.log("body/bones", rr.LineStrips3D.from_fields(radii=BONE_RADIUS), static=True)
-    present = np.ones(motion.n_frames, np.bool_)
-    for start, stop in motion.gaps:
-        present[start:stop] = False
-    frames = np.flatnonzero(present)
+    frames = np.flatnonzero(~covered(motion.gaps, motion.n_frames))
     positions = motion.positions[frames].astype(np.float32)
     joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
     times = _times(frames, motion.fps)

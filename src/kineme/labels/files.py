@@ -10,7 +10,7 @@ from pathlib import Path
 
 from kineme._checks import check_path, check_type, is_number
 from kineme._clock import Clock
-from kineme._doors import reading
+from kineme._files import reading
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.labels.clock_times import by_clock
 from kineme.labels.label_format import LabelFormat

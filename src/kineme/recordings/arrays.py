@@ -17,27 +17,10 @@ Error = type[ParameterError | MotionError]
 def frozen(
     values: ArrayLike, what: str, *, row: str = "frame", error: Error = ParameterError
 ) -> NDArray[np.float64]:
-    """The values as a read-only view: float64, C-contiguous, finite.
+    """The values as a read-only view: float64, C-contiguous, finite; ``error`` where they are not.
 
-    Parameters
-    ----------
-    values : array_like
-        A contiguous float64 array is not copied.
-    what : str
-        What they are called in a message.
-    row : str
-        What their first axis counts.
-    error : type
-        What is raised.
-
-    Returns
-    -------
-    ndarray of float64
-
-    Raises
-    ------
-    MotionError or ParameterError
-        They are no numbers, or one of them is not finite.
+    A contiguous float64 array is not copied. ``what`` is what messages call them, ``row`` what
+    their first axis counts.
     """
     array = np.ascontiguousarray(as_floats(values, what, error=error)).view()
     finite = np.isfinite(array)

@@ -28,7 +28,7 @@ def forward_kinematics(
     *,
     translations: ArrayLike | None = None,
 ) -> Floats:
-    """Where the joints are, from how they are turned.
+    """Where the joints are (frames, joints, 3), from how they are turned.
 
     Parameters
     ----------
@@ -40,10 +40,6 @@ def forward_kinematics(
     translations : array_like, shape (frames, joints, 3), optional
         In place of the skeleton's offsets, for joints that slide as well as turn (a root's
         is its position).
-
-    Returns
-    -------
-    ndarray, shape (frames, joints, 3)
 
     Examples
     --------
@@ -76,22 +72,9 @@ def forward_kinematics(
 
 
 def world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> Floats:
-    """How each joint is turned in the world; end sites take their parent's.
+    """How each joint is turned in the world (frames, joints, 4); end sites take their parent's.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-    rotations : array_like, shape (frames, joints, 4)
-        Local to the parent; None, as a motion of positions only has them, is refused.
-
-    Returns
-    -------
-    ndarray, shape (frames, joints, 4)
-
-    Raises
-    ------
-    MotionError
-        There are no rotations.
+    ``rotations`` are local to the parent; MotionError where a motion has none.
     """
     if rotations is None:
         raise MotionError("this motion has positions only: it has no rotations to work with")
@@ -105,25 +88,10 @@ def world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> Floats:
 def local_translations(
     skeleton: Skeleton, positions: Floats, rotations: ArrayLike | None
 ) -> Floats:
-    """From parent to joint in the parent's frame; a root's position.
+    """From parent to joint in the parent's frame (frames, joints, 3); a root's position.
 
-    Equal to the skeleton's offsets wherever bones are rigid.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-    positions : ndarray, shape (frames, joints, 3)
-    rotations : array_like, shape (frames, joints, 4)
-        Local to the parent.
-
-    Returns
-    -------
-    ndarray, shape (frames, joints, 3)
-
-    Raises
-    ------
-    MotionError
-        There are no rotations.
+    Equal to the skeleton's offsets wherever bones are rigid. ``rotations`` are local to the parent;
+    MotionError where a motion has none.
     """
     world = world_rotations(skeleton, rotations)
     local = np.array(positions)

@@ -110,25 +110,7 @@ class Motion(Recording):
         translations: ArrayLike | None = None,
         provenance: Provenance | None = None,
     ) -> Motion:
-        """The motion whose positions follow from rotations.
-
-        Parameters
-        ----------
-        skeleton : Skeleton
-        rotations : array_like, shape (frames, joints, 4)
-            Unit quaternions (w, x, y, z), local to the parent.
-        fps : float
-            Frames per second.
-        root_positions : array_like, shape (frames, 3), optional
-            Where the root is.
-        translations : array_like, shape (frames, joints, 3), optional
-            In place of the skeleton's offsets, see `forward_kinematics`.
-        provenance : Provenance, optional
-
-        Returns
-        -------
-        Motion
-        """
+        """The motion whose positions follow from rotations; see `forward_kinematics`."""
         positions = forward_kinematics(
             skeleton, rotations, root_positions, translations=translations
         )

@@ -23,24 +23,7 @@ _STYLE = 'fill="none" stroke="currentColor" stroke-width="1" stroke-linejoin="ro
 def page_of(
     title: str, picture: str, facts: Sequence[tuple[str, str]], provenance: Provenance
 ) -> str:
-    """What a notebook shows of a recording.
-
-    Parameters
-    ----------
-    title : str
-        Its repr.
-    picture : str
-        SVG.
-    facts : sequence of (str, str)
-        Names and values.
-    provenance : Provenance
-        Its file, and the notes that are warnings.
-
-    Returns
-    -------
-    str
-        HTML.
-    """
+    """The HTML that a notebook shows: a repr, an SVG, facts, the file and its warnings."""
     rows = [*facts, *([("file", provenance.path)] if provenance.path else [])]
     rows += [("warning", note) for note in provenance.warnings]
     cells = "".join(
@@ -52,19 +35,7 @@ def page_of(
 
 
 def poses_svg(skeleton: Skeleton, positions: Floats) -> str:
-    """Poses of a body, evenly spaced in time, side by side, seen from its broader side.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-    positions : ndarray, shape (frames, joints, 3)
-        Metres, y up.
-
-    Returns
-    -------
-    str
-        SVG.
-    """
+    """Poses of a body, evenly spaced in time, side by side, seen from its broader side: an SVG."""
     at = np.linspace(0, len(positions) - 1, min(_POSES, len(positions))).round().astype(int)
     poses = positions[at] - positions[at].mean(axis=1, keepdims=True)
     wide, deep = np.ptp(poses[..., [0, 2]], axis=1).mean(axis=0)
@@ -87,17 +58,7 @@ def poses_svg(skeleton: Skeleton, positions: Floats) -> str:
 
 
 def channels_svg(values: Floats) -> str:
-    """The first channels of signals over time, one below the other, each in its own range.
-
-    Parameters
-    ----------
-    values : ndarray, shape (frames, channels)
-
-    Returns
-    -------
-    str
-        SVG.
-    """
+    """The first channels over time, one below the other, each in its own range: an SVG."""
     at = np.linspace(0, len(values) - 1, min(_SAMPLES, len(values))).round().astype(int)
     shown = values[at, :_CHANNELS]
     band = _HEIGHT / shown.shape[1]

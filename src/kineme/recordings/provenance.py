@@ -87,44 +87,15 @@ class Provenance:
         return tuple(note for note in self.notes if note.severity == "warning")
 
     def noted(self, *notes: Note | str) -> Provenance:
-        """The same with notes added.
-
-        Parameters
-        ----------
-        *notes : Note or str
-            Plain texts become notes of severity "info".
-
-        Returns
-        -------
-        Provenance
-        """
+        """The same with notes added; plain texts become notes of severity "info"."""
         return replace(self, notes=self.notes + _as_notes(notes))
 
     def marked(self, events: Iterable[tuple[float, str]]) -> Provenance:
-        """The same with these events in place of its own.
-
-        Parameters
-        ----------
-        events : iterable of (float, str)
-            Seconds and labels.
-
-        Returns
-        -------
-        Provenance
-        """
+        """The same with these events, seconds and labels, in place of its own."""
         return replace(self, events=tuple(events))
 
     def timed(self, clock: Clock | None) -> Provenance:
-        """The same with this clock in place of its own.
-
-        Parameters
-        ----------
-        clock : Clock or None
-
-        Returns
-        -------
-        Provenance
-        """
+        """The same with this clock in place of its own."""
         return replace(self, clock=clock)
 
 

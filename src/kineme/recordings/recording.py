@@ -79,28 +79,13 @@ class Recording(Protocol):
         return np.arange(self.n_frames) / self.fps
 
     def spans(self) -> list[tuple[int, int]]:
-        """What the gaps leave of the recording.
-
-        Returns
-        -------
-        list of (int, int)
-            Frames [start, stop), in time order; the whole recording where it has no gaps.
-        """
+        """Frames [start, stop) that the gaps leave, in time order; without gaps, all of them."""
         starts = [0, *(stop for _, stop in self.gaps)]
         stops = [*(start for start, _ in self.gaps), self.n_frames]
         return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
 
     def noted(self, *notes: Note | str) -> Self:
-        """The same with notes added to the provenance.
-
-        Parameters
-        ----------
-        *notes : Note or str
-
-        Returns
-        -------
-        Motion or Signals
-        """
+        """The same with notes added to the provenance."""
         return replace(self, provenance=self.provenance.noted(*notes))  # type: ignore[type-var]
 
     def seconds(self, start: float = 0.0, stop: float | None = None) -> Self:
@@ -183,26 +168,9 @@ class Recording(Protocol):
 def as_gaps(
     gaps: Any, n_frames: int, *, error: type[ParameterError | MotionError] = ParameterError
 ) -> Spans:
-    """Gaps as a recording keeps them.
+    """Gaps as a recording of so many frames keeps them: pairs of frames [start, stop).
 
-    Parameters
-    ----------
-    gaps : iterable of (int, int)
-        Frames [start, stop).
-    n_frames : int
-        Of the recording.
-    error : type
-        What is raised.
-
-    Returns
-    -------
-    tuple of (int, int)
-
-    Raises
-    ------
-    MotionError or ParameterError
-        Gaps that are no pairs of frames, that are empty, out of order, touch each other or
-        reach out of the recording.
+    ``error`` where they are no pairs, empty, out of order, touch each other or reach out of it.
     """
     found = as_spans(gaps, error=error)
     before = -1

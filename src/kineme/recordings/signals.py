@@ -94,22 +94,7 @@ class Signals(Recording):
         return len(self.names)
 
     def select(self, names: Iterable[str]) -> Signals:
-        """Some of the channels.
-
-        Parameters
-        ----------
-        names : iterable of str
-            In the order wanted.
-
-        Returns
-        -------
-        Signals
-
-        Raises
-        ------
-        ParameterError
-            There is no channel of a name.
-        """
+        """These channels, in this order; ParameterError where there is none of a name."""
         selection = as_texts(names, "names of channels")
         for name in selection:
             if name not in self.names:

@@ -97,21 +97,7 @@ class Skeleton:
         return f"<Skeleton of {counted(self.n_joints, 'joint')}{ends}>"
 
     def joint(self, name: str) -> int:
-        """The index of the joint called ``name``.
-
-        Parameters
-        ----------
-        name : str
-
-        Returns
-        -------
-        int
-
-        Raises
-        ------
-        ParameterError
-            There is none; the message has the names closest to it.
-        """
+        """The index of the joint of this name; a ParameterError names those closest to it."""
         try:
             return self._index[name]
         except (KeyError, TypeError):

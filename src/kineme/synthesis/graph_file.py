@@ -27,8 +27,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from kineme._doors import reading
-from kineme._files import atomic_write
+from kineme._files import atomic_write, reading
 from kineme._json import loaded
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import read_motion

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from kineme._checks import check_type
 from kineme._counts import counted
-from kineme._doors import reading
+from kineme._files import reading
 from kineme.errors import ParameterError
 from kineme.features.canonical.matching import DIMS
 from kineme.features.effectors import Names

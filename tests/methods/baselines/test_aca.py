@@ -14,6 +14,7 @@ import kineme
 import naive
 from kineme.errors import MotionError, ParameterError
 from kineme.evaluation import Labelling
+from kineme.evaluation.annotations import read_trials
 from kineme.features.rotations import joint_quaternions, log_maps
 from kineme.methods import PRESETS
 from kineme.methods.baselines._kernels import (
@@ -25,8 +26,7 @@ from kineme.methods.baselines.aca import State, aca, improve, majority_segments
 from kineme.methods.baselines.haca import haca, haca_levels
 from kineme.methods.baselines.reduction import block_starts, frame_kernel
 from kineme.methods.baselines.segments import Segments
-from kineme.reproduction import read_trials
-from kineme.reproduction.benchmark import OF_TRIALS, aca_accuracy
+from kineme_reproduction.benchmark import OF_TRIALS, aca_accuracy
 
 SEEDS = st.integers(0, 2**32 - 1)
 ACA, HACA = PRESETS["aca"], PRESETS["haca"]

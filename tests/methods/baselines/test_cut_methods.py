@@ -14,12 +14,12 @@ import kineme
 import naive
 from kineme.errors import ParameterError
 from kineme.evaluation import Comparison, Labelling, border_score
+from kineme.evaluation.annotations import read_trials
 from kineme.features.rotations import joint_quaternions
 from kineme.methods import PRESETS
 from kineme.methods.baselines.gmm import gmm
 from kineme.methods.baselines.segments import Segments
 from kineme.methods.baselines.uniform import uniform
-from kineme.reproduction import read_trials
 
 SEEDS = st.integers(0, 2**32 - 1)
 

@@ -16,10 +16,10 @@ from kineme.datasets import bundled_recording, bundled_truth, random_recording
 from kineme.evaluation import evaluate_segmentation
 from kineme.recordings import Motion
 from kineme.recordings.operations import resample, scale
-from kineme.reproduction.benchmark import mean
-from kineme.reproduction.trials import find_folder, load_trials
 from kineme.segmentation.segmenter import segment
 from kineme.segments.segmentation import Segmentation
+from kineme_reproduction.benchmark import mean
+from kineme_reproduction.trials import find_folder, load_trials
 
 
 @cache

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
-from kineme.cli.help import METHOD, OUTPUT
+from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.method import SET, Constants, constants_of
 from kineme.cli.options.reading import Quiet
-from kineme.errors import WriteError
+from kineme.errors import KinemeError, WriteError
 from kineme.methods.presets import DEFAULT
 
 BENCHMARK = "cmu86"
 BENCH = "Benchmark"
 FOLDER = "A folder of recordings"
-OWN = "One result"
+RESULT = "One result"
 Mapped = Literal["recording", "folder"]
 
 
@@ -26,127 +27,111 @@ def evaluate(
         str,
         typer.Argument(
             metavar="cmu86|FOLDER|SEGMENTS",
-            help="The published benchmark; a folder of recordings; or one result: a segment table, "
-            "a table of intervals, or a .txt with one label per frame.",
+            help="The published benchmark, a part of its own (kineme-reproduction); a folder of "
+            "recordings; or one result: a segment table, a table of intervals, or a .txt with one "
+            "label per frame.",
         ),
     ],
     against: Annotated[
         Path | None,
-        typer.Option(
-            metavar="LABELS",
-            help="The truth: a table with start_s, stop_s, label; a .txt with one label per "
+        option(
+            RESULT,
+            "The truth: a table with start_s, stop_s, label; a .txt with one label per "
             "frame; a segment table; annotations.json or mocap.txt.",
-            rich_help_panel=OWN,
+            metavar="LABELS",
         ),
     ] = None,
     labels: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE|FOLDER",
-            help="What people say of the recordings: a table with recording, start_s, stop_s, "
+        option(
+            FOLDER,
+            "What people say of the recordings: a table with recording, start_s, stop_s, "
             "label; or a folder with a label file for each.",
-            rich_help_panel=FOLDER,
+            metavar="FILE|FOLDER",
         ),
     ] = None,
     mapping: Annotated[
         Mapped,
-        typer.Option(
-            help="Match clusters with labels in each recording by itself, or once for the whole "
+        option(
+            FOLDER,
+            "Match clusters with labels in each recording by itself, or once for the whole "
             "folder, whose clusters are joined before.",
-            rich_help_panel=FOLDER,
         ),
     ] = "recording",
     clusters: Annotated[
         int | None,
-        typer.Option(
+        option(
+            FOLDER,
+            "With --mapping folder: join the clusters of signals into so many; found out by "
+            "default.",
             metavar="N",
             min=1,
-            help="With --mapping folder: join the clusters of signals into so many; found out by "
-            "default.",
-            rich_help_panel=FOLDER,
         ),
     ] = None,
     columns: Annotated[
         str | None,
-        typer.Option(
+        option(
+            FOLDER,
+            "Segment these columns, instead of joints; * and ? are wildcards.",
             metavar="NAME,NAME,…",
-            help="Segment these columns, instead of joints; * and ? are wildcards.",
-            rich_help_panel=FOLDER,
         ),
     ] = None,
     without_columns: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAME,NAME,…",
-            help="Leave these columns of signals out, such as 'emg*'.",
-            rich_help_panel=FOLDER,
+        option(
+            FOLDER, "Leave these columns of signals out, such as 'emg*'.", metavar="NAME,NAME,…"
         ),
     ] = None,
     constants: Constants = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print JSON, of a folder.", rich_help_panel=OUTPUT)
-    ] = False,
-    fps: Annotated[
-        float | None,
-        typer.Option(help="Frames per second of .txt files.", rich_help_panel=OWN),
-    ] = None,
+    as_json: Annotated[bool, option(OUTPUT, "Print JSON, of a folder.", "--json")] = False,
+    fps: Annotated[float | None, option(RESULT, "Frames per second of .txt files.")] = None,
     recording: Annotated[
         Path | None,
-        typer.Option(
-            help="The recording, to tell how alike the segments of a cluster are; by default the "
+        option(
+            RESULT,
+            "The recording, to tell how alike the segments of a cluster are; by default the "
             "one that the segment table names.",
-            rich_help_panel=OWN,
         ),
     ] = None,
     method: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            METHOD,
+            "Presets to run, such as kineme,haca,uniform: by default kineme on a folder, all "
+            "on the benchmark. `kineme presets` lists them.",
             "--method",
             "--methods",
             "--preset",
             metavar="NAME,…",
-            help="Presets to run, such as kineme,haca,uniform: by default kineme on a folder, all "
-            "on the benchmark. `kineme presets` lists them.",
-            rich_help_panel=METHOD,
         ),
     ] = None,
     trial: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="NAME",
-            help="A recording of it, such as 86_01, by default all at hand; of one result, the "
+        option(
+            BENCH,
+            "A recording of it, such as 86_01, by default all at hand; of one result, the "
             "recording whose annotations are meant.",
-            rich_help_panel=BENCH,
+            metavar="NAME",
         ),
     ] = None,
     data: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FOLDER",
-            help="Where its recordings and annotations are; by default KINEME_DATA, else what "
+        option(
+            BENCH,
+            "Where its recordings and annotations are; by default KINEME_DATA, else what "
             "`kineme data cmu 86` fetched.",
-            rich_help_panel=BENCH,
+            metavar="FOLDER",
         ),
     ] = None,
     plot: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FOLDER", help="Draw each recording into this folder.", rich_help_panel=BENCH
-        ),
+        Path | None, option(BENCH, "Draw each recording into this folder.", metavar="FOLDER")
     ] = None,
     figures: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FOLDER",
-            help="Make the figures and tables of the paper anew.",
-            rich_help_panel=BENCH,
-        ),
+        option(BENCH, "Make the figures and tables of the paper anew.", metavar="FOLDER"),
     ] = None,
     output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output", "-o", help="Write all scores: .json or .csv.", rich_help_panel=OUTPUT
-        ),
+        Path | None, option(OUTPUT, "Write all scores: .json or .csv.", "--output", "-o")
     ] = None,
     quiet: Quiet = False,
 ) -> None:
@@ -187,14 +172,24 @@ def evaluate(
         else:
             if against is not None:
                 raise typer.BadParameter(f"{BENCHMARK} brings its own truth: leave out --against")
-            from kineme.cli.evaluate.benchmark import run_benchmark
-
-            records = run_benchmark(names, trial, data, plot, figures, quiet=quiet)
+            records = _benchmark()(names, trial, data, plot, figures, quiet=quiet)
         if output is not None:
             from kineme.evaluation.tables import write_records
 
             write_records(records, output)
     failures.exit()
+
+
+def _benchmark() -> Callable[..., list[dict[str, Any]]]:
+    """What runs the benchmark: it comes with a package of its own, which names it."""
+    from importlib.metadata import entry_points
+
+    for point in entry_points(group="kineme.benchmarks", name=BENCHMARK):
+        return point.load()  # type: ignore[no-any-return]
+    raise KinemeError(
+        f"{BENCHMARK} needs the package kineme-reproduction: in the folder of kineme's sources, "
+        "pip install ./reproduction"
+    )
 
 
 def _listed(*texts: str | None) -> tuple[str, ...]:

@@ -8,8 +8,9 @@ from typing import Any
 
 import typer
 
-from kineme.cli.evaluate.tables import show_table
+from kineme._counts import listed
 from kineme.cli.messages import progress
+from kineme.cli.tables import show_table
 from kineme.cli.terminal import harmless
 from kineme.errors import ParameterError
 from kineme.evaluation.folder import Evaluated, FolderScores, Mapped, evaluate_folder
@@ -71,8 +72,7 @@ def run_folder(
 
 def _tell(what: str, names: Sequence[str]) -> None:
     if names:
-        more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
-        typer.echo(harmless(f"{what}: {', '.join(names[:NAMED])}{more}"), err=True)
+        typer.echo(harmless(f"{what}: {listed(names, NAMED)}"), err=True)
 
 
 def _tell_of_recordings(result: FolderScores, *, quiet: bool) -> None:

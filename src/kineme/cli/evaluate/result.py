@@ -7,12 +7,12 @@ from typing import Any
 
 import typer
 
-from kineme.cli.evaluate.tables import show_one
+from kineme.cli.tables import show_scores
 from kineme.errors import KinemeError, ReadError
+from kineme.evaluation.annotations import is_annotations, read_trial
 from kineme.evaluation.inputs import comparison, read_result, read_truth, recording_of, score
 from kineme.formats import read, read_motion
 from kineme.recordings import Motion
-from kineme.reproduction.trials import is_annotations, read_trial
 from kineme.segments.segmentation import Segmentation
 
 
@@ -32,14 +32,16 @@ def score_file(
         recorded = (found.provenance.get("input") or {}).get("path") or ""
         truth = read_trial(labels, trials[0] if trials else Path(recorded).stem, fps=rate)
         if truth.frames != n_frames:
-            said, lasts = truth.frames / rate, n_frames / rate
-            raise ReadError(labels, f"speaks of {said:.2f} s, the result of {lasts:.2f} s")
+            seconds = truth.frames / rate
+            raise ReadError(
+                labels, f"speaks of {seconds:.2f} s, the result of {n_frames / rate:.2f} s"
+            )
     else:
         truth = read_truth(labels, found, fps=fps)
     motion, why = (read_motion(recording), "") if recording else _motion_of(found)
     scores = score(truth, found, motion)
     if not quiet:
-        show_one(path.name, scores)
+        show_scores(path.name, {"score": scores})
         if why:
             typer.echo(f"There are no distances within clusters: {why}")
     return [{"result": path.name, "truth": labels.name, **scores}]

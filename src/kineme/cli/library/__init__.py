@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from kineme.cli.on_demand import on_demand
+from kineme.cli.help import on_demand
 
 HOMES = {
     "build": "kineme.cli.library.build",

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import INPUT, OUTPUT, RECORDINGS
+from kineme._threads import n_threads
+from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
 from kineme.cli.library.commands import Scheduler, path_or_url
 from kineme.cli.messages import Failures, one_line, progress, say_skipped
 from kineme.cli.options.inputs import Batch
@@ -27,12 +28,12 @@ if TYPE_CHECKING:
 def build(
     into: Annotated[
         Path,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Folder or URL of the library, new or to be brought up to date.",
             "--into",
             parser=path_or_url,
             metavar="LIB",
-            help="Folder or URL of the library, new or to be brought up to date.",
-            rich_help_panel=OUTPUT,
         ),
     ],
     files: Annotated[
@@ -46,11 +47,11 @@ def build(
     ] = None,
     remove: Annotated[
         list[Path] | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Take these files or folders out of the library; may be given again.",
             parser=path_or_url,
             metavar="PATH",
-            help="Take these files or folders out of the library; may be given again.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     jobs: Annotated[
@@ -60,12 +61,12 @@ def build(
     scheduler: Scheduler = None,
     recursive: Annotated[
         bool | None,
-        typer.Option(
+        option(
+            INPUT,
+            "Whether to look into the folders of a folder, too.",
             "--recursive/--flat",
             "-r",
-            help="Whether to look into the folders of a folder, too.",
             show_default="as the last time",
-            rich_help_panel=INPUT,
         ),
     ] = None,
     detail: Annotated[float | None, DETAIL] = None,
@@ -88,7 +89,7 @@ def build(
         DEFAULT_DETAIL if detail is None else detail,
     )
     failures = Failures()
-    processes = _cores() if jobs is None else jobs
+    processes = jobs or n_threads()
     with failures.caught(into):
         if processes > 1 and scheduler is None and _is_much(files or (), into):
             from kineme.library.executors import start_soon
@@ -99,9 +100,8 @@ def build(
         from kineme.library.planning import known_sources
         from kineme.library.storage.places import is_remote
 
-        said = any((preset, constants, reading, effectors, detail))
         settings: Settings | None = None
-        if said:
+        if any((preset, constants, reading, effectors, detail)):
             settings = Settings(
                 preset or DEFAULT,
                 request.options.constants,
@@ -164,9 +164,3 @@ def _summary(built: Built) -> str:
     parts += [f"{built.removed} taken out"] * bool(built.removed)
     parts += [f"{len(built.failed)} failed"] * bool(built.failed)
     return ", ".join(parts)
-
-
-def _cores() -> int:
-    from kineme._threads import n_threads
-
-    return n_threads()

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import OUTPUT
+from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures, one_line
 
 if TYPE_CHECKING:
@@ -45,9 +45,7 @@ Folder = Annotated[
         help="Library that `kineme library build` made, a folder or a URL.",
     ),
 ]
-Json = Annotated[
-    bool, typer.Option("--json", help="Print JSON, one object a line.", rich_help_panel=OUTPUT)
-]
+Json = Annotated[bool, option(OUTPUT, "Print JSON, one object a line.", "--json")]
 Scheduler = Annotated[
     str | None,
     typer.Option(
@@ -73,10 +71,10 @@ def show(
     folder: Folder,
     pictures: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Write a strip of small figures for each cluster into this folder, as PNG.",
             metavar="FOLDER",
-            help="Write a strip of small figures for each cluster into this folder, as PNG.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     json: Json = False,
@@ -115,13 +113,7 @@ def query(
 def export(
     folder: Folder,
     output: Annotated[
-        Path,
-        typer.Option(
-            "--output",
-            "-o",
-            help="File to write: .parquet, .csv or .tsv.",
-            rich_help_panel=OUTPUT,
-        ),
+        Path, option(OUTPUT, "File to write: .parquet, .csv or .tsv.", "--output", "-o")
     ],
     table: Annotated[
         str,

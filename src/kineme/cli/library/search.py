@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._counts import counted
-from kineme.cli.help import OUTPUT
+from kineme.cli.help import OUTPUT, option
 from kineme.cli.library.commands import Folder, Json, Scheduler, opened
 from kineme.cli.options.reading import Quiet
 from kineme.cli.options.targets import make_folder_of
@@ -27,73 +27,52 @@ def search(
     folder: Folder,
     like: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar=SPAN,
-            help="An example: a recording, or the name of one in the library, and the seconds of "
+        option(
+            SOUGHT,
+            "An example: a recording, or the name of one in the library, and the seconds of "
             "it that count. May be given again: what is like any of them is found.",
-            rich_help_panel=SOUGHT,
+            metavar=SPAN,
         ),
     ] = None,
     start: Annotated[
-        float,
-        typer.Option(
-            metavar="SECONDS", help="Where a single --like starts.", rich_help_panel=SOUGHT
-        ),
+        float, option(SOUGHT, "Where a single --like starts.", metavar="SECONDS")
     ] = 0.0,
     stop: Annotated[
-        float | None,
-        typer.Option(
-            metavar="SECONDS",
-            help="Where it stops.",
-            show_default="its end",
-            rich_help_panel=SOUGHT,
-        ),
+        float | None, option(SOUGHT, "Where it stops.", metavar="SECONDS", show_default="its end")
     ] = None,
     cluster: Annotated[
         str | None,
-        typer.Option(
+        option(
+            SOUGHT,
+            "Search for what is typical of a cluster, by its number or name.",
             metavar="NAME",
-            help="Search for what is typical of a cluster, by its number or name.",
-            rich_help_panel=SOUGHT,
         ),
     ] = None,
     unlike: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar=SPAN,
-            help="Leave out what is more like this; may be given again.",
-            rich_help_panel=SOUGHT,
-        ),
+        option(SOUGHT, "Leave out what is more like this; may be given again.", metavar=SPAN),
     ] = None,
     mirror: Annotated[
-        bool,
-        typer.Option(
-            "--mirror",
-            help="Search for it with left and right exchanged as well.",
-            rich_help_panel=SOUGHT,
-        ),
+        bool, option(SOUGHT, "Search for it with left and right exchanged as well.", "--mirror")
     ] = False,
     threshold: Annotated[
         float | None,
-        typer.Option(
-            help="Largest distance, from 0 to 2; lower finds less, more of it right.",
+        option(
+            OUTPUT,
+            "Largest distance, from 0 to 2; lower finds less, more of it right.",
             show_default="0.85",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
-    top: Annotated[
-        int, typer.Option(min=1, help="How many to find, at most.", rich_help_panel=OUTPUT)
-    ] = 50,
+    top: Annotated[int, option(OUTPUT, "How many to find, at most.", min=1)] = 50,
     max_per_recording: Annotated[
-        int | None,
-        typer.Option(min=1, help="How many in one recording, at most.", rich_help_panel=OUTPUT),
+        int | None, option(OUTPUT, "How many in one recording, at most.", min=1)
     ] = None,
     export: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            OUTPUT,
+            "Folder to make: each as a clip, and a list of them, manifest.csv.",
             metavar="FOLDER",
-            help="Folder to make: each as a clip, and a list of them, manifest.csv.",
-            rich_help_panel=OUTPUT,
         ),
     ] = None,
     scheduler: Scheduler = None,

@@ -14,9 +14,9 @@ from typing import Annotated
 
 import typer
 
-from kineme.cli.help import INPUT, RECORDINGS
+from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.messages import one_line, progress, say_error, say_skipped
-from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for, targets_for
+from kineme.cli.options.targets import absolute, files_for, folders_for, tables_for
 from kineme.errors import KinemeError, ReadError, WriteError
 
 Files = Annotated[
@@ -27,9 +27,14 @@ Files = Annotated[
     ),
 ]
 Recursive = Annotated[
-    bool,
-    typer.Option(
-        "--recursive", "-r", help="Look into the folders of a folder, too.", rich_help_panel=INPUT
+    bool, option(INPUT, "Look into the folders of a folder, too.", "--recursive", "-r")
+]
+SegmentTable = Annotated[
+    Path | None,
+    option(
+        INPUT,
+        "Segment table or labels to take, instead of segmenting anew; of several recordings a "
+        "folder, or a path with {name} in it.",
     ),
 ]
 
@@ -38,17 +43,7 @@ SKELETON, MOTION = ".asf", ".amc"
 
 
 class Batch:
-    """The recordings of a command, each of which may fail by itself.
-
-    Parameters
-    ----------
-    given : list of Path
-        Files, and folders that stand for the recordings in them.
-    recursive : bool
-        Whether folders in folders count.
-    quiet : bool
-        Show no progress.
-    """
+    """The recordings of a command, given by themselves or by folder; each may fail by itself."""
 
     def __init__(self, given: list[Path], *, recursive: bool = False, quiet: bool = False):
         self._quiet = quiet
@@ -83,8 +78,9 @@ class Batch:
 
     def targets(self, option: str, given: Path | None, suffix: str) -> list[Path | None]:
         """Where the result of each recording goes; see `kineme.cli.options.targets`."""
-        with self._nothing_without():
-            return targets_for(option, given, self.paths, suffix)
+        if given is None:
+            return [None] * len(self.paths)
+        return [*self.files(option, given, suffix)]
 
     def files(self, option: str, given: Path, suffix: str = "") -> list[Path]:
         """The same where the option is never left out."""
@@ -98,8 +94,10 @@ class Batch:
 
     def tables(self, option: str, given: Path | None) -> list[Path | None]:
         """The table or label file that belongs to each recording."""
+        if given is None:
+            return [None] * len(self.paths)
         with self._nothing_without():
-            return tables_for(option, given, self.paths)
+            return [*tables_for(option, given, self.paths)]
 
     @contextmanager
     def caught(self, path: Path) -> Iterator[None]:
@@ -144,16 +142,16 @@ class Batch:
             if folder not in (path for path, _ in listing.passed_over):
                 alone = any(path.suffix.lower() == SKELETON for path in folder.iterdir())
                 why = "a skeleton (.asf) needs the motion (.amc) beside it" if alone else ""
-                told = filter(None, ("there is no recording in this folder", why, deeper))
-                self._messages.append((say_error, f"{folder}: {'; '.join(told)}"))
+                reasons = filter(None, ("there is no recording in this folder", why, deeper))
+                self._messages.append((say_error, f"{folder}: {'; '.join(reasons)}"))
         elif deeper:
             self._messages.append((say_skipped, f"{folder}: {deeper}"))
         return listing.recordings
 
     def _is_named(self, path: Path) -> bool:
         """Whether a recording was asked for by its own name, not found in a folder."""
-        own = absolute(path)
-        return any(absolute(origin) == own for origin in self._given_as[own])
+        place = absolute(path)
+        return any(absolute(origin) == place for origin in self._given_as[place])
 
     @contextmanager
     def _nothing_without(self) -> Iterator[None]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin
 
 import typer
 
-from kineme.cli.help import METHOD, PRESETS
+from kineme.cli.help import METHOD, PRESETS, option
 from kineme.errors import ParameterError
 from kineme.methods.presets import resolve_preset
 
@@ -21,46 +21,36 @@ if TYPE_CHECKING:
     from kineme.methods.constants import Constant
 
 SET = "--set"
-PRESET = typer.Option(
+PRESET = option(
+    METHOD,
+    f"How to segment: {PRESETS}. `kineme presets` says what each is for.",
     "--preset",
     metavar="NAME",
-    help=f"How to segment: {PRESETS}. `kineme presets` says what each is for.",
-    rich_help_panel=METHOD,
 )
 PresetName = Annotated[str, PRESET]
 Constants = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
+        METHOD,
+        "Change a constant of the preset, such as min_action=2; may be given again. "
+        "`kineme presets NAME` lists them.",
         SET,
         metavar="NAME=VALUE",
-        help="Change a constant of the preset, such as min_action=2; may be given again. "
-        "`kineme presets NAME` lists them.",
-        rich_help_panel=METHOD,
     ),
 ]
-DETAIL = typer.Option(
+DETAIL = option(
+    METHOD,
+    "Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as 0.5.",
     "--detail",
     metavar="NUMBER",
-    help="Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as "
-    "0.5.",
-    rich_help_panel=METHOD,
 )
 Detail = Annotated[float, DETAIL]
 
 
 def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:
-    """The constants in texts such as ``min_action=2``, checked.
+    """The constants in texts such as ``min_action=2``, checked; each preset takes those it has.
 
-    Parameters
-    ----------
-    presets : sequence of str
-        Names of those that they are for; each takes the constants that it has.
-    given : sequence of str
-
-    Raises
-    ------
-    typer.BadParameter
-        No such preset, a constant that none of them has, or a value that it cannot take.
+    typer.BadParameter names what is wrong: a preset, a constant that none has, or its value.
 
     Examples
     --------
@@ -73,13 +63,13 @@ def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]
     except ParameterError as error:
         raise typer.BadParameter(str(error), param_hint="--preset") from error
     try:
-        known = {each.name: each for preset in reversed(chosen) for each in preset.constants()}
-        for name in typed.keys() - known.keys():
+        constants = {each.name: each for preset in reversed(chosen) for each in preset.constants()}
+        for name in typed.keys() - constants.keys():
             resolve_preset(presets[0], signals=False, **{name: typed[name]})  # says which
-        values = {name: parsed(known[name], text) for name, text in typed.items()}
+        values = {name: parsed(constants[name], text) for name, text in typed.items()}
         for preset in chosen:
-            own = preset.parameters()
-            preset.replace(**{name: value for name, value in values.items() if name in own})
+            parameters = preset.parameters()
+            preset.replace(**{name: value for name, value in values.items() if name in parameters})
     except ParameterError as error:
         raise typer.BadParameter(str(error), param_hint=SET) from error
     return values
@@ -88,32 +78,27 @@ def constants_of(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]
 def _divided(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not equals:
-        told = f"give NAME=VALUE, such as min_action=2, not {text!r:.60}"
-        raise typer.BadParameter(told, param_hint=SET)
+        advice = f"give NAME=VALUE, such as min_action=2, not {text!r:.60}"
+        raise typer.BadParameter(advice, param_hint=SET)
     return name.strip().replace("-", "_"), value
 
 
 def parsed(constant: Constant, text: str) -> Any:
-    """A text as a value of the type that a constant has.
-
-    Raises
-    ------
-    ParameterError
-        It is none; the message says which would be.
+    """A text as a value of the type that a constant has; ParameterError says which would be one.
 
     Examples
     --------
     >>> from kineme.methods import PRESETS
-    >>> known = {each.name: each for each in PRESETS["voegele2014"].constants()}
-    >>> parsed(known["max_lag"], "none"), parsed(known["offsets"], "-0.1,0,0.1")
+    >>> constants = {each.name: each for each in PRESETS["voegele2014"].constants()}
+    >>> parsed(constants["max_lag"], "none"), parsed(constants["offsets"], "-0.1,0,0.1")
     (None, (-0.1, 0.0, 0.1))
     """
     try:
         return _value(constant.hint, text.strip())
     except (ValueError, KeyError):
         words = f"{_words(constant.hint)} {constant.allowed} {constant.unit}"
-        told = " ".join(words.split())
-        raise ParameterError(f"{constant.name} must be {told}, not {text!r:.60}") from None
+        advice = " ".join(words.split())
+        raise ParameterError(f"{constant.name} must be {advice}, not {text!r:.60}") from None
 
 
 def shown(value: Any) -> str:

@@ -15,80 +15,53 @@ from typing import Annotated, Any
 
 import typer
 
-from kineme.cli.help import INPUT, OUTPUT, UNSAID
+from kineme.cli.help import INPUT, OUTPUT, UNSAID, option
 from kineme.errors import ParameterError
 
-Skeleton = Annotated[
-    Path | None,
-    typer.Option(metavar="FILE", help="ASF skeleton of an AMC file.", rich_help_panel=UNSAID),
-]
-Fps = Annotated[
-    float | None,
-    typer.Option(help="Frames per second, in place of the file's.", rich_help_panel=UNSAID),
-]
+Skeleton = Annotated[Path | None, option(UNSAID, "ASF skeleton of an AMC file.", metavar="FILE")]
+Fps = Annotated[float | None, option(UNSAID, "Frames per second, in place of the file's.")]
 Unit = Annotated[
-    str | None,
-    typer.Option(
-        help="Unit of lengths: m, cm, mm, inch, cmu, or the metres in one unit.",
-        rich_help_panel=UNSAID,
-    ),
+    str | None, option(UNSAID, "Unit of lengths: m, cm, mm, inch, cmu, or the metres in one unit.")
 ]
 Up = Annotated[
-    str | None,
-    typer.Option(
-        metavar="AXIS", help="Axis that points up: x, y, z, -x, -y, -z.", rich_help_panel=UNSAID
-    ),
+    str | None, option(UNSAID, "Axis that points up: x, y, z, -x, -y, -z.", metavar="AXIS")
 ]
 Person = Annotated[
     str | None,
-    typer.Option(
-        metavar="NAME",
-        help="Which of several people in the file, by name or number.",
-        rich_help_panel=UNSAID,
-    ),
+    option(UNSAID, "Which of several people in the file, by name or number.", metavar="NAME"),
 ]
 Confidence = Annotated[
     float | None,
-    typer.Option(
-        help="Leave out points that a pose estimator is less sure of, such as 0.5.",
-        rich_help_panel=UNSAID,
-    ),
+    option(UNSAID, "Leave out points that a pose estimator is less sure of, such as 0.5."),
 ]
 Effectors = Annotated[
     str | None,
-    typer.Option(
-        metavar="NAME,NAME,…",
-        help="Joints to take for left ankle, right ankle, head, left wrist and right wrist, in "
+    option(
+        UNSAID,
+        "Joints to take for left ankle, right ankle, head, left wrist and right wrist, in "
         "this order; or some of them, as in left_wrist=NAME,head=NAME.",
-        rich_help_panel=UNSAID,
+        metavar="NAME,NAME,…",
     ),
 ]
 Columns = Annotated[
     str | None,
-    typer.Option(
-        metavar="NAME,NAME,…",
-        help="Take these columns of a table, or channels of a C3D, instead of joints; * and ? "
+    option(
+        INPUT,
+        "Take these columns of a table, or channels of a C3D, instead of joints; * and ? "
         "stand for any characters, as in acc_*.",
-        rich_help_panel=INPUT,
+        metavar="NAME,NAME,…",
     ),
 ]
 Emg = Annotated[
     bool,
-    typer.Option(
+    option(
+        INPUT,
+        "The columns are signals of muscles: take their envelopes. Of a C3D, only its muscles.",
         "--emg",
-        help="The columns are signals of muscles: take their envelopes. Of a C3D, only its "
-        "muscles.",
-        rich_help_panel=INPUT,
     ),
 ]
-Quiet = Annotated[
-    bool,
-    typer.Option("--quiet", "-q", help="Print warnings and errors only.", rich_help_panel=OUTPUT),
-]
-Json = Annotated[
-    bool,
-    typer.Option("--json", help="Print JSON, one line per recording.", rich_help_panel=OUTPUT),
-]
+Quiet = Annotated[bool, option(OUTPUT, "Print warnings and errors only.", "--quiet", "-q")]
+Json = Annotated[bool, option(OUTPUT, "Print JSON, one line per recording.", "--json")]
 
 BODY: dict[str, Any] = {
     "skeleton": Skeleton,
@@ -108,7 +81,7 @@ def with_reading_options(
 ) -> Callable[..., None]:
     """The command with these options; checked, they reach it as ``reading``."""
     signature = inspect.signature(command, eval_str=True)
-    own = [p for p in signature.parameters.values() if p.name != "reading"]
+    parameters = [p for p in signature.parameters.values() if p.name != "reading"]
     added = [
         inspect.Parameter(
             name,
@@ -124,8 +97,8 @@ def with_reading_options(
         given = {name: values.pop(name) for name in options}
         command(**values, reading=_checked(given))
 
-    wrapped.__signature__ = signature.replace(parameters=[*own, *added])  # type: ignore[attr-defined]
-    wrapped.__annotations__ = {p.name: p.annotation for p in (*own, *added)}
+    wrapped.__signature__ = signature.replace(parameters=[*parameters, *added])  # type: ignore[attr-defined]
+    wrapped.__annotations__ = {p.name: p.annotation for p in (*parameters, *added)}
     return wrapped
 
 
@@ -138,20 +111,20 @@ def _checked(given: dict[str, Any]) -> dict[str, Any]:
     """Keywords for `kineme.read`, before any file is opened."""
     from kineme.formats import ReadOptions
 
-    said = {
+    keywords = {
         name: value for name, value in given.items() if value is not None and value is not False
     }
     with suppress(KeyError, ValueError):
-        said["unit"] = float(said["unit"])
-    if "columns" in said:
-        said["columns"] = tuple(filter(None, map(str.strip, said["columns"].split(","))))
-        if not said["columns"]:
+        keywords["unit"] = float(keywords["unit"])
+    if "columns" in keywords:
+        keywords["columns"] = tuple(filter(None, map(str.strip, keywords["columns"].split(","))))
+        if not keywords["columns"]:
             raise typer.BadParameter("names no column", param_hint="--columns")
     try:
-        ReadOptions(**said)
+        ReadOptions(**keywords)
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
-    return said
+    return keywords
 
 
 def effector_names(text: str | None) -> Mapping[str, str] | list[str] | None:

@@ -27,17 +27,7 @@ Stage = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Request:
-    """The options of a command, checked.
-
-    Parameters
-    ----------
-    options : SegmentOptions
-        How recordings are segmented.
-    reading : dict of str to object
-        Keywords of `kineme.read` that were given.
-    detail : float
-        Of the result: 1 as found, less is coarser, more is finer.
-    """
+    """The options of a command, checked: how recordings are read and segmented, in what detail."""
 
     options: SegmentOptions
     reading: dict[str, Any]

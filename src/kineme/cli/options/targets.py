@@ -28,25 +28,8 @@ CORRECTED = ".segments.json"
 _FIELD = re.compile(r"\{(name|parent)\}")
 
 
-def targets_for(
-    option: str, given: Path | None, inputs: list[Path], suffix: str
-) -> list[Path | None]:
-    """One path per recording; None for each where the option was not given.
-
-    Raises
-    ------
-    WriteError
-        The folder to write to has none to lie in.
-    typer.BadParameter
-        One file for several recordings, or one that is a recording itself.
-    """
-    if given is None:
-        return [None] * len(inputs)
-    return [*files_for(option, given, inputs, suffix)]
-
-
 def files_for(option: str, given: Path, inputs: list[Path], suffix: str = "") -> list[Path]:
-    """The same where the option is never left out."""
+    """One path per recording, none of which is a recording itself."""
     pattern = given / f"{NAME}{suffix}" if _is_folder(given) else given
     paths = _one_each(option, pattern, inputs)
     recordings = {path.resolve() for path in inputs}
@@ -70,12 +53,10 @@ def folders_for(option: str, given: Path, inputs: list[Path], *, single: bool) -
     return paths
 
 
-def tables_for(option: str, given: Path | None, inputs: list[Path]) -> list[Path | None]:
+def tables_for(option: str, given: Path, inputs: list[Path]) -> list[Path]:
     """The table of each recording: a file, by a pattern, or that of its name in a folder."""
-    if given is None:
-        return [None] * len(inputs)
     if not _is_folder(given):
-        return list(_one_each(option, given, inputs))
+        return _one_each(option, given, inputs)
     if not given.exists() and not _FIELD.search(str(given)):
         raise ReadError(given, "there is no such file or folder")
     return [_kept(path, set(inputs)) for path in _one_each(option, given / NAME, inputs)]
@@ -183,5 +164,5 @@ def _kept(path: Path, recordings: set[Path]) -> Path:
     from kineme.labels import written_suffixes
 
     candidates = [path.with_name(path.name + suffix) for suffix in (CORRECTED, *written_suffixes())]
-    there = (file for file in candidates if file.is_file() and file not in recordings)
-    return next(there, candidates[0])
+    files = (file for file in candidates if file.is_file() and file not in recordings)
+    return next(files, candidates[0])

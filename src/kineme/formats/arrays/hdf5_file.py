@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from kineme._files import short
 from kineme.errors import MissingDependencyError
 from kineme.formats.files import FileContent
 
@@ -27,15 +28,7 @@ _DAMAGE = (
 
 
 def parse_hdf5(content: FileContent) -> dict[str, Any]:
-    """The contents of an HDF5 file by name.
-
-    Raises
-    ------
-    MissingDependencyError
-        h5py is not installed.
-    ReadError
-        It is no HDF5 file, or is damaged.
-    """
+    """The contents of an HDF5 file by name; ReadError where it is none or damaged."""
     try:
         import h5py
     except ImportError as error:
@@ -44,8 +37,7 @@ def parse_hdf5(content: FileContent) -> dict[str, Any]:
         with h5py.File(io.BytesIO(content.data), "r") as file:
             return _Reader(content, file).group(file, 0)
     except _DAMAGE as error:
-        reason = " ".join(str(error).split())
-        raise content.error(f"is no whole HDF5 file: {reason[:120]}") from error
+        raise content.error(f"is no whole HDF5 file: {short(error)}") from error
 
 
 class _Reader:
@@ -53,28 +45,22 @@ class _Reader:
 
     def __init__(self, content: FileContent, file: Any) -> None:
         self.content, self.file = content, file
-        self.held = 0
+        self.claimed = 0
         self.open: list[Any] = []  # the groups that the one being read is in
 
     def claim(self, size: int) -> None:
-        self.held += size
-        self.content.claim(self.held, "to unpack to much more than it holds")
+        self.claimed += size
+        self.content.claim(self.claimed, "to unpack to much more than it holds")
 
     def group(self, group: Any, depth: int) -> dict[str, Any]:
+        """What lies in a group, each time that it is linked to."""
+        import h5py
+
         if depth > _DEEPEST:
             raise ValueError("groups too deep in one another")
         if group in self.open:
             raise ValueError(f"its group {group.name!r:.60} is linked into itself")
         self.open.append(group)
-        try:
-            return self.linked(group, depth)
-        finally:
-            self.open.pop()
-
-    def linked(self, group: Any, depth: int) -> dict[str, Any]:
-        """What lies in a group, each time that it is linked to."""
-        import h5py
-
         found: dict[str, Any] = {}
         for name in group:
             if name.startswith("#"):  # MATLAB's references
@@ -84,6 +70,7 @@ class _Reader:
                 continue
             self.claim(_BYTES_PER_LINK)
             found[name] = self.value(group[name], depth)
+        self.open.pop()
         return found
 
     def value(self, item: Any, depth: int) -> Any:

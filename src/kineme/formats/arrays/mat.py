@@ -24,8 +24,8 @@ from kineme.formats.channels.reading import (
     ChannelTable,
     asked_for,
     channel_table,
+    columns_read,
     to_signals,
-    wanted_columns,
 )
 from kineme.formats.dialects import hold_channels
 from kineme.formats.files import FileContent
@@ -36,15 +36,8 @@ from kineme.recordings import Motion, Signals
 from kineme.recordings.coordinates import is_body
 
 _RATES = (
-    "fps",
-    "fs",
-    "rate",
-    "frame_rate",
-    "framerate",
-    "samplerate",
-    "sampling_rate",
-    "frequency",
-)
+    "fps", "fs", "rate", "frame_rate", "framerate", "samplerate", "sampling_rate", "frequency",
+)  # fmt: skip
 
 
 def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:
@@ -88,25 +81,9 @@ def arrays_of(variables: Mapping[str, Any]) -> dict[str, Array]:
 def channels_of(
     content: FileContent, arrays: Arrays, columns: Sequence[str] | None
 ) -> ChannelTable:
-    """The channels in a MAT file's arrays: those wanted, or those of the most usual length.
+    """The channels in a MAT file's arrays: those named, or those of the most usual length.
 
     A matrix is a channel for each column, ``NAME_1`` and so on; its longer side is time.
-
-    Parameters
-    ----------
-    content : FileContent
-    arrays : mapping of str to ndarray
-    columns : sequence of str or None
-        By name and in this order.
-
-    Returns
-    -------
-    ChannelTable
-
-    Raises
-    ------
-    ReadError
-        There is no such channel, or those wanted differ in length.
     """
     rates = {name.lower(): array for name, array in arrays.items() if array.ndim == 0}
     rate = next((float(rates[key]) for key in _RATES if key in rates), None)
@@ -125,11 +102,11 @@ def channels_of(
     if columns:
         length = len(channels[columns[0]])
     as_long = [name for name, channel in channels.items() if len(channel) == length]
-    wanted = wanted_columns(columns, as_long)
-    for name in wanted:
+    chosen = columns_read(columns, as_long)
+    for name in chosen:
         if name not in as_long:
-            raise content.error(f"column {name!r} is not as long as {wanted[0]!r}: choose one rate")
-    values = {name: np.asarray(channels[name], np.float64) for name in wanted}
+            raise content.error(f"column {name!r} is not as long as {chosen[0]!r}: choose one rate")
+    values = {name: np.asarray(channels[name], np.float64) for name in chosen}
     table = channel_table(content, as_long, values, columns)
     others = [name for name in channels if name not in as_long]
     if columns is None and others:

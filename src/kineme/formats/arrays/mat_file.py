@@ -32,17 +32,8 @@ Value = Any
 _HEADER = 128
 _MATRIX, _COMPRESSED = 14, 15
 _NUMBERS = {
-    1: "i1",
-    2: "u1",
-    3: "i2",
-    4: "u2",
-    5: "i4",
-    6: "u4",
-    7: "f4",
-    9: "f8",
-    12: "i8",
-    13: "u8",
-}
+    1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8",
+}  # fmt: skip
 _TEXTS = {16: "utf-8", 17: "utf-16", 18: "utf-32"}
 _CELL, _STRUCT, _CHAR, _NUMERIC = 1, 2, 4, range(6, 16)
 _COMPLEX = 0x08
@@ -55,13 +46,7 @@ class _DamagedError(ValueError):
 
 
 def parse_mat(content: FileContent) -> dict[str, Value]:
-    """The variables of a MAT file by name.
-
-    Raises
-    ------
-    ReadError
-        It is no MAT file of version 5, or is damaged.
-    """
+    """The variables of a MAT file by name; ReadError where it is none or damaged."""
     data = memoryview(content.data)
     order = {b"IM": "<", b"MI": ">"}.get(bytes(data[126:128]))
     if len(data) < _HEADER or order is None:

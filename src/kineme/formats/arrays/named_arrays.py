@@ -32,13 +32,7 @@ Arrays = Mapping[str, Array]
 def arrays_to_motion(
     content: FileContent, name: str, arrays: Arrays, options: ReadOptions
 ) -> Motion:
-    """The motion that named arrays describe; ``name`` is that of the format.
-
-    Raises
-    ------
-    ReadError
-        None of the kinds above, shapes that disagree, or no frame rate.
-    """
+    """The motion that named arrays describe; ``name`` is that of the format."""
     if "poses" in arrays:
         return poses_to_motion(content, arrays, options)
     if "positions" in arrays:
@@ -60,7 +54,7 @@ def positions_to_motion(
     fps = options.fps or _rate(content, arrays)
     complete = "parents" in arrays and "names" in arrays  # in metres with y up
     if complete and options.unit in (None, "m", 1) and options.up in (None, "y"):
-        return _whole(content, name, arrays, positions, fps)
+        return _as_written(content, name, arrays, positions, fps)
     usual = [f"joint{i}" for i in range(positions.shape[1])]
     names = list(map(str, arrays["names"].ravel())) if "names" in arrays else usual
     if len(names) != len(usual):
@@ -80,13 +74,15 @@ def _tracks(arrays: Arrays) -> Arrays:
     return {key: track for key, track in tracks.items() if len(track) == usual}
 
 
-def _whole(content: FileContent, name: str, arrays: Arrays, positions: Array, fps: float) -> Motion:
+def _as_written(
+    content: FileContent, name: str, arrays: Arrays, positions: Array, fps: float
+) -> Motion:
     """What kineme wrote, as it was."""
     n = positions.shape[1]
     offsets = _numbers(content, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
-    parents = _whole_numbers(content, arrays, "parents")
-    ends = _whole_numbers(content, arrays, "end_sites") if "end_sites" in arrays else []
-    gaps = _whole_numbers(content, arrays, "gaps") if "gaps" in arrays else []
+    parents = _integers(content, arrays, "parents")
+    ends = _integers(content, arrays, "end_sites") if "end_sites" in arrays else []
+    gaps = _integers(content, arrays, "gaps") if "gaps" in arrays else []
     names = tuple(unique(map(str, arrays["names"].ravel())))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
     rotations = _numbers(content, arrays, "rotations") if "rotations" in arrays else None
@@ -103,7 +99,7 @@ def _rate(content: FileContent, arrays: Arrays) -> float:
     raise content.error("no 'fps' in it: give fps= (--fps)")
 
 
-def _whole_numbers(content: FileContent, arrays: Arrays, name: str) -> list[int]:
+def _integers(content: FileContent, arrays: Arrays, name: str) -> list[int]:
     values = _numbers(content, arrays, name).ravel()
     if not np.isfinite(values).all() or np.abs(values).max(initial=0) > 2**53:
         raise content.error(f"{name} are not whole numbers")

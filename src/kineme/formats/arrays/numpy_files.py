@@ -22,7 +22,7 @@ from warnings import catch_warnings
 import numpy as np
 from numpy.lib import format as npy_format
 
-from kineme._files import atomic_write
+from kineme._files import atomic_write, short
 from kineme.formats.arrays.named_arrays import (
     Array,
     arrays_to_motion,
@@ -78,10 +78,7 @@ def write_npz(motion: Motion, path: Path) -> None:
 def members(content: FileContent) -> dict[str, Array]:
     """The arrays of an npz by name; those of another kind than numbers or text are passed over.
 
-    Raises
-    ------
-    ReadError
-        It is no npz archive, damaged, or claims to hold much more than it can.
+    ReadError where it is damaged, or claims to hold much more than it can.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content.data)) as archive:
@@ -124,8 +121,7 @@ def _array(content: FileContent, data: bytes, name: str) -> Array:
             return np.empty(0)
         flat = np.frombuffer(data, kind, count, file.tell())
     except _HEADER_DAMAGE as error:
-        reason = " ".join(str(error).split())[:120]
-        raise content.error(f"{name} is no npy array: {reason}") from error
+        raise content.error(f"{name} is no npy array: {short(error)}") from error
     return flat.reshape(shape, order="F" if fortran else "C")
 
 

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kineme._files import short
 from kineme.errors import MissingDependencyError, ReadError
 from kineme.formats.channels.reading import (
     ChannelTable,
     asked_for,
     channel_table,
-    wanted_columns,
+    columns_read,
 )
 from kineme.formats.delimited import named
 from kineme.formats.files import FileContent
@@ -21,23 +21,7 @@ from kineme.formats.timing import is_timing
 
 
 def parquet_file(content: FileContent) -> Any:
-    """A Parquet file, opened but not read.
-
-    Parameters
-    ----------
-    content : FileContent
-
-    Returns
-    -------
-    pyarrow.parquet.ParquetFile
-
-    Raises
-    ------
-    ReadError
-        It is none, damaged, or claims to hold much more than it can.
-    MissingDependencyError
-        pyarrow is not installed.
-    """
+    """A `pyarrow.parquet.ParquetFile`, opened but not read; ReadError where it is damaged."""
     try:
         import pyarrow as pa
         from pyarrow import parquet
@@ -53,26 +37,10 @@ def parquet_file(content: FileContent) -> Any:
 
 
 def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> Any:
-    """Columns of a Parquet file as they are, none larger than the file can honestly hold.
+    """Columns of a Parquet file as a table, none larger than the file can honestly hold.
 
     Texts are first read as the file keeps them, each different one once, and weighed:
     ten kilobytes can repeat a long text for gigabytes.
-
-    Parameters
-    ----------
-    content : FileContent
-    file : pyarrow.parquet.ParquetFile
-        In it.
-    columns : sequence of str
-
-    Returns
-    -------
-    pyarrow.Table
-
-    Raises
-    ------
-    ReadError
-        The columns are damaged, or would take more memory than the file can honestly fill.
     """
     import pyarrow as pa
     from pyarrow import parquet
@@ -85,87 +53,61 @@ def parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> 
         table = file.read(columns=list(columns), use_threads=False)
         content.claim(sum(map(_expanded_size, table.columns)), "texts that repeat")
         plain = [
-            pa.field(field.name, field.type.value_type) if _is_coded(field.type) else field
+            pa.field(field.name, field.type.value_type)
+            if pa.types.is_dictionary(field.type)
+            else field
             for field in table.schema
         ]
         return table.cast(pa.schema(plain, table.schema.metadata))
     except (pa.ArrowException, OSError, LookupError) as error:
-        reason = " ".join(str(error).split())[:120]
-        raise content.error(f"is damaged, its columns cannot be read: {reason}") from error
+        reason = f"is damaged, its columns cannot be read: {short(error)}"
+        raise content.error(reason) from error
 
 
 def parquet_channels(
     content: FileContent, file: Any, columns: Sequence[str] | None
 ) -> ChannelTable:
-    """The channels of a Parquet file: those wanted, or all that hold numbers.
-
-    Parameters
-    ----------
-    content : FileContent
-    file : pyarrow.parquet.ParquetFile
-        In it.
-    columns : sequence of str or None
-        By name or pattern, in this order.
-
-    Returns
-    -------
-    ChannelTable
-
-    Raises
-    ------
-    ReadError
-        There is no such column, or one holds no numbers, or nothing is a channel.
-    """
+    """The channels of a Parquet file: those named, in this order, or all that hold numbers."""
     import pyarrow as pa
 
     names = named(file.schema_arrow.names)
     types = dict(zip(names, file.schema_arrow.types, strict=True))
-    kinds = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
+    numbers = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
+    dates = (*numbers, pa.types.is_timestamp, pa.types.is_string)  # which may hold them
     numeric = [
         name
         for name in names
-        if any(kind(types[name]) for kind in kinds)
-        or (is_timing(name) and _may_be_dates(types[name]))
+        if any(is_kind(types[name]) for is_kind in (dates if is_timing(name) else numbers))
     ]
     columns = asked_for(content, names, columns, numeric)
-    wanted = wanted_columns(columns, numeric)
+    chosen = columns_read(columns, numeric)
     try:
-        stored = [file.schema_arrow.names[names.index(name)] for name in wanted]
+        stored = [file.schema_arrow.names[names.index(name)] for name in chosen]
         table = parquet_columns(content, file, stored)
         values = {
-            name: column.to_numpy() if is_timing(name) else _plain(column)
-            for name, column in zip(wanted, table.columns, strict=True)
+            name: np.asarray(column.to_numpy(), None if is_timing(name) else np.float64)
+            for name, column in zip(chosen, table.columns, strict=True)
         }
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
-        reason = " ".join(str(error).split())
-        raise content.error(f"its columns cannot be read as numbers: {reason}") from error
+        reason = f"its columns cannot be read as numbers: {short(error)}"
+        raise content.error(reason) from error
     return channel_table(content, names, values, columns)
 
 
-def _may_be_dates(kind: Any) -> bool:
-    import pyarrow as pa
-
-    return bool(pa.types.is_timestamp(kind) or pa.types.is_string(kind))
-
-
 def _is_text(kind: Any) -> bool:
-    import pyarrow as pa
+    from pyarrow import types
 
-    texts = (pa.types.is_string, pa.types.is_large_string, pa.types.is_binary)
-    return any(is_text(kind) for is_text in (*texts, pa.types.is_large_binary, _is_coded))
-
-
-def _is_coded(kind: Any) -> bool:
-    import pyarrow as pa
-
-    return bool(pa.types.is_dictionary(kind))
+    kinds = (types.is_string, types.is_large_string, types.is_binary, types.is_large_binary)
+    return any(is_text(kind) for is_text in (*kinds, types.is_dictionary))
 
 
 def _expanded_size(column: Any) -> int:
     """Bytes of a column, with every row's text by itself."""
-    if not _is_coded(column.type):
-        return int(column.nbytes)
     import pyarrow.compute as pc
+    from pyarrow import types
+
+    if not types.is_dictionary(column.type):
+        return int(column.nbytes)
 
     if not _is_text(column.type.value_type):
         return 8 * len(column)
@@ -173,7 +115,3 @@ def _expanded_size(column: Any) -> int:
     return sum(
         len(chunk) * max(8, most or 0) for chunk, most in zip(column.chunks, longest, strict=True)
     )
-
-
-def _plain(column: Any) -> NDArray[np.float64]:
-    return np.asarray(column.to_numpy(), np.float64)

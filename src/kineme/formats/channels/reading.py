@@ -54,30 +54,14 @@ CLOCK_ROWS = 200
 
 @dataclass(frozen=True)
 class ChannelTable:
-    """Columns of numbers.
+    """Columns of numbers, with what tells their rate."""
 
-    Parameters
-    ----------
-    names : list of str
-        Of the channels.
-    values : ndarray, shape (rows, channels)
-        NaN where there is nothing.
-    timing : mapping of str to array_like
-        Columns that tell times or a rate.
-    rate : float, optional
-        The file's own.
-    notes : tuple of str
-        On what was left out.
-    hint : str
-        On what may tell the rate, where nothing does.
-    """
-
-    names: list[str]
-    values: Floats
-    timing: Mapping[str, ArrayLike]
-    rate: float | None = None
-    notes: tuple[str, ...] = ()
-    hint: str = ""
+    names: list[str]  # of the channels
+    values: Floats  # (rows, channels), NaN where there is nothing
+    timing: Mapping[str, ArrayLike]  # columns that tell times or a rate
+    rate: float | None = None  # the file's own
+    notes: tuple[str, ...] = ()  # on what was left out
+    hint: str = ""  # on what may tell the rate, where nothing does
 
     def timed(self, content: FileContent, fps: float | None) -> Timing:
         """Frames per second, pauses, and what was seen of the times."""
@@ -89,27 +73,7 @@ class ChannelTable:
 
 
 def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float | None) -> Signals:
-    """The signals in a table of channels.
-
-    Parameters
-    ----------
-    content : FileContent
-        Where the table comes from.
-    name : str
-        Of the format.
-    table : ChannelTable
-    fps : float or None
-        In place of what the table tells.
-
-    Returns
-    -------
-    Signals
-
-    Raises
-    ------
-    ReadError
-        Nothing tells the frame rate, or holes leave nothing.
-    """
+    """The signals in a table of channels; ``fps`` stands in place of what the table tells."""
     timing = table.timed(content, fps)
     values, gaps, filled = without_gaps(content, table.values, timing, table.names)
     provenance = content.provenance(name, [*table.notes, *timing.notes, *filled])
@@ -117,31 +81,15 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
 
 
 def text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
-    """The channels of a text table: those wanted, or all that hold numbers.
-
-    Parameters
-    ----------
-    text : DelimitedText
-    columns : sequence of str or None
-        By name or pattern, in this order.
-
-    Returns
-    -------
-    ChannelTable
-
-    Raises
-    ------
-    ReadError
-        There is no such column, a cell is no number, or nothing is a channel.
-    """
+    """The channels of a text table: those named, in this order, or all that hold numbers."""
     text = text.numbered()
     text.refuse_interleaved()
     names, numeric = list(text.names), text.numeric()
     columns = asked_for(text.content, names, columns, numeric)
-    wanted = wanted_columns(columns, numeric)
+    chosen = columns_read(columns, numeric)
     places = {name: i for i, name in enumerate(names)}  # each is there once
-    values = text.numbers([places[name] for name in wanted])
-    table = channel_table(text.content, names, dict(zip(wanted, values.T, strict=True)), columns)
+    values = text.numbers([places[name] for name in chosen])
+    table = channel_table(text.content, names, dict(zip(chosen, values.T, strict=True)), columns)
     return replace(table, notes=(*text.remarks, *table.notes))
 
 
@@ -178,7 +126,7 @@ def asked_for(
     return list(found)
 
 
-def wanted_columns(names: Sequence[str] | None, numeric: Iterable[str]) -> list[str]:
+def columns_read(names: Sequence[str] | None, numeric: Iterable[str]) -> list[str]:
     """The columns to read: those asked for, or all that hold numbers, and those of times."""
     timing = [name for name in numeric if is_timing(name)]
     chosen = numeric if names is None else names
@@ -216,19 +164,8 @@ def without_gaps(
 ) -> tuple[Floats, list[tuple[int, int]], list[str]]:
     """Finite values, the spans in which a channel is missing for long, and what was done.
 
-    Parameters
-    ----------
-    values : ndarray of shape (frames, channels)
-        NaN or infinite where there is nothing.
-    timing : Timing
-        Frames per second, and the frames at which the times jump.
-    names : sequence of str
-        Of the channels.
-
-    Raises
-    ------
-    ReadError
-        The holes leave nothing.
+    Values are (frames, channels), NaN or infinite where there is nothing. ReadError where the holes
+    leave nothing.
     """
     missing = ~np.isfinite(values)
     if not missing.any():

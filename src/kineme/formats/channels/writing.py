@@ -19,7 +19,7 @@ from itertools import islice
 from math import isclose
 from os import PathLike
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -38,21 +38,6 @@ TEXT = ("table", "MOT/STO")
 PARQUET = "Parquet table"
 
 _ROW_COUNT = re.compile(r"^(\s*(?:nrows\s*=|datarows\s)\s*)\d+", re.IGNORECASE | re.MULTILINE)
-
-
-class Rows(Protocol):
-    """The frames of a recording as rows of a file; ``names`` is None where the file has none."""
-
-    @property
-    def suffix(self) -> str: ...
-    @property
-    def names(self) -> Sequence[str] | None: ...
-
-    def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
-        """Leave rows [start, stop) in a file of the suffix, whole or not at all."""
-
-    def cells(self) -> Iterator[Sequence[str]]:
-        """The cells of each row."""
 
 
 def write_signals(
@@ -93,11 +78,7 @@ def write_signals(
 def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
     """The frames of signals as rows of their own file, or of a CSV where these are others.
 
-    Parameters
-    ----------
-    signals : Signals
-    shortest : int, optional
-        How many rows are written at once at least; all by default.
+    ``shortest`` is how many rows are written at once at least; all by default.
     """
     alone = min(signals.n_frames, shortest or signals.n_frames) < 2
     path = signals.provenance.path
@@ -111,7 +92,8 @@ def rows_of(signals: Signals, *, shortest: int | None = None) -> Rows:
                 return _ParquetRows.of(content, fps)
             rows = _TextRows.of(content, signals.n_frames)
             return rows if fps is None else _at_rate(rows, fps)
-    return _of_values(signals, with_rate=alone)
+    rows = _of_values(signals)
+    return _at_rate(rows, signals.fps) if alone else rows
 
 
 @dataclass(frozen=True)
@@ -152,6 +134,7 @@ class _TextRows:
         )
 
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
+        """Leave rows [start, stop) in a file of the suffix, whole or not at all."""
         lines = self.lines[start:stop]
         head = _ROW_COUNT.sub(rf"\g<1>{len(lines)}", self.head)
         text = "".join((head, *lines))
@@ -159,6 +142,7 @@ class _TextRows:
             draft.write_bytes(text.encode("utf-8", errors="surrogateescape"))
 
     def cells(self) -> Iterator[Sequence[str]]:
+        """The cells of each row."""
         reader = csv.reader(self.records, delimiter=self.separator)
         full = (cells for cells in reader if any(map(str.strip, cells)))
         as_read = ([*map(dotted, cells)] if self.comma else cells for cells in full)
@@ -213,6 +197,10 @@ class _ParquetRows:
             yield ["" if cell is None else str(cell) for cell in row]
 
 
+Rows = _TextRows | _ParquetRows
+"""The frames of a recording as rows of a file; ``names`` is None where the file has none."""
+
+
 def _source_table(content: FileContent, signals: Signals) -> ChannelTable | None:
     """The table on disk whose rows are the frames of signals, holes aside; None for another."""
     try:
@@ -249,13 +237,8 @@ def _at_rate(rows: _TextRows, fps: float) -> _TextRows:
     return _text_rows(suffix, [RATE, *(names[i] for i in at)], cells)
 
 
-def _of_values(signals: Signals, *, with_rate: bool) -> _TextRows:
+def _of_values(signals: Signals) -> _TextRows:
     """Times and channels as a CSV that reads back to the same numbers."""
-    rows = _values_of(signals)
-    return _at_rate(rows, signals.fps) if with_rate else rows
-
-
-def _values_of(signals: Signals) -> _TextRows:
     missing = covered(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels
     rows = (

@@ -29,7 +29,7 @@ from kineme.formats.keypoints.video import (
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
-SURE = 0.3
+LIMIT = 0.3
 
 NAMES = (
     "nose", "left_eye", "right_eye", "left_ear", "right_ear", "left_shoulder", "right_shoulder",
@@ -67,7 +67,7 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     for entry, frame in zip(entries, frames, strict=True):
         groups = in_groups(content, entry["keypoints"], 3)
         who = str(entry[tracked])[:40] if tracked else None
-        people.append(Person(frame, groups[:, :2].tolist(), groups[:, 2].tolist(), who))
+        people.append(Person(frame, groups[:, :2], groups[:, 2], who))
     count = len(people[0].points) if people else len(NAMES)
     if names is None or len(names) != count:
         names = list(NAMES)
@@ -75,7 +75,7 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
         raise content.error(f"a person has {count} keypoints, not {len(names)} as in COCO")
     images = data.get("images") if is_set else None
     numbers = range(len(images)) if isinstance(images, list) else ()
-    video = Video("COCO", names, people, SURE, frames=numbers)
+    video = Video("COCO", names, people, LIMIT, frames=numbers)
     return video_to_motion(content, video, options)
 
 

@@ -41,13 +41,13 @@ def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
     individuals = labels.get("individuals", [""] * len(parts))
     if len({len(parts), len(coords), len(individuals)}) > 1:
         raise content.error("the rows of names differ in length", line)
-    wanted = _individual(content, list(dict.fromkeys(individuals)), options.person)
+    individual = _individual(content, list(dict.fromkeys(individuals)), options.person)
     names = ["frame", *(f"{part}_{coord}" for part, coord in zip(parts, coords, strict=True))]
     values = replace(table, names=names, below=table.head + len(labels)).numbers()[:, 1:]
     columns = {
         name: column
-        for name, whose, column in zip(names[1:], individuals, values.T, strict=True)
-        if whose == wanted
+        for name, owner, column in zip(names[1:], individuals, values.T, strict=True)
+        if owner == individual
     }
     return columns_to_motion(content, "DeepLabCut", columns, options, limit=LIKELY)
 

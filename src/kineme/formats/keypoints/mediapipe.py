@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from operator import itemgetter
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -31,13 +31,13 @@ from numpy.typing import NDArray
 
 from kineme._checks import is_number
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.video import Person, Video, video_to_motion
+from kineme.formats.keypoints.video import Person, Video, by_number, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
-SURE = 0.5
+LIMIT = 0.5
 
 NAMES = (
     "nose", "left_eye_inner", "left_eye", "left_eye_outer", "right_eye_inner", "right_eye",
@@ -96,50 +96,31 @@ def landmarks_to_motion(
     frames: Sequence[int] = (),
     notes: Sequence[str] = (),
 ) -> Motion:
-    """The motion of one person's landmarks.
+    """The motion of one person's landmarks: x, y and z of 33 in every frame.
 
-    Parameters
-    ----------
-    people : sequence of Person
-        With x, y and z of the 33 landmarks each.
-    world : bool, optional
-        Whether they are world landmarks, None to judge by the hips.
-    fps : float, optional
-        Frames per second, if the file tells.
-    size : sequence of float or None, optional
-        Width and height of the image, if the file tells.
-    frames : sequence of int, optional
-        Numbers of all frames, of those without anybody, too.
-    notes : sequence of str, optional
-        Sentences on what was done so far.
+    ``world`` tells whether they are world landmarks, None judges by the hips; ``size`` is width and
+    height of the image, where the file tells; ``frames`` numbers all frames, with anybody or not.
     """
     if world is None and people:
         middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])
         world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
-    if world:
-        note = "world landmarks: metres from the middle of the hips, the place is not known"
-        video = Video(
-            "MediaPipe", NAMES, people, SURE, fps=fps, frames=frames, unit="m", notes=[*notes, note]
-        )
-        return video_to_motion(content, video, options)
-    width, height = size
     notes = list(notes)
-    scaled = list(people)
+    if world:
+        notes.append("world landmarks: metres from the middle of the hips, the place is not known")
+        video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, unit="m", notes=notes)
+        return video_to_motion(content, video, options)
     hips = np.array([p.points[hip][0] for p in people for hip in _HIPS])
-    largest = np.nanmax(np.abs(hips), initial=0.0)
-    if largest < 4:  # shares of the image, and not pixels
+    if np.nanmax(np.abs(hips), initial=0.0) < 4:  # shares of the image, and not pixels
+        width, height = size
         if not (width and height):
             width = height = 1.0
             content.warn(
                 "landmarks are shares of an image of unknown shape, taken as square: multiply x "
                 "and z by width / height, if it was not"
             )
-        by = np.array([width, height, width])
-        scaled = [
-            Person(p.frame, (np.asarray(p.points) * by[: len(p.points[0])]).tolist(), p.sure, p.who)
-            for p in people
-        ]
-    video = Video("MediaPipe", NAMES, scaled, SURE, fps=fps, frames=frames, notes=notes)
+        sides = np.array([width, height, width])
+        people = [replace(person, points=np.asarray(person.points) * sides) for person in people]
+    video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, notes=notes)
     return video_to_motion(content, video, options)
 
 
@@ -149,11 +130,11 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
         return [(0, data)] if _is_pose(data) else list(enumerate(data))
     if not isinstance(data, Mapping):
         return []
-    if data and all(isinstance(key, str) and key.isdecimal() and len(key) < 19 for key in data):
-        return sorted(((int(key), frame) for key, frame in data.items()), key=itemgetter(0))
+    if numbered := by_number(data):
+        return numbered
     for key, value in data.items():
         several = isinstance(value, list) and not _is_pose(value)
-        if _plain(str(key)) in _FRAMES and (several or isinstance(value, Mapping)):
+        if plain(str(key)) in _FRAMES and (several or isinstance(value, Mapping)):
             return _frames(value) or [(0, data)]
     return [(0, data)]
 
@@ -177,46 +158,45 @@ def _poses(frame: Any, *, world: bool) -> list[Any]:
 
 
 def _is_pose(value: Any) -> bool:
-    return (
-        isinstance(value, list)
-        and len(value) == len(NAMES)
-        and all(
-            (isinstance(mark, Mapping) and "x" in mark and "y" in mark)
-            or (isinstance(mark, list) and 2 <= len(mark) <= 5 and not isinstance(mark[0], list))
-            for mark in value
-        )
-    )
+    return isinstance(value, list) and len(value) == len(NAMES) and all(map(_is_landmark, value))
+
+
+def _is_landmark(value: Any) -> bool:
+    if isinstance(value, Mapping):
+        return "x" in value and "y" in value
+    return isinstance(value, list) and 2 <= len(value) <= 5 and not isinstance(value[0], list)
 
 
 def _by_name(frame: Mapping[str, Any]) -> list[Any]:
     """The landmarks in order, from a mapping by their names; empty if it is none."""
-    marks = {_plain(str(key)): mark for key, mark in frame.items()}
-    names = [_plain(name) for name in NAMES]
-    return [marks[name] for name in names] if all(name in marks for name in names) else []
+    by_name = {plain(str(key)): landmark for key, landmark in frame.items()}
+    names = [plain(name) for name in NAMES]
+    return [by_name[name] for name in names] if all(name in by_name for name in names) else []
 
 
 def _landmarks(
     content: FileContent, frame: int, pose: list[Any]
 ) -> tuple[list[list[float]], list[float]]:
-    points, sure = [], []
-    for mark in pose:
-        if isinstance(mark, Mapping):
-            x, y, z = mark["x"], mark["y"], mark.get("z", 0.0)
-            visibility = mark.get("visibility", mark.get("score", mark.get("presence", 1.0)))
+    points, confidence = [], []
+    for landmark in pose:
+        if isinstance(landmark, Mapping):
+            x, y, z = landmark["x"], landmark["y"], landmark.get("z", 0.0)
+            fields = ("visibility", "score", "presence")
+            visibility = next((landmark[key] for key in fields if key in landmark), 1.0)
         else:
-            x, y, z, visibility = [*mark, *(0.0, 1.0)[len(mark) - 2 :]][:4]
+            x, y, z, visibility = [*landmark, *(0.0, 1.0)[len(landmark) - 2 :]][:4]
         try:
             points.append([float(x), float(y), float(z or 0.0)])
-            sure.append(1.0 if visibility is None else float(visibility))
+            confidence.append(1.0 if visibility is None else float(visibility))
         except (TypeError, ValueError, OverflowError):
             raise content.error(f"frame {frame} has a landmark that is no numbers") from None
-    return points, sure
+    return points, confidence
 
 
 def _first_value(mapping: Mapping[str, Any], keys: Sequence[str]) -> Any:
     """The value under the first of the keys, whatever its case and underscores."""
-    plain = {_plain(str(key)): value for key, value in mapping.items()}
-    return next((plain[key] for key in keys if key in plain), None)
+    values = {plain(str(key)): value for key, value in mapping.items()}
+    return next((values[key] for key in keys if key in values), None)
 
 
 def _positive(value: Any) -> float | None:
@@ -224,5 +204,6 @@ def _positive(value: Any) -> float | None:
     return float(value) if good else None
 
 
-def _plain(name: str) -> str:
+def plain(name: str) -> str:
+    """A name without blanks, underscores and hyphens, in small letters."""
     return _PLAIN.sub("", name).lower()

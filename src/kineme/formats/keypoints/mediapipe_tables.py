@@ -16,8 +16,8 @@ from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.gaps import split_at
-from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion
-from kineme.formats.keypoints.video import Person, whole_numbers
+from kineme.formats.keypoints.mediapipe import NAMES, landmarks_to_motion, plain
+from kineme.formats.keypoints.video import Person, frame_numbers
 from kineme.formats.options import ReadOptions
 from kineme.formats.timing import Timing, is_timing, table_timing
 from kineme.recordings import Motion
@@ -34,7 +34,7 @@ _LANDMARK = re.compile(
     r"(landmark|keypoint|joint|point)([\s_]*(id|idx|index|name|no|num|number))?|name|id",
     re.IGNORECASE,
 )
-_PLACES = {re.sub("_", "", name): i for i, name in enumerate(NAMES)}
+_PLACES = {plain(name): i for i, name in enumerate(NAMES)}
 
 
 def is_landmarks(names: Sequence[str]) -> bool:
@@ -58,20 +58,20 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
     frame = _column_of(table.names, _FRAME)
     extra = [*timing, *([frame] if frame is not None else [])]
     rows = table.numbers([*at.values(), *extra])
-    marks = np.zeros((len(rows), len(NAMES), 4))
-    marks[..., 3] = 1.0
+    poses = np.zeros((len(rows), len(NAMES), 4))
+    poses[..., 3] = 1.0
     for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
-        marks[:, landmark, field] = column
+        poses[:, landmark, field] = column
     frames, clock = np.arange(len(rows)), Timing(options.fps or 0.0)
     if timing and not options.fps:
         columns = {table.names[i]: rows[:, len(at) + k] for k, i in enumerate(timing)}
         clock = table_timing(table.content, columns)
     elif frame is not None:
-        frames = whole_numbers(table.content, rows[:, -1])
+        frames = frame_numbers(table.content, rows[:, -1])
     people = [
-        Person(frame, mark[:, :3], mark[:, 3])
-        for frame, mark in zip(frames.tolist(), marks, strict=True)
-        if np.isfinite(mark[:, :2]).any()
+        Person(frame, pose[:, :3], pose[:, 3])
+        for frame, pose in zip(frames.tolist(), poses, strict=True)
+        if np.isfinite(pose[:, :2]).any()
     ]
     motion = landmarks_to_motion(
         table.content,
@@ -89,25 +89,25 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
     """The motion of MediaPipe's landmarks, a row for each landmark."""
     lower = [name.lower() for name in table.names]
     at = {field: lower.index(name) for name, field in _FIELDS.items() if name in lower}
-    which, frame = _column_of(table.names, _LANDMARK), _column_of(table.names, _FRAME)
+    landmark_column, frame = _column_of(table.names, _LANDMARK), _column_of(table.names, _FRAME)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)][:1]
     rows = table.numbers([frame or 0, *at.values(), *timing])
-    landmarks = _landmark_numbers(table.content, table.texts(which or 0)[: len(rows)])
-    frames, place = np.unique(whole_numbers(table.content, rows[:, 0]), return_inverse=True)
+    landmarks = _landmark_numbers(table.content, table.texts(landmark_column or 0)[: len(rows)])
+    frames, place = np.unique(frame_numbers(table.content, rows[:, 0]), return_inverse=True)
     size = _BYTES_PER_POSE * len(frames)
     table.content.claim(size, f"{len(NAMES)} landmarks in {len(frames)} frames")
-    marks = np.full((len(frames), len(NAMES), 4), np.nan)
-    marks[..., 2:] = (0.0, 1.0)
+    poses = np.full((len(frames), len(NAMES), 4), np.nan)
+    poses[..., 2:] = (0.0, 1.0)
     for k, field in enumerate(at, 1):
-        marks[place, landmarks, field] = rows[:, k]
+        poses[place, landmarks, field] = rows[:, k]
     fps = options.fps
     if timing and not fps:
         times = np.zeros(len(frames))
         times[place] = rows[:, -1]
         fps = table_timing(table.content, {table.names[timing[0]]: times}).fps
     people = [
-        Person(frame, mark[:, :3], mark[:, 3])
-        for frame, mark in zip(frames.tolist(), marks, strict=True)
+        Person(frame, pose[:, :3], pose[:, 3])
+        for frame, pose in zip(frames.tolist(), poses, strict=True)
     ]
     return landmarks_to_motion(table.content, people, options, fps=fps)
 
@@ -120,13 +120,13 @@ def _landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
         if first:
             found.setdefault((first[2], _FIELDS[first[1].lower()]), column)
         elif last:
-            found.setdefault((_plain(last[1]), _FIELDS[last[2].lower()]), column)
-    by_name = {(_PLACES[mark], field): i for (mark, field), i in found.items() if mark in _PLACES}
+            found.setdefault((plain(last[1]), _FIELDS[last[2].lower()]), column)
+    by_name = {(_PLACES[name], field): i for (name, field), i in found.items() if name in _PLACES}
     by_number = {(int(m), field): i for (m, field), i in found.items() if m.isdecimal()}
-    if by_number and min(mark for mark, _ in by_number) == 1:
-        by_number = {(mark - 1, field): i for (mark, field), i in by_number.items()}
+    if by_number and min(landmark for landmark, _ in by_number) == 1:
+        by_number = {(landmark - 1, field): i for (landmark, field), i in by_number.items()}
     for table in (by_name, by_number):
-        if {(mark, field) for mark in range(len(NAMES)) for field in (0, 1)} <= table.keys():
+        if {(i, field) for i in range(len(NAMES)) for field in (0, 1)} <= table.keys():
             return {key: i for key, i in table.items() if key[0] < len(NAMES)}
     return {}
 
@@ -135,16 +135,12 @@ def _landmark_numbers(content: FileContent, texts: Sequence[str]) -> NDArray[np.
     """The landmarks that people call by number or name."""
     numbers = []
     for text in texts:
-        plain = _plain(text.rpartition(".")[2])  # PoseLandmark.NOSE
-        number = _PLACES.get(plain, int(plain) if plain.isdecimal() and len(plain) < 3 else -1)
+        name = plain(text.rpartition(".")[2])  # PoseLandmark.NOSE
+        number = _PLACES.get(name, int(name) if name.isdecimal() and len(name) < 3 else -1)
         if not 0 <= number < len(NAMES):
             raise content.error(f"{text[:40]!r} is none of MediaPipe's {len(NAMES)} landmarks")
         numbers.append(number)
     return np.array(numbers, np.intp)
-
-
-def _plain(name: str) -> str:
-    return re.sub(r"[\s_-]", "", name).lower()
 
 
 def _column_of(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:

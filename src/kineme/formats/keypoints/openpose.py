@@ -30,6 +30,7 @@ from kineme.formats.files import FileContent, load
 from kineme.formats.keypoints.video import (
     Person,
     Video,
+    by_number,
     in_groups,
     parsed_json,
     video_to_motion,
@@ -37,7 +38,7 @@ from kineme.formats.keypoints.video import (
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
-SURE = 0.3
+LIMIT = 0.3
 
 _ARMS = ("RShoulder", "RElbow", "RWrist", "LShoulder", "LElbow", "LWrist")
 _LEGS = ("RHip", "RKnee", "RAnkle", "LHip", "LKnee", "LAnkle")
@@ -123,13 +124,7 @@ def _frames(data: Any) -> list[tuple[int, Any]]:
         return [(0, data)]
     if isinstance(data, list):
         return list(enumerate(data))
-    if isinstance(data, Mapping) and data and all(_is_number(key) for key in data):
-        return sorted(((int(key), frame) for key, frame in data.items()), key=lambda pair: pair[0])
-    return []
-
-
-def _is_number(key: object) -> bool:
-    return isinstance(key, str) and key.isdecimal() and len(key) < 19
+    return by_number(data) if isinstance(data, Mapping) else []
 
 
 def _people(content: FileContent, number: int, frame: Any) -> list[Person]:
@@ -145,12 +140,7 @@ def _person(content: FileContent, number: int, person: Any) -> Person:
     for key, width in _KEYS.items():
         if person.get(key):
             groups = in_groups(content, person[key], width)
-            return Person(
-                number,
-                groups[:, :-1].tolist(),
-                groups[:, -1].tolist(),
-                _id(person.get("person_id")),
-            )
+            return Person(number, groups[:, :-1], groups[:, -1], _id(person.get("person_id")))
     raise content.error(f"frame {number} has a person without {', '.join(_KEYS)}")
 
 
@@ -171,7 +161,7 @@ def _to_motion(
             layouts = ", ".join(map(str, NAMES))
             raise content.error(f"a person has {count} keypoints: {layouts} are known")
     names = NAMES[max(counts, default=25)]
-    video = Video("OpenPose", names, people, SURE, frames=frames)
+    video = Video("OpenPose", names, people, LIMIT, frames=frames)
     if in_space:
         video = replace(video, unit=None, up=None)
     return video_to_motion(content, video, options)

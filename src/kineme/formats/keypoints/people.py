@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._counts import listed
 from kineme.errors import SeveralPeopleError
 from kineme.formats.files import FileContent
 
@@ -30,32 +31,19 @@ _REMEMBERED = 50  # people last seen, who may come back
 
 @dataclass(frozen=True)
 class Detections:
-    """One row for each person found in a frame.
-
-    Parameters
-    ----------
-    frames : ndarray of shape (rows,)
-        Ascending.
-    points : ndarray of shape (rows, keypoints, 3)
-        NaN where not found.
-    who : sequence of str or None
-        One per row: how the file calls this person, or None.
-    """
+    """One row for each person found in a frame, the frames ascending."""
 
     frames: Rows
-    points: Floats
-    who: Sequence[str | None]
+    points: Floats  # (rows, keypoints, 3), NaN where not found
+    who: Sequence[str | None]  # how the file calls this person, if it does
 
 
 def rows_of_person(
     content: FileContent, found: Detections, person: str | None
 ) -> tuple[Rows, list[str]]:
-    """The rows of the person wanted, or of the only one; and what was done.
+    """The rows of this person, or of the only one; and what was done.
 
-    Raises
-    ------
-    SeveralPeopleError
-        There are several and none was chosen, or nobody of this name.
+    SeveralPeopleError where there are several and none was chosen, or nobody of this name.
     """
     people = _people(found)
     if not people:
@@ -96,8 +84,8 @@ def _people(found: Detections) -> dict[str, Rows]:
     for row, number in enumerate(numbers):
         rows.setdefault(number, []).append(row)
     return {
-        name: np.array(which)[np.unique(found.frames[which], return_index=True)[1]]
-        for name, which in rows.items()
+        name: np.array(places)[np.unique(found.frames[places], return_index=True)[1]]
+        for name, places in rows.items()
     }
 
 
@@ -145,10 +133,10 @@ def _strides(found: Detections, before: Rows, row: int) -> Floats:
     return np.asarray(np.where(np.isfinite(strides), strides, np.inf))
 
 
-def _listing(people: dict[str, Rows], found: Detections, most: int = 8) -> str:
-    entries = [
-        f"{name} ({len(rows)} frames from {found.frames[rows[0]]} on)"
-        for name, rows in people.items()
-    ]
-    more = f" and {len(entries) - most} more" if len(entries) > most else ""
-    return ", ".join(entries[:most]) + more
+def _listing(people: dict[str, Rows], found: Detections) -> str:
+    return listed(
+        [
+            f"{name} ({len(rows)} frames from {found.frames[rows[0]]} on)"
+            for name, rows in people.items()
+        ]
+    )

@@ -21,14 +21,14 @@ from kineme.formats.arrays.hdf5_file import SIGNATURE, parse_hdf5, texts
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.video import Person, Video, video_to_motion, whole_numbers
+from kineme.formats.keypoints.video import Person, Video, frame_numbers, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
-SURE = 0.2
+LIMIT = 0.2
 """SLEAP's own limit for peaks."""
 
 
@@ -45,16 +45,16 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
     old = tracks.shape[1:3] == (2, len(nodes)) and len(names) in (0, tracks.shape[0])
     if not old and tracks.shape[2:] != (len(nodes), 2):
         raise content.error(f"tracks of shape {tracks.shape} do not go with {len(nodes)} nodes")
-    positions, sure = _arranged(content, tracks, found.get("point_scores"), old=old)
+    positions, confidence = _arranged(content, tracks, found.get("point_scores"), old=old)
     if len(names) != len(positions):
         names = [str(i) for i in range(len(positions))]
     visible = np.any(np.isfinite(positions).all(axis=3), axis=2)
     people = [
-        Person(frame, positions[track, frame].tolist(), sure[track, frame].tolist(), names[track])
+        Person(frame, positions[track, frame], confidence[track, frame], names[track])
         for track, frame in np.argwhere(visible).tolist()
     ]
     frames = range(positions.shape[1])
-    video = Video("SLEAP", nodes, people, SURE, frames=frames)
+    video = Video("SLEAP", nodes, people, LIMIT, frames=frames)
     return video_to_motion(content, video, options)
 
 
@@ -73,17 +73,17 @@ def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
     scores = [names.index(f"{node}.score") for node in nodes if f"{node}.score" in names]
     rows = table.numbers([names.index("frame_idx"), *columns, *scores])
     k = len(nodes)
-    sure = rows[:, 1 + 2 * k :] if len(scores) == k else np.ones((len(rows), k))
+    confidence = rows[:, 1 + 2 * k :] if len(scores) == k else np.ones((len(rows), k))
     points = rows[:, 1 : 1 + 2 * k].reshape(-1, k, 2)
-    frames = whole_numbers(content, rows[:, 0]).tolist()
+    frames = frame_numbers(content, rows[:, 0]).tolist()
     tracks = table.texts(names.index("track")) if "track" in names else []
     tracked = any(tracks)
     people = [
-        Person(frame, points[i].tolist(), sure[i].tolist(), tracks[i] if tracked else None)
+        Person(frame, points[i], confidence[i], tracks[i] if tracked else None)
         for i, frame in enumerate(frames)
     ]
     start = [0] if 0 <= min(frames) < len(frames) else []  # where the video starts
-    return video_to_motion(content, Video("SLEAP", nodes, people, SURE, frames=start), options)
+    return video_to_motion(content, Video("SLEAP", nodes, people, LIMIT, frames=start), options)
 
 
 def _arranged(
@@ -93,12 +93,12 @@ def _arranged(
     if tracks.dtype.kind not in "iuf":
         raise content.error(f"tracks hold {tracks.dtype}, not numbers")
     positions = tracks.transpose((0, 3, 2, 1) if old else (1, 0, 2, 3))
-    sure = np.ones(positions.shape[:3])
+    confidence = np.ones(positions.shape[:3])
     if isinstance(scores, np.ndarray) and scores.ndim == 3 and scores.dtype.kind in "iuf":
         confidences = scores.transpose((0, 2, 1) if old else (1, 0, 2))
-        if confidences.shape == sure.shape:
-            sure = np.where(np.isnan(confidences), 1.0, confidences)
-    return np.asarray(positions, np.float64), sure
+        if confidences.shape == confidence.shape:
+            confidence = np.where(np.isnan(confidences), 1.0, confidences)
+    return np.asarray(positions, np.float64), confidence
 
 
 FORMAT = Format("SLEAP", (".h5", ".hdf5"), lambda head: head.startswith(SIGNATURE), read_sleap)

@@ -9,8 +9,9 @@ person's height. There is no frame rate in most of these files: ``fps`` gives it
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -31,68 +32,31 @@ MOST_FRAMES_MORE = 20
 
 @dataclass(frozen=True)
 class Person:
-    """Someone found in a frame.
+    """Someone found in a frame."""
 
-    Parameters
-    ----------
-    frame : int
-        Counted from any number.
-    points : (keypoints, 2 or 3)
-    sure : sequence of float
-        (keypoints,) confidences.
-    who : str, optional
-        How the file calls this person, if it does.
-    """
-
-    frame: int
-    points: Sequence[Sequence[float]] | Floats
-    sure: Sequence[float] | Floats
-    who: str | None = None
+    frame: int  # counted from any number
+    points: Sequence[Sequence[float]] | Floats  # (keypoints, 2 or 3)
+    confidence: Sequence[float] | Floats  # (keypoints,)
+    who: str | None = None  # how the file calls this person, if it does
 
 
 @dataclass(frozen=True)
 class Video:
-    """What a pose estimator left.
-
-    Parameters
-    ----------
-    format : str
-        Its name.
-    names : sequence of str
-        Of the keypoints.
-    people : sequence of Person
-        In any order.
-    limit : float
-        Confidence from which a keypoint counts as seen.
-    fps : float, optional
-        Frames per second, or None if the file does not tell.
-    frames : sequence of int, optional
-        Numbers of frames that are there, whether somebody was found in them or not.
-    unit : str or float, optional
-        As in `Points`.
-    up : str, optional
-        See `unit`.
-    """
+    """What a pose estimator left; unit and axis as in `Points`."""
 
     format: str
-    names: Sequence[str]
-    people: Sequence[Person]
-    limit: float
-    fps: float | None = None
-    frames: Sequence[int] = ()
+    names: Sequence[str]  # of the keypoints
+    people: Sequence[Person]  # in any order
+    limit: float  # confidence from which a keypoint counts as seen
+    fps: float | None = None  # where the file tells
+    frames: Sequence[int] = ()  # numbers of all, whether somebody was found in them or not
     unit: str | float | None = "pixel"
     up: str | None = "-y"
     notes: Sequence[str] = ()
 
 
 def video_to_motion(content: FileContent, video: Video, options: ReadOptions) -> Motion:
-    """The motion of one person in a video.
-
-    Raises
-    ------
-    ReadError
-        Several people and none chosen, nobody, or no frame rate.
-    """
+    """The motion of one person in a video; ReadError where nothing tells which one, or the rate."""
     fps = options.fps or video.fps
     if not fps:
         raise content.error("keypoints have no frame rate: give fps= (--fps), that of the video")
@@ -102,9 +66,9 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     frames, n_frames = _numbered(content, video, [person.frame for person in people])
     size = 8 * 4 * len(video.names) * max(n_frames, len(people))
     content.claim(size, f"{len(video.names)} keypoints in {n_frames} frames")
-    points, sure = _stacked(content, people, len(video.names))
+    points, confidence = _stacked(content, people, len(video.names))
     limit = video.limit if options.confidence is None else options.confidence
-    unsure = ~(sure >= limit)
+    unsure = ~(confidence >= limit)
     points[unsure] = np.nan
     points[~np.isfinite(points).all(axis=2)] = np.nan
     found = Detections(frames, points, [person.who for person in people])
@@ -132,6 +96,13 @@ def parsed_json(content: FileContent) -> Any:
         raise content.error(f"is no whole JSON file: {str(error).split(';')[0]}") from None
 
 
+def by_number(frames: Mapping[Any, Any]) -> list[tuple[int, Any]]:
+    """Frames that JSON holds by their numbers, in this order; empty where it holds others."""
+    if not all(isinstance(key, str) and key.isdecimal() and len(key) < 19 for key in frames):
+        return []
+    return sorted(((int(key), frame) for key, frame in frames.items()), key=itemgetter(0))
+
+
 def in_groups(content: FileContent, values: Any, width: int) -> Floats:
     """(keypoints, width): a flat list of numbers, as OpenPose and COCO store them."""
     try:
@@ -143,7 +114,7 @@ def in_groups(content: FileContent, values: Any, width: int) -> Floats:
     return flat.reshape(-1, width)
 
 
-def whole_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
+def frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
     """The numbers of frames as such; ReadError where they are none."""
     if not np.isfinite(frames).all() or np.abs(frames).max(initial=0) > 2**53:
         raise content.error("the frames have no whole numbers")
@@ -164,11 +135,11 @@ def _numbered(content: FileContent, video: Video, found: list[int]) -> tuple[NDA
 
 def _stacked(content: FileContent, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:
     """(people, keypoints, 3) and (people, keypoints); z is 0 where there is none."""
-    points, sure = [], []
+    points, confidence = [], []
     for person in people:
         try:
             pose = np.asarray(person.points, np.float64)
-            trust = np.asarray(person.sure, np.float64)
+            trust = np.asarray(person.confidence, np.float64)
         except (ValueError, TypeError, OverflowError):
             raise content.error(f"frame {person.frame} has keypoints that are no numbers") from None
         if pose.ndim != 2 or pose.shape[1] not in (2, 3) or not k == len(pose) == trust.size:
@@ -176,8 +147,8 @@ def _stacked(content: FileContent, people: Sequence[Person], k: int) -> tuple[Fl
                 f"frame {person.frame} has keypoints of shape {pose.shape}, where {k} are expected"
             )
         points.append(np.pad(pose, ((0, 0), (0, 3 - pose.shape[1]))))
-        sure.append(trust.ravel())
-    return np.stack(points), np.stack(sure)
+        confidence.append(trust.ravel())
+    return np.stack(points), np.stack(confidence)
 
 
 def _flatness(points: Floats, unit: str | float | None) -> list[str]:

@@ -2,13 +2,13 @@
 
 Unit, rate and up axis (``POINT:Y_SCREEN``) are the file's own; where it has
 none they are inferred and said. Results of a model that are stored as if they
-were markers (angles, forces, moments, powers: the groups that
+were markers (angles, forces, torques, powers: the groups that
 ``POINT:TYPE_GROUPS`` and their own parameters name) and markers without a name
 are left out. Events and the number of the first frame go into the provenance.
 
 Times count from the file's first frame, not from the start of the capture.
 Analog channels are no part of a motion: they are read as signals where they are
-asked for: those wanted, those of muscles, or all.
+asked for: those named, those of muscles, or all.
 
 A laboratory's amplifier takes everything: force plates, switches, accelerometers and
 electrodes stand side by side. A channel is a muscle's if its label or description says
@@ -23,7 +23,7 @@ from __future__ import annotations
 import re
 
 from kineme.errors import ReadError
-from kineme.formats.channels.reading import ChannelTable, asked_for, to_signals, wanted_columns
+from kineme.formats.channels.reading import ChannelTable, asked_for, columns_read, to_signals
 from kineme.formats.files import FileContent, unique
 from kineme.formats.marker_sets import is_nameless
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
@@ -116,19 +116,7 @@ def _up(file: C3D) -> str | None:
 def read_analog(content: FileContent, options: ReadOptions) -> Signals:
     """The analog channels of a C3D: ``options.columns``, or muscles with ``emg``, or all.
 
-    Parameters
-    ----------
-    content : FileContent
-    options : ReadOptions
-
-    Returns
-    -------
-    Signals
-
-    Raises
-    ------
-    ReadError
-        It has none, or not those that were asked for.
+    ReadError where it has none, or not those that were asked for.
     """
     file = parse_c3d(content)
     columns, notes = options.columns or None, []
@@ -138,20 +126,14 @@ def read_analog(content: FileContent, options: ReadOptions) -> Signals:
     if not file.analog.size:
         raise content.error("holds no analog channels")
     names = unique(file.analog_labels)
-    wanted = wanted_columns(asked_for(content, names, columns, names), names)
-    values = file.analog[:, [names.index(name) for name in wanted]]
-    table = ChannelTable(wanted, values, {}, file.analog_rate or None, tuple(notes))
+    chosen = columns_read(asked_for(content, names, columns, names), names)
+    values = file.analog[:, [names.index(name) for name in chosen]]
+    table = ChannelTable(chosen, values, {}, file.analog_rate or None, tuple(notes))
     return to_signals(content, "C3D", table, options.fps)
 
 
 def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
-    """The names of the channels that are muscles', and a sentence on what was taken.
-
-    Raises
-    ------
-    ReadError
-        Nothing tells that a channel is one.
-    """
+    """The names of the channels that are muscles', and a sentence on what was taken."""
     names = unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
     described = file.parameters.strings("ANALOG", "DESCRIPTIONS")

@@ -48,50 +48,22 @@ _HEADER_EVENTS = 12345  # marks a header whose events have labels of four letter
 
 @dataclass(frozen=True)
 class C3D:
-    """What a C3D file holds.
+    """What a C3D file holds."""
 
-    Parameters
-    ----------
-    labels : list of str
-        One per point.
-    points : ndarray of shape (frames, points, 3)
-        In ``unit``, NaN where not seen.
-    rate : float
-        Frames per second, 0 if the file has none.
-    first_frame : int
-        The number of the first frame, counted from 1.
-    analog : ndarray of shape (samples, channels)
-        Scaled.
-    analog_labels, analog_units : list of str
-        One per channel.
-    analog_rate : float
-        Samples per second.
-    events : tuple of (float, str)
-        Second from the first frame, and label.
-    parameters : Parameters
-        Everything in the parameter section.
-    """
-
-    labels: list[str]
-    points: Floats
-    rate: float
-    first_frame: int
-    analog: Floats
+    labels: list[str]  # one per point
+    points: Floats  # (frames, points, 3) in the file's unit, NaN where not seen
+    rate: float  # frames per second, 0 if the file has none
+    first_frame: int  # its number, counted from 1
+    analog: Floats  # (samples, channels), scaled
     analog_labels: list[str]
     analog_units: list[str]
-    analog_rate: float
-    events: tuple[tuple[float, str], ...]
+    analog_rate: float  # samples per second
+    events: tuple[tuple[float, str], ...]  # second from the first frame, and label
     parameters: Parameters
 
 
 def parse_c3d(content: FileContent) -> C3D:
-    """The contents of a C3D file.
-
-    Raises
-    ------
-    ReadError
-        It is no C3D file, or holds less than one frame.
-    """
+    """The contents of a C3D file; ReadError where it is none, or holds less than one frame."""
     parameters = read_parameters(content)
     file = Layout(content, parameters, read_header(content, parameters))
     raw = file.frames()
@@ -252,8 +224,8 @@ class Layout:
         if used == header[0] and not fitting:  # as header and length of a cut file would
             self.content.warn(f"{remark}: those of the header are taken")
             return header
-        which = "either fits" if fitting else "neither fits"
-        raise self.content.error(f"{remark}, and {which} the length of the file: it is damaged")
+        fit = "either fits" if fitting else "neither fits"
+        raise self.content.error(f"{remark}, and {fit} the length of the file: it is damaged")
 
     def _fills(self, n_points: int, per_frame: int) -> bool:
         """Whether a declared number of frames, so wide, ends in the last block of the file."""
@@ -373,13 +345,7 @@ class Parameters:
 
 
 def read_parameters(content: FileContent) -> Parameters:
-    """Where each parameter of the file is.
-
-    Raises
-    ------
-    ReadError
-        There is no parameter section, or its processor is unknown.
-    """
+    """Where each parameter of the file is; ReadError where there are none of a known processor."""
     data = content.data
     start = (max(data[0], 1) - 1) * BLOCK if data else 0
     if len(data) < max(start + 4, BLOCK):

@@ -36,25 +36,13 @@ _MARKERS = re.compile(r'[ ",;\t]*trajectories[ ",;\t]*', re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Capture:
-    """Where the columns of a table stand, and what stands above them.
+    """Where the columns of a table stand, and what stands above them."""
 
-    Parameters
-    ----------
-    axes : int
-        The line of the axes, counted from 0.
-    below : int
-        The first row.
-    columns : dict of str to int
-        The column of x of each point; y and z follow it.
-    rate, unit : str
-        As they are written.
-    """
-
-    axes: int
-    below: int
-    columns: dict[str, int]
-    rate: str
-    unit: str
+    axes: int  # the line of them, counted from 0
+    below: int  # the first row
+    columns: dict[str, int]  # that of x of each point; y and z follow it
+    rate: str  # as written
+    unit: str  # as written
 
 
 def is_nexus(lines: Sequence[str]) -> bool:
@@ -83,12 +71,12 @@ def _motion(
     content, lines, columns = table.content, table.lines, capture.columns
     separator = separator_of(lines[capture.axes])
     names = [name for name in columns if not is_nameless(name)] or [*columns]
-    wanted = [columns[name] + axis for name in names for axis in range(3)]
+    chosen = [columns[name] + axis for name in names for axis in range(3)]
     below = range(capture.below, len(lines))
     end = next((i for i in below if not lines[i].strip(" ,;\t")), None)
     axes = cells_of(lines[capture.axes], separator)
     rows = DelimitedText(content, lines[:end], axes, capture.axes, capture.below, separator)
-    values = rows.numbers(wanted)
+    values = rows.numbers(chosen)
     notes = list(rows.remarks)
     if left := len(columns) - len(names):
         notes.append(f"{counted(left, 'point')} without a name left out")

@@ -43,21 +43,21 @@ def after_number(text, at, value):
     negative = at < len(text) and text[at] == MINUS
     if negative or (at < len(text) and text[at] == PLUS):
         at += 1
-    whole, digits, decimals, point = 0, 0, 0, False
+    mantissa, digits, decimals, point = 0, 0, 0, False
     while at < len(text):
         sign = text[at]
         if ZERO <= sign <= NINE:
-            whole = 10 * whole + (sign - ZERO)
+            mantissa = 10 * mantissa + (sign - ZERO)
             digits += 1
             decimals += point
-            if whole >= EXACT or digits == len(TENS):
+            if mantissa >= EXACT or digits == len(TENS):
                 return NOT_HERE
         elif sign == POINT and not point:
             point = True
         else:
             break
         at += 1
-    value[0] = whole / TENS[decimals]
+    value[0] = mantissa / TENS[decimals]
     if negative:
         value[0] = -value[0]
     return at if digits else NOT_HERE

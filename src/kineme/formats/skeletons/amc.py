@@ -10,7 +10,7 @@ Bones may come in any order, and without values where the ASF gives them no
 degree of freedom. An AMC names neither its skeleton nor its frame rate: see
 `find_skeleton`; 120 Hz, the rate of the CMU database, is assumed.
 
-Where all frames are laid out as the first, the text is taken in pieces of whole frames, so
+Where all frames are laid out as the first, the text is taken in chunks of whole frames, so
 that no more than its numbers is held.
 
 Source: Acclaim Advanced Technologies, ASF/AMC definition.
@@ -24,7 +24,6 @@ from collections.abc import Iterator
 from itertools import chain, islice, pairwise, repeat, starmap
 from math import radians
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,8 +41,11 @@ from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
 
+Layout = dict[str, int]
+"""How many values each bone of a frame has, in the order of the file."""
+
 FPS = 120.0
-PIECE = 1 << 20
+CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
 
 _FPS_COMMENT = re.compile(rb"^# fps ([0-9.e+-]+)\s*$", re.MULTILINE)
@@ -178,19 +180,13 @@ def read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, F
     return _quickly(content, start, figure) or _line_by_line(content, start, figure)
 
 
-class _Layout(NamedTuple):
-    """How many values each bone of a frame has, in the order of the file."""
-
-    counts: dict[str, int]
-
-
 def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floats] | None:
     """The values if every frame is laid out as the first, else None."""
     blocks: list[Floats] = []
-    layout: _Layout | None = None
+    layout: Layout | None = None
     following = np.nan
-    for piece in _pieces(content.data, start):
-        text = _COMMENT.sub(b"", piece) if b"#" in piece else piece
+    for chunk in _chunks(content.data, start):
+        text = _COMMENT.sub(b"", chunk) if b"#" in chunk else chunk
         layout = layout or _layout(text, figure)
         rows = None if layout is None else _rows(text, layout)
         if rows is None:
@@ -204,16 +200,16 @@ def _quickly(content: FileContent, start: int, figure: Figure) -> dict[str, Floa
     return None if layout is None else _by_bone(blocks, layout, figure)
 
 
-def _pieces(data: bytes, start: int) -> Iterator[bytes]:
-    """The text from ``start`` on, in pieces of whole frames."""
+def _chunks(data: bytes, start: int) -> Iterator[bytes]:
+    """The text from ``start`` on, in chunks of whole frames."""
     while start < len(data):
-        after = _FRAME.search(data, start + PIECE)
+        after = _FRAME.search(data, start + CHUNK)
         stop = after.start() if after else len(data)
         yield data[start:stop]
         start = stop
 
 
-def _layout(text: bytes, figure: Figure) -> _Layout | None:
+def _layout(text: bytes, figure: Figure) -> Layout | None:
     """That of the first frame; None where a bone is unknown, named twice, or missing."""
     first, second = islice(chain(_FRAME.finditer(text), repeat(None)), 2)
     if first is None:
@@ -227,11 +223,11 @@ def _layout(text: bytes, figure: Figure) -> _Layout | None:
             return None
         counts[name] = len(figure.bones[name].dof)
         at += 1 + counts[name]
-    whole = all(name in counts or not bone.dof for name, bone in figure.bones.items())
-    return _Layout(counts) if whole else None
+    complete = all(name in counts or not bone.dof for name, bone in figure.bones.items())
+    return counts if complete else None
 
 
-def _rows(text: bytes, layout: _Layout) -> Floats | None:
+def _rows(text: bytes, layout: Layout) -> Floats | None:
     """A row per frame: its number, and the values of its bones; None where it is laid out else.
 
     By compiled code where there is some already: to load it takes longer than a recording.
@@ -241,14 +237,14 @@ def _rows(text: bytes, layout: _Layout) -> Floats | None:
         if rows is not None:
             return rows
     words = text.split()
-    n_words = 1 + sum(1 + count for count in layout.counts.values())
+    n_words = 1 + sum(1 + count for count in layout.values())
     if len(words) % n_words:
         return None
-    rows = np.empty((len(words) // n_words, 1 + sum(layout.counts.values())))
+    rows = np.empty((len(words) // n_words, 1 + sum(layout.values())))
     try:
         rows[:, 0] = list(map(int, words[::n_words]))
         at, column = 1, 1
-        for name, count in layout.counts.items():
+        for name, count in layout.items():
             if words[at::n_words].count(name.encode()) != len(rows):
                 return None
             for i in range(count):
@@ -259,12 +255,12 @@ def _rows(text: bytes, layout: _Layout) -> Floats | None:
     return rows if np.isfinite(rows).all() else None
 
 
-def _compiled_rows(text: bytes, layout: _Layout) -> Floats | None:
+def _compiled_rows(text: bytes, layout: Layout) -> Floats | None:
     """The same, unless there are numbers among them that only ``float`` reads."""
     from kineme.formats.skeletons._amc_kernels import read_rows
 
-    counts = np.array([*layout.counts.values()], np.int64)
-    names = [name.encode() for name in layout.counts]
+    counts = np.array([*layout.values()], np.int64)
+    names = [name.encode() for name in layout]
     shortest = 2 * (1 + len(names) + int(counts.sum()))  # a word is a sign and a space at least
     rows = np.empty((len(text) // shortest + 1, 1 + int(counts.sum())))
     found = read_rows(
@@ -277,10 +273,10 @@ def _compiled_rows(text: bytes, layout: _Layout) -> Floats | None:
     return rows[:found].copy() if found > 0 else None
 
 
-def _by_bone(blocks: list[Floats], layout: _Layout, figure: Figure) -> dict[str, Floats]:
+def _by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict[str, Floats]:
     """The values of each bone, none where it is not named."""
-    ends = np.cumsum([1, *layout.counts.values()])
-    columns = dict(zip(layout.counts, starmap(slice, pairwise(ends.tolist())), strict=True))
+    ends = np.cumsum([1, *layout.values()])
+    columns = dict(zip(layout, starmap(slice, pairwise(ends.tolist())), strict=True))
     return {
         name: np.concatenate([rows[:, columns.get(name, slice(0))] for rows in blocks])
         for name in figure.bones

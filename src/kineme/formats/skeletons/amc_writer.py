@@ -19,14 +19,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme import _rotations as rot
 from kineme.errors import WriteError
 from kineme.formats.files import save, spelled, table
 from kineme.formats.skeletons.asf import ROOT
-from kineme.formats.skeletons.bvh_writer import RIGID
+from kineme.formats.skeletons.bvh_writer import euler_angles
 from kineme.formats.units import UNITS
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import local_translations
 
 Floats = NDArray[np.float64]
 
@@ -50,26 +48,19 @@ class Bone:
 
 def write_amc(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in an AMC file and its skeleton in an ASF of the same name."""
-    if motion.rotations is None:
-        raise WriteError(
-            path,
-            "an AMC needs rotations, and this motion has positions only: write .trc, .csv or .npz",
-        )
+    angles, translations, slides = euler_angles(motion, path, "an AMC")
     if sum(parent < 0 for parent in motion.skeleton.parents) != 1:
         raise WriteError(path, "an AMC holds one figure, and this motion has several roots")
-    translations = local_translations(motion.skeleton, motion.positions, motion.rotations)
-    slides = np.abs(translations - motion.skeleton.offsets).max(axis=(0, 2)) > RIGID
     moving = sorted(j for j in motion.skeleton.end_sites if slides[j])
     if moving:
         raise WriteError(path, f"end site {motion.skeleton.names[moving[0]]!r} moves on its bone")
     bones = _bones(motion.skeleton, slides, path)
-    angles = np.degrees(rot.to_euler_zyx(motion.rotations))[..., ::-1]
     shift = (translations - motion.skeleton.offsets) / UNIT
     shift[:, 0] = translations[:, 0] / UNIT
     blocks = []
     for bone in bones:
         if bone.joint is not None:
-            parts = [shift[:, bone.joint]] * bone.slides + [angles[:, bone.joint]]
+            parts = [shift[:, bone.joint]] * bone.slides + [angles[:, bone.joint, ::-1]]
             rows = table(np.concatenate(parts, axis=1))
             blocks.append([f"{bone.name} {row}" for row in rows])
     save(path.with_suffix(".asf"), _asf(bones))

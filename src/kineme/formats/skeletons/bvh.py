@@ -43,14 +43,14 @@ from kineme.recordings import Motion, Provenance, Skeleton
 
 Floats = NDArray[np.float64]
 
-PIECE = 1 << 20
+CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
 
 _HIERARCHY = re.compile(rb"^(\xef\xbb\xbf)?\s*HIERARCHY\s", re.IGNORECASE | re.MULTILINE)
 _MOTION = re.compile(rb"\bMOTION\s+Frames\s*:", re.IGNORECASE)
 _HEADER = re.compile(rb"[ \t]*(\d{1,18})\s+Frame\s*Time\s*:[ \t]*(\S*)[^\r\n]*", re.IGNORECASE)
 _CHANNEL = re.compile(r"([xyz])(position|rotation)", re.IGNORECASE)
-_GLUED = re.compile(rb"(?<=[0-9.])-")
+_JOINED = re.compile(rb"(?<=[0-9.])-")
 
 
 def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
@@ -65,17 +65,9 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     )
     provenance = content.provenance("BVH", head.notes)
     content.let_go()
-    rotations, slides = _local(head.joints, values)
+    turned = _local(head.joints, values)
     del values  # before as much again is made of it
-    return place(
-        _skeleton(head.joints),
-        rotations,
-        slides,
-        head.fps,
-        unit=options.unit,
-        up=options.up,
-        provenance=provenance,
-    )
+    return _placed(head.joints, turned, head.fps, options, provenance)
 
 
 def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch | None:
@@ -85,16 +77,8 @@ def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch 
     values = read_some(content.data, head.start, head.width, every) if every > 1 else None
     if values is None or len(values) != -(-head.declared // every):
         return None
-    rotations, slides = _local(head.joints, values)
-    motion = place(
-        _skeleton(head.joints),
-        rotations,
-        slides,
-        head.fps / every,
-        unit=options.unit,
-        up=options.up,
-        provenance=Provenance(str(content.path), "BVH"),
-    )
+    turned, provenance = _local(head.joints, values), Provenance(str(content.path), "BVH")
+    motion = _placed(head.joints, turned, head.fps / every, options, provenance)
     return Sketch(motion, head.declared, head.fps)
 
 
@@ -117,7 +101,7 @@ def _head(content: FileContent, options: ReadOptions) -> _Head:
     split = _MOTION.search(content.data)
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a whole BVH file")
-    joints = read_joints(content, split.start())
+    joints = _Hierarchy(content, split.start()).joints
     line = content.line_at(split.end() - 1)
     header = _HEADER.match(content.data, split.end())
     if header is None:
@@ -130,15 +114,22 @@ def _head(content: FileContent, options: ReadOptions) -> _Head:
     return _Head(joints, int(header.group(1)), fps, notes, line, header.end())
 
 
-def _skeleton(joints: list[Joint]) -> Skeleton:
+def _placed(
+    joints: list[Joint],
+    turned: tuple[Floats, dict[int, Floats]],
+    fps: float,
+    options: ReadOptions,
+    provenance: Provenance,
+) -> Motion:
+    """The motion of joints as `_local` gives them."""
     parents = tuple(joint.parent for joint in joints)
-    inner = set(parents)
-    return Skeleton(
+    skeleton = Skeleton(
         tuple(joint.name for joint in joints),
         parents,
         np.array([joint.offset for joint in joints]),
-        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
+        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in parents),
     )
+    return place(skeleton, *turned, fps, unit=options.unit, up=options.up, provenance=provenance)
 
 
 def _local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
@@ -191,13 +182,8 @@ class Joint:
     channels: list[tuple[str, str]] = field(default_factory=list)
 
 
-def read_joints(content: FileContent, stop: int) -> list[Joint]:
-    """The joints, parents first, from the bytes before ``stop``."""
-    return _Hierarchy(content, stop).joints
-
-
 class _Hierarchy:
-    """The joints of the HIERARCHY section, parents first."""
+    """The joints of the HIERARCHY section, the bytes before ``stop``; parents first."""
 
     def __init__(self, content: FileContent, stop: int):
         self.content = content
@@ -312,7 +298,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     values = array("d")
     odd: list[tuple[int, int]] = []
     fault: ReadError | None = None
-    glued = 0
+    joined = 0
     last = number = content.line_at(start)
     for number, line in enumerate(_lines(content.data, start), last):
         last = number
@@ -323,7 +309,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         except ValueError as error:
             fault = content.error(str(error), number)
             continue
-        glued += apart
+        joined += apart
         values.extend(row)
         if row and len(row) != width:
             odd.append((number, len(row)))
@@ -337,9 +323,9 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         raise fault or content.error("the file ends before its first frame: there is no motion")
     if fault is not None:
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
-    if glued:
+    if joined:
         content.warn(
-            f"blanks before minus signs are missing in {counted(glued, 'frame')}: put there"
+            f"blanks before minus signs are missing in {counted(joined, 'frame')}: put there"
         )
     return np.frombuffer(values).reshape(-1, width)
 
@@ -355,18 +341,18 @@ def read_some(data: bytes, start: int, width: int, every: int) -> Floats | None:
 
 
 def _lines(data: bytes, start: int) -> Iterator[bytes]:
-    """The lines from ``start`` on, without the blank ones at the end; a piece at a time."""
+    """The lines from ``start`` on, without the blank ones at the end; a chunk at a time."""
     stop = _end(data, start)
     while start < stop:
-        cut = min(data.find(b"\n", start + PIECE) + 1 or stop, stop)
+        cut = min(data.find(b"\n", start + CHUNK) + 1 or stop, stop)
         yield from data[start:cut].splitlines()
         start = cut
 
 
 def _end(data: bytes, start: int) -> int:
     """Where blanks and empty lines follow only."""
-    for at in range(len(data), start, -PIECE):
-        first = max(start, at - PIECE)
+    for at in range(len(data), start, -CHUNK):
+        first = max(start, at - CHUNK)
         if kept := data[first:at].rstrip():
             return first + len(kept)
     return start
@@ -377,7 +363,7 @@ def _row(line: bytes) -> tuple[list[float], bool]:
     try:
         return numbers(line.split()), False
     except ValueError:
-        apart = _GLUED.sub(b" -", line)
+        apart = _JOINED.sub(b" -", line)
         if apart == line:
             raise
         return numbers(apart.split()), True

@@ -30,17 +30,10 @@ RIGID = 1e-9
 
 def write_bvh(motion: Motion, path: Path) -> None:
     """Leave ``motion`` in a BVH file in centimetres."""
-    if motion.rotations is None:
-        raise WriteError(
-            path,
-            "a BVH needs rotations, and this motion has positions only: write .trc, .csv or .npz",
-        )
     skeleton = motion.skeleton
-    translations = local_translations(motion.skeleton, motion.positions, motion.rotations)
-    slides = np.abs(translations - skeleton.offsets).max(axis=(0, 2)) > RIGID
+    angles, translations, slides = euler_angles(motion, path, "a BVH")
     slides |= np.array(skeleton.parents) < 0
     ends = {j for j in skeleton.end_sites if not slides[j]}
-    angles = np.degrees(rot.to_euler_zyx(motion.rotations))
     order = list(_depth_first(motion))
     columns: list[Floats] = []
     for j in order:
@@ -52,6 +45,21 @@ def write_bvh(motion: Motion, path: Path) -> None:
     head = "\n".join(_hierarchy(motion, order, slides, _names(motion, ends, path)))
     timing = f"MOTION\nFrames: {motion.n_frames}\nFrame Time: {1 / motion.fps!r}\n"
     save(path, [head, "\n", timing, *table(np.concatenate(columns, axis=1))])
+
+
+def euler_angles(motion: Motion, path: Path, what: str) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Angles z, y, x in degrees, translations from the parent, and which joints slide.
+
+    WriteError where a motion has no rotations for ``what`` is to be written.
+    """
+    if motion.rotations is None:
+        raise WriteError(
+            path,
+            f"{what} needs rotations, and this motion has positions only: write .trc, .csv or .npz",
+        )
+    translations = local_translations(motion.skeleton, motion.positions, motion.rotations)
+    slides = np.abs(translations - motion.skeleton.offsets).max(axis=(0, 2)) > RIGID
+    return np.degrees(rot.to_euler_zyx(motion.rotations)), translations, slides
 
 
 def _names(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:

@@ -43,18 +43,9 @@ def place(
 ) -> Motion:
     """The motion in metres with y up, from one in a file's own units and axes.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        As for `forward_kinematics`, in file units.
-    rotations : ndarray, shape (frames, joints, 4)
-        Become the motion's; changed in place.
-    slides : mapping of int to ndarray of shape (frames, 3)
-        Where joints are in the frames of their parents, file units, in place of their offsets.
-    unit : str, float or None
-        Of the file; None to infer them.
-    up : str or None
-        See `unit`.
+    Rotations (frames, joints, 4) become the motion's and are changed in place. ``slides`` are
+    places (frames, 3) of joints in the frames of their parents, instead of their offsets. A unit
+    or an up axis of None is inferred.
     """
     means = skeleton.offsets.copy()
     for joint, places in slides.items():

@@ -19,7 +19,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._doors import reading
+from kineme._files import reading
 from kineme._json import decoded
 from kineme.errors import ReadError
 from kineme.library.storage.layout import BODIES, EMBEDDED, arrow, as_array, as_column

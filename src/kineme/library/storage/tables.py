@@ -16,8 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._doors import reading
-from kineme._files import atomic_write
+from kineme._files import atomic_write, reading
 from kineme.errors import ReadError, WriteError
 from kineme.library.storage.layout import EMBEDDED, TABLES, arrow, as_array, as_column
 from kineme.library.storage.places import is_remote, written

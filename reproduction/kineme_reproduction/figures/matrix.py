@@ -28,9 +28,9 @@ from kineme.methods.region_growing.found import RegionsFound
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import primitive_cuts
 from kineme.plot.matrix import SHADES, similarity_image
-from kineme.reproduction.figures.style import BETWEEN, heading, new_figure, save
-from kineme.reproduction.trials import Trial
 from kineme.segmentation.bodies import motion_features
+from kineme_reproduction.figures.style import BETWEEN, heading, new_figure, save
+from kineme_reproduction.trials import Trial
 
 FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
 
@@ -143,9 +143,9 @@ def _draw_squares(axes: Axes, borders: NDArray[np.float64], color: str) -> None:
 
 
 def _draw_truth(axes: Axes, truth: Truth) -> None:
-    whole = truth.labelling()
-    for label, start, stop in zip(whole.labels, whole.starts, whole.stops, strict=True):
-        first, last = start / whole.fps, stop / whole.fps
+    labelling = truth.labelling()
+    for label, start, stop in zip(labelling.labels, labelling.starts, labelling.stops, strict=True):
+        first, last = start / labelling.fps, stop / labelling.fps
         if label == TRANSITION:
             for draw in (axes.axvspan, axes.axhspan):
                 draw(first, last, color=FORWARD, alpha=0.25, linewidth=0)

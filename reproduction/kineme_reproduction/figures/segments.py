@@ -20,9 +20,9 @@ from matplotlib.patches import Rectangle
 from kineme._colors import PALETTE
 from kineme.evaluation.comparison import Comparison, labelling_of
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
-from kineme.reproduction.benchmark import Result
-from kineme.reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
-from kineme.reproduction.trials import Trial
+from kineme_reproduction.benchmark import Result
+from kineme_reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
+from kineme_reproduction.trials import Trial
 
 LIGHTER = 0.55
 ROW_INCHES = 0.17
@@ -76,10 +76,10 @@ def units(result: Result) -> Labelling:
 
 def classes_of(truth: Labelling, found: Labelling) -> dict[str, str]:
     """For each cluster the class that most of its certain frames have."""
-    wanted, given = truth.per_frame(), found.per_frame()
+    true, given = truth.per_frame(), found.per_frame()
     classes = {}
     for label in set(found.labels) - {TRANSITION}:
-        inside = wanted[(given == label) & (wanted != TRANSITION)]
+        inside = true[(given == label) & (true != TRANSITION)]
         names, counts = np.unique(inside.astype(str), return_counts=True)
         if names.size:
             classes[label] = str(names[counts.argmax()])
@@ -99,11 +99,11 @@ def _colors(
 
 def _assignment(truth: Labelling, found: Labelling) -> dict[str, str]:
     """The best one-to-one assignment of clusters to classes, over the certain frames."""
-    wanted, given = truth.numbers(), found.numbers()
-    certain = (wanted != UNLABELLED) & (given != UNLABELLED)
+    true, given = truth.numbers(), found.numbers()
+    certain = (true != UNLABELLED) & (given != UNLABELLED)
     if not certain.any():
         return {}
-    compared = Comparison(wanted[certain], given[certain], truth.fps)
+    compared = Comparison(true[certain], given[certain], truth.fps)
     right = compared.mapped == compared.truth
     clusters, classes = found.names(), truth.names()
     pairs = set(zip(compared.found[right].tolist(), compared.truth[right].tolist(), strict=True))

@@ -22,8 +22,8 @@ from kineme.errors import KinemeError
 from kineme.graph import NeighborGraph, neighbor_graph
 from kineme.methods.region_growing.preset import VOEGELE2014
 from kineme.recordings import Motion
-from kineme.reproduction.figures.style import INK, heading, new_figure, save, tidy
 from kineme.segmentation.bodies import motion_features
+from kineme_reproduction.figures.style import INK, heading, new_figure, save, tidy
 
 MIN_LENGTH_S = 8.0
 SLOT_S = 10.0

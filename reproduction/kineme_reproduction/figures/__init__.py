@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.published import strict_and_tolerant
-from kineme.evaluation.tables import markdown, markdown_scores, shown
+from kineme.evaluation.tables import markdown, score_rows, shown
 from kineme.evaluation.truth import Labelling
-from kineme.reproduction.benchmark import (
+from kineme_reproduction.benchmark import (
     PublishedCuts,
     Result,
     mean,
     mean_scores,
     score_published_cuts,
 )
-from kineme.reproduction.figures.reoccurrence import Recording, share_of_poses
-from kineme.reproduction.trials import FPS, Trial
+from kineme_reproduction.figures.reoccurrence import Recording, share_of_poses
+from kineme_reproduction.trials import FPS, Trial
 
 UNIFORM_FRAMES = (36, 15, 5)
 
@@ -49,7 +49,7 @@ def make_figures(
     WriteError
         The folder cannot be written to.
     """
-    from kineme.reproduction.figures import costs, matrix, reoccurrence, scores, segments
+    from kineme_reproduction.figures import costs, matrix, reoccurrence, scores, segments
 
     say = progress or (lambda _: None)
     trials = list(dict.fromkeys(r.trial for r in results))
@@ -95,6 +95,15 @@ def make_tables(
         tables["published cuts"] = _published_table(published)
     tables["reoccurrence"] = _reoccurrence_table(recordings)
     return tables
+
+
+def markdown_scores(columns: Mapping[str, Mapping[str, float]]) -> str:
+    """The table of `score_rows`, groups in bold."""
+    rows: list[list[str]] = []
+    for group, lines in score_rows(columns):
+        rows.append([f"**{group}**", *[""] * len(columns)])
+        rows += [[title, *cells] for title, cells in lines]
+    return markdown(["", *columns], rows)
 
 
 def _uniform_table(trials: Sequence[Trial]) -> str:

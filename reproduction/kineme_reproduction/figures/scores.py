@@ -23,9 +23,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kineme.evaluation.variance import ClusterVariance, feature_variance, point_cloud_variance
-from kineme.reproduction.benchmark import PublishedCuts, Result, published
-from kineme.reproduction.figures.segments import classes_of, units
-from kineme.reproduction.figures.style import (
+from kineme_reproduction.benchmark import PublishedCuts, Result, published
+from kineme_reproduction.figures.segments import classes_of, units
+from kineme_reproduction.figures.style import (
     FAINT,
     INK,
     grouped,

@@ -4,16 +4,11 @@ They are found in a folder that holds the recordings as published (``86.asf``,
 ``86_01.amc``, …) and the annotations (``annotations.json`` or the authors'
 ``mocap.txt``). Where no folder is named, it is ``KINEME_DATA``, else the cache
 that ``kineme data cmu 86`` fills.
-
-At another rate than 120 Hz mark m is m × rate / 120, halves up, as in the evaluation of Vögele,
-Krüger, Klein 2014. Frame f counted from 1 is frame f - 1 here.
 """
 
 from __future__ import annotations
 
-import math
 import os
-import re
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -24,10 +19,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._json import decoded
-from kineme.datasets.annotated_trials import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
-from kineme.evaluation.truth import Truth, round_half_up
+from kineme.evaluation.annotations import read_trials
+from kineme.evaluation.truth import Truth
 from kineme.recordings import Motion
 
 Floats = NDArray[np.float64]
@@ -119,84 +113,6 @@ def load_trials(
     return trials
 
 
-def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Truth]:
-    """The annotation of each trial by its name.
-
-    Parameters
-    ----------
-    path : path-like
-        ``annotations.json``, or the authors' ``mocap.txt``.
-    fps : float
-        Frames per second of the comparison.
-
-    Returns
-    -------
-    dict of str to Truth
-
-    Raises
-    ------
-    ReadError
-        Not such a file, or marks that run backwards beyond the known errors.
-
-    Warns
-    -----
-    KinemeWarning
-        For every row that was mended, see `kineme.datasets.annotated_trials`.
-    """
-    found = {}
-    for name, rows in read_actions(path).items():
-        try:
-            found[name] = _truth(rows, fps)
-        except ParameterError as error:
-            raise ReadError(path, f"trial {name}: {error}") from error
-    return found
-
-
-def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
-    """The annotation of one trial; known errors are mended in silence.
-
-    Parameters
-    ----------
-    path : path-like
-        The benchmark's annotations.
-    name : str
-        Of the trial, such as ``86_01``.
-    fps : float
-        Frames per second of the comparison.
-
-    Returns
-    -------
-    Truth
-
-    Raises
-    ------
-    ReadError
-        Not such a file, or it holds no such trial.
-    """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KinemeWarning)
-        trials = read_trials(path, fps=fps)
-    if name not in trials:
-        names = ", ".join(trials)
-        raise ReadError(path, f"holds no trial {name!r}: name one of {names} with --trial")
-    return trials[name]
-
-
-def is_annotations(path: Path) -> bool:
-    """Whether a file is ``annotations.json`` or ``mocap.txt``, by what it holds."""
-    suffix = path.suffix.lower()
-    if suffix not in (".txt", ".json") or not path.is_file():
-        return False
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        if suffix == ".txt":
-            return re.match(r"\s*\S*\b\d+_\d+\b", text) is not None
-        content = decoded(text, path)
-    except (OSError, ValueError, ReadError):
-        return False
-    return isinstance(content, dict) and "trials" in content
-
-
 def _trial(path: Path, truths: dict[str, Truth]) -> Trial:
     from kineme.formats import read_motion
 
@@ -225,13 +141,3 @@ def _cache() -> Path | None:
         return cache_folder()
     except MissingDependencyError:
         return None
-
-
-def _truth(rows: list[Action], fps: float) -> Truth:
-    earliest, mean, latest = (
-        round_half_up(np.array([row[i] for row in rows[:-1]]) * (fps / TRIAL_FPS)) - 1
-        for i in (1, 2, 3)
-    )
-    # Keeping every fourth frame from the first on keeps ceil(N / 4) of them.
-    frames = math.ceil(rows[-1].latest * fps / TRIAL_FPS)
-    return Truth(tuple(row.label for row in rows), earliest, mean, latest, frames, fps)

@@ -22,11 +22,11 @@ from kineme.evaluation.score import evaluate_segmentation
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.preset import RegionGrowingPreset
-from kineme.reproduction.benchmark import Scores, mean
-from kineme.reproduction.figures.style import FAINT, INK, heading, new_figure, save, tidy
-from kineme.reproduction.trials import Trial
 from kineme.segmentation.bodies import motion_features
 from kineme.segmentation.segmenter import segment
+from kineme_reproduction.benchmark import Scores, mean
+from kineme_reproduction.figures.style import FAINT, INK, heading, new_figure, save, tidy
+from kineme_reproduction.trials import Trial
 
 STEPS = ("features", "bundling", "neighbors", "activities", "primitives", "clusters")
 STEP_COLORS = dict(zip(STEPS, (PALETTE[i] for i in (1, 5, 2, 4, 3, 0)), strict=True))

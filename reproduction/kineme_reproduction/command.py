@@ -8,12 +8,22 @@ from typing import Any
 
 import typer
 
+from kineme._counts import counted
 from kineme._files import atomic_write
-from kineme.cli.evaluate.tables import show_results
 from kineme.cli.messages import progress
+from kineme.cli.tables import show_scores
 from kineme.errors import ParameterError, WriteError
-from kineme.reproduction.benchmark import METHODS, Method, Result, as_records, method, run
-from kineme.reproduction.trials import find_folder, load_trials
+from kineme_reproduction.benchmark import (
+    METHODS,
+    Method,
+    Result,
+    Scores,
+    as_records,
+    mean_scores,
+    method,
+    run,
+)
+from kineme_reproduction.trials import find_folder, load_trials
 
 
 def run_benchmark(
@@ -34,7 +44,7 @@ def run_benchmark(
         loaded = load_trials(folder, trials, progress=stage)
         results = run(loaded, methods, progress=stage)
     if not quiet:
-        show_results(results)
+        _show(results)
     with progress("figures", quiet=quiet) as stage:
         _draw(results, folder, plot, figures, stage)
     return as_records(results)
@@ -47,15 +57,26 @@ def _methods(names: list[str]) -> Mapping[str, Method]:
         raise typer.BadParameter(str(error)) from error
 
 
+def _show(results: list[Result]) -> None:
+    """Print one table per trial, methods as columns, and the means over the trials."""
+    by_trial: dict[str, dict[str, Scores]] = {}
+    for result in results:
+        by_trial.setdefault(result.trial.name, {})[result.method] = result.scores
+    for trial, columns in by_trial.items():
+        show_scores(trial, columns)
+    if len(by_trial) > 1:
+        show_scores(f"mean of {counted(len(by_trial), 'trial')}", mean_scores(results))
+
+
 def _draw(
     results: list[Result], data: Path, plot: Path | None, figures: Path | None, stage: Any
 ) -> None:
     if plot is not None:
-        from kineme.reproduction.figures.segments import plot_trials
+        from kineme_reproduction.figures.segments import plot_trials
 
         plot_trials(results, plot)
     if figures is not None:
-        from kineme.reproduction.figures import make_figures
+        from kineme_reproduction.figures import make_figures
 
         tables = make_figures(results, data, figures, progress=stage)
         text = "\n".join(f"## {title}\n\n{table}" for title, table in tables.items())

@@ -35,8 +35,8 @@ from kineme.evaluation.score import evaluate_segmentation
 from kineme.evaluation.truth import TRANSITION, Ints, Labelling, Truth
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
-from kineme.reproduction.trials import Trial, read_truths
 from kineme.segments.segmentation import Segmentation
+from kineme_reproduction.trials import Trial, read_truths
 
 Scores = dict[str, float]
 Method = Callable[[Trial], Segmentation]
@@ -258,16 +258,16 @@ def aca_accuracy(truth: Truth, found: Labelling, *, blocks: Ints | None = None) 
         frame. None counts frames.
     """
     counted = np.arange(found.frames) if blocks is None else np.append(blocks[1:], found.frames) - 1
-    wanted, given = truth.at_means().numbers(), found.numbers()
-    return one_to_one_accuracy(Comparison(wanted[counted], given[counted], truth.fps))
+    true, given = truth.at_means().numbers(), found.numbers()
+    return one_to_one_accuracy(Comparison(true[counted], given[counted], truth.fps))
 
 
 def _published_cuts(
     method: Literal["aca", "haca"], trial: str, truth: Truth, stored: _Stored
 ) -> PublishedCuts:
     aca = method == "aca"
-    marks = stored["aca_cuts_30hz" if aca else "haca_cuts_30hz"][trial]
-    cuts = np.array(marks, np.int64) - 1  # counted from 1
+    stored_cuts = stored["aca_cuts_30hz" if aca else "haca_cuts_30hz"][trial]
+    cuts = np.array(stored_cuts, np.int64) - 1  # counted from 1
     clusters = stored["aca_cluster_ids" if aca else "haca_cluster_ids"][trial]
     fits = len(clusters) == cuts.size + 1  # HACA's of three trials do not
     found = Labelling.from_cuts(
