@@ -65,7 +65,6 @@ NOT_DONE = {
     "evaluation": 10,
     "formats": 99,
     "labels": 25,
-    "library": 132,
     "methods": 87,
     "reproduction": 4,
     "segments": 14,

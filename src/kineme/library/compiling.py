@@ -1,4 +1,4 @@
-"""From the pieces of a library to its tables: one vocabulary over all recordings."""
+"""From the analyses of a library to its tables: one vocabulary over all recordings."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from kineme.library.executors import Executor, Progress
 from kineme.library.planning import Entry
 from kineme.library.settings import VOCABULARY
-from kineme.library.storage.layout import BODIES, EMBEDDED, PIECES, arrow, as_array, as_column
-from kineme.library.storage.pieces import Piece, read_piece
+from kineme.library.storage.analyses import Analysis, read_analysis
+from kineme.library.storage.layout import ANALYSES, BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.tables import read_table, table_of
 from kineme.library.vocabulary.joining import clusters_in
 from kineme.library.vocabulary.numbering import Spans, lasting_numbers
@@ -68,20 +68,20 @@ def compiled(
     following : int
         The first number that was not given now either.
     """
-    pieces = [read_piece(folder / PIECES, key) for _, _, key in entries]
-    words = _joined_words(folder, entries, pieces, executor, progress)
-    shared = _shared(pieces, words)
+    analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
+    words = _joined_words(folder, entries, analyses, executor, progress)
+    shared = _shared(analyses, words)
     new = {
-        name: _spans(piece.table.columns(), clusters)
-        for (name, _, _), piece, clusters in zip(entries, pieces, shared, strict=True)
+        name: _spans(analysis.table.columns(), clusters)
+        for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
     }
     numbers = lasting_numbers(before, new, following=following)
     renumbered = np.array([*numbers.values(), -1], np.int64)  # labels are 0, 1, …
     tables = {
-        "recordings": _recordings(entries, pieces),
-        "segments": _segments(entries, pieces, [renumbered[each] for each in shared]),
+        "recordings": _recordings(entries, analyses),
+        "segments": _segments(entries, analyses, [renumbered[each] for each in shared]),
         "words": _word_table(entries, words, renumbered),
-        "embeddings": _embeddings(entries, pieces),
+        "embeddings": _embeddings(entries, analyses),
     }
     return {name: table_of(name, columns) for name, columns in tables.items()}, max(
         [following, *(number + 1 for number in numbers.values())]
@@ -118,7 +118,7 @@ def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
 def _joined_words(
     folder: Path,
     entries: Sequence[Entry],
-    pieces: Sequence[Piece],
+    analyses: Sequence[Analysis],
     executor: Executor,
     progress: Progress,
 ) -> _Words:
@@ -126,23 +126,23 @@ def _joined_words(
     places: list[Place] = []
     parts: list[tuple[Ints, Ints, Any, Any]] = []
     count = 0
-    for vocabulary in sorted({piece.facts["vocabulary"] for piece in pieces} - {""}):
+    for vocabulary in sorted({analysis.facts["vocabulary"] for analysis in analyses} - {""}):
         words = [
             place
-            for number, piece in enumerate(pieces)
-            if piece.facts["vocabulary"] == vocabulary
-            for place in places_in(piece, number)
+            for number, analysis in enumerate(analyses)
+            if analysis.facts["vocabulary"] == vocabulary
+            for place in places_in(analysis, number)
         ]
         if not words:
             continue
         keys = [key for _, _, key in entries]
         if vocabulary == BODIES or len({place.recording for place in words}) == 1:
-            crowd = crowd_of(words, pieces, folder / PIECES, keys)
+            crowd = crowd_of(words, analyses, folder / ANALYSES, keys)
             found = clusters_in(crowd, VOCABULARY, executor, progress)
         else:
-            from kineme.library.vocabulary.moments import clusters_of_moments
+            from kineme.library.vocabulary.signals import clusters_of_signals
 
-            found = clusters_of_moments(words, pieces, folder / PIECES, keys, executor)
+            found = clusters_of_signals(words, analyses, folder / ANALYSES, keys, executor)
         following = np.where(found.following < 0, -1, found.following + count)
         places += words
         parts.append((found.labels + count, following, found.confidence, found.spread))
@@ -153,15 +153,17 @@ def _joined_words(
     return _Words(places, *map(np.concatenate, zip(*parts, strict=True)))
 
 
-def _shared(pieces: Sequence[Piece], words: _Words) -> list[Ints]:
-    """The cluster of each segment of each piece in the common vocabulary, -1 in none."""
+def _shared(analyses: Sequence[Analysis], words: _Words) -> list[Ints]:
+    """The cluster of each segment of each analysis in the common vocabulary, -1 in none."""
     label = {
-        (place.recording, place.own_cluster): cluster
+        (place.recording, place.cluster): cluster
         for place, cluster in zip(words.places, words.labels.tolist(), strict=True)
     }
     return [
-        np.array([label.get((i, number), -1) for number in piece.table.cluster.tolist()], np.int64)
-        for i, piece in enumerate(pieces)
+        np.array(
+            [label.get((i, number), -1) for number in analysis.table.cluster.tolist()], np.int64
+        )
+        for i, analysis in enumerate(analyses)
     ]
 
 
@@ -172,8 +174,8 @@ def _spans(columns: Columns, clusters: Ints) -> Spans:
     return columns["start_s"][rows], columns["stop_s"][rows], clusters[rows]
 
 
-def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
-    facts = [piece.facts for piece in pieces]
+def _recordings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
+    facts = [analysis.facts for analysis in analyses]
     names = ("vocabulary", "format", "n_frames", "fps", "features_fps", "samples")
     columns: Columns = {name: [each[name] for each in facts] for name in names}
     return {
@@ -189,16 +191,16 @@ def _recordings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
 
 
 def _segments(
-    entries: Sequence[Entry], pieces: Sequence[Piece], clusters: Sequence[Ints]
+    entries: Sequence[Entry], analyses: Sequence[Analysis], clusters: Sequence[Ints]
 ) -> Columns:
-    tables = [piece.table for piece in pieces]
+    tables = [analysis.table for analysis in analyses]
     columns: Columns = {name: _all(getattr(table, name) for table in tables) for name in COLUMNS}
     actions = [
         numbers[np.flatnonzero(table.level == "activity")][table.activity]
         for numbers, table in zip(clusters, tables, strict=True)
     ]
     return {
-        **_rows(entries, pieces),
+        **_rows(entries, analyses),
         **columns,
         "cluster": _all(clusters),
         "action": _all(actions),
@@ -209,7 +211,7 @@ def _segments(
 def _word_table(entries: Sequence[Entry], words: _Words, numbers: Ints) -> Columns:
     return {
         "recording": [entries[place.recording][0] for place in words.places],
-        "own_cluster": [place.own_cluster for place in words.places],
+        "own_cluster": [place.cluster for place in words.places],
         "cluster": numbers[words.labels],
         "following": numbers[words.following],
         "confidence": words.confidence,
@@ -220,20 +222,20 @@ def _word_table(entries: Sequence[Entry], words: _Words, numbers: Ints) -> Colum
     }
 
 
-def _embeddings(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
+def _embeddings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
     pa, _ = arrow()
-    values = _all(piece.embeddings for piece in pieces).reshape(-1, EMBEDDED)
+    values = _all(analysis.embeddings for analysis in analyses).reshape(-1, EMBEDDED)
     embedded = np.flatnonzero(values.any(axis=1))
     rows = {
         name: np.asarray(column)[embedded] if len(column) else column
-        for name, column in _rows(entries, pieces).items()
+        for name, column in _rows(entries, analyses).items()
     }
     flat = as_column(values[embedded].ravel(), np.float32)
     return {**rows, "embedding": pa.FixedSizeListArray.from_arrays(flat, EMBEDDED)}
 
 
-def _rows(entries: Sequence[Entry], pieces: Sequence[Piece]) -> Columns:
-    counts = [len(piece.table) for piece in pieces]
+def _rows(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
+    counts = [len(analysis.table) for analysis in analyses]
     return {
         "recording": [n for (n, _, _), k in zip(entries, counts, strict=True) for _ in range(k)],
         "segment": _all(np.arange(count) for count in counts),

@@ -5,8 +5,8 @@ described by their posture and energy (`kineme.methods.kineme.statistics`), in h
 deviation of each in the recording, so that one threshold serves both, whatever the number of
 channels; they compare with recordings of the same channels only.
 
-Everything of the library that knows what features are is here. What segments and what finds moments
-is imported by who makes a piece: who searches only does not wait for it.
+Everything of the library that knows what features are is here. What segments and samples channels
+is imported only where an analysis is made: a search does not wait for it.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from kineme.features.canonical.matching import MATCHING_FPS, features_and_poses
 from kineme.features.effectors import Names
 from kineme.features.emg import emg_envelope
 from kineme.library.settings import Settings
+from kineme.library.storage.analyses import LARGEST_SAMPLE, Analysis
 from kineme.library.storage.layout import BODIES, EMBEDDED
-from kineme.library.storage.pieces import LARGEST_MOMENT, Piece
 from kineme.matching.embeddings import course, embedding
 from kineme.methods.kineme.preset import SENSORS
 from kineme.methods.kineme.statistics import channel_statistics
@@ -165,10 +165,10 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
     return features
 
 
-def make_piece(
+def analysis_of(
     recording: Motion | Signals, settings: Settings
-) -> tuple[Piece, NDArray[np.float32], NDArray[np.float32] | None]:
-    """What is kept of a recording, its features, and its moments.
+) -> tuple[Analysis, NDArray[np.float32], NDArray[np.float32] | None]:
+    """What is kept of a recording, its features, and the samples of its channels.
 
     Parameters
     ----------
@@ -177,9 +177,9 @@ def make_piece(
 
     Returns
     -------
-    piece : Piece
+    analysis : Analysis
     features : (samples, dims) array
-    moments : (moments, 1 + 2 · channels) array, or None
+    channel_samples : (channel_samples, 1 + 2 · channels) array, or None
         Of signals: the second of each, means and deviations.
     """
     from kineme.segmentation.segmenter import segment
@@ -197,7 +197,7 @@ def make_piece(
     for row, each in enumerate(found.table):
         if each.kind != "transition":
             embeddings[row] = described.embedding(each.start_s, each.stop_s)
-    moments = _moments(recording) if isinstance(recording, Signals) else None
+    channel_samples = _channel_samples(recording) if isinstance(recording, Signals) else None
     reason = f"not searched: {described.reason}" if described.reason else ""
     facts = {
         "format": recording.provenance.format or "",
@@ -206,18 +206,18 @@ def make_piece(
         "vocabulary": described.vocabulary,
         "features_fps": described.fps,
         "samples": len(described.features),
-        "moments": 0 if moments is None else len(moments),
+        "moments": 0 if channel_samples is None else len(channel_samples),
         "notes": [*found.provenance["notes"], *filter(None, [reason])],
     }
-    return Piece(facts, found.table, embeddings), described.features, moments
+    return Analysis(facts, found.table, embeddings), described.features, channel_samples
 
 
-def _moments(signals: Signals) -> NDArray[np.float32]:
+def _channel_samples(signals: Signals) -> NDArray[np.float32]:
     from kineme.transfer.channel_samples import channel_samples
 
     found = channel_samples(signals)
     columns = np.column_stack([found.frames / signals.fps, found.means, found.deviations])
-    clipped: NDArray[np.float32] = np.clip(columns, -LARGEST_MOMENT, LARGEST_MOMENT).astype(
+    clipped: NDArray[np.float32] = np.clip(columns, -LARGEST_SAMPLE, LARGEST_SAMPLE).astype(
         np.float32
     )
     return clipped

@@ -129,11 +129,11 @@ def write_hits(tables: OpenTables, hits: Sequence[Hit], folder: str | PathLike[s
     by_recording: dict[str, list[Hit]] = {}
     for hit in hits:
         by_recording.setdefault(hit.recording, []).append(hit)
-    wanted = ((tables.read(name), group) for name, group in by_recording.items())
+    recordings = ((tables.read(name), group) for name, group in by_recording.items())
     return write_clips(
         (
             (recording, [_as_segment(hit, recording) for hit in group])
-            for recording, group in wanted
+            for recording, group in recordings
         ),
         folder,
     )

@@ -1,4 +1,4 @@
-"""The pieces of the recordings of a build: those that are there, and those to be made.
+"""The analyses of the recordings of a build: those that are there, and those to be made.
 
 Any executor makes them; whatever happens to one recording costs it only. What makes them takes a
 second to import, so that is left to the processes that do it: the one that waits for them has
@@ -31,8 +31,8 @@ from kineme.library.executors import Executor, InProcess, Progress, Watch
 from kineme.library.planning import Plan
 from kineme.library.settings import Settings
 from kineme.library.sources import FileStates, content_digest, fetched, size_of
-from kineme.library.storage.layout import SEEN, read_json, write_json
-from kineme.library.storage.pieces import has_piece, write_piece
+from kineme.library.storage.analyses import has_analysis, write_analysis
+from kineme.library.storage.layout import STATES, read_json, write_json
 from kineme.library.storage.places import is_remote
 
 States = dict[str, tuple[str, str]]
@@ -52,11 +52,11 @@ class Gathered:
     Attributes
     ----------
     digests : dict of Path to str
-        Of the files of each recording that has a piece.
+        Of the files of each recording that has an analysis.
     failed : dict of Path to str
         Why the others have none.
     new : int
-        How many pieces were made.
+        How many analyses were made.
     """
 
     digests: dict[Path, str] = field(default_factory=dict)
@@ -65,7 +65,7 @@ class Gathered:
 
 
 def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Progress) -> Gathered:
-    """The pieces of recordings, made where there is none.
+    """The analyses of recordings, made where there is none.
 
     Files that look as they did when they were last read are not read again.
 
@@ -84,7 +84,7 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     WriteError
         The folder cannot be written.
     """
-    former = _former_states(plan.folder / SEEN, progress)
+    former = _former_states(plan.folder / STATES, progress)
     file_states = FileStates(plan.settings.options().skeleton)
     readable = [path for path in found if is_text(str(path))]
     states = {path: file_states.of(path) for path in readable}
@@ -95,7 +95,7 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
         _make(plan, waiting, executor, progress, gathered)
     present = {str(path): (states[path], digest) for path, digest in gathered.digests.items()}
     if present != former:
-        write_json(plan.folder / SEEN, present)
+        write_json(plan.folder / STATES, present)
     return gathered
 
 
@@ -109,12 +109,12 @@ def _former_states(path: Path, progress: Progress) -> States:
 
 
 def _unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> dict[Path, str]:
-    """Digests of recordings that look as they did, and have a piece."""
+    """Digests of recordings that look as they did, and have an analysis."""
     digests = {}
-    complete = {piece.stem for piece in plan.pieces.glob("*.parquet")}
+    complete = {path.stem for path in plan.analyses.glob("*.parquet")}
     for path, state in states.items():
-        known_state, digest = former.get(str(path), ("", ""))
-        if known_state and known_state == state and plan.settings.key(digest) in complete:
+        former_state, digest = former.get(str(path), ("", ""))
+        if former_state and former_state == state and plan.settings.key(digest) in complete:
             digests[path] = digest
     return digests
 
@@ -126,8 +126,8 @@ def _make(
     progress: Progress,
     into: Gathered,
 ) -> None:
-    """Make the pieces of recordings; what came of each is noted."""
-    tasks = tasks_for(waiting, plan.pieces, plan.settings)
+    """Make the analyses of recordings; what came of each is noted."""
+    tasks = tasks_for(waiting, plan.analyses, plan.settings)
     groups = {
         group.tasks[0]: group for group in by_content(tasks, plan.settings.options().skeleton)
     }
@@ -228,15 +228,15 @@ class Task:
     Attributes
     ----------
     path : Path
-    pieces : Path
-        Where its piece goes.
+    analyses : Path
+        Where its analysis goes.
     settings : Settings
     size : int
         Bytes of the recording.
     """
 
     path: Path
-    pieces: Path
+    analyses: Path
     settings: Settings
     size: int
 
@@ -246,7 +246,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a task: the digest of its files, whose piece is there, or why it is not.
+    """What came of a task: the digest of its files, whose analysis is there, or why it is not.
 
     Attributes
     ----------
@@ -264,9 +264,9 @@ class Outcome:
     fatal: bool = False
 
 
-def tasks_for(paths: Iterable[Path], pieces: Path, settings: Settings) -> list[Task]:
+def tasks_for(paths: Iterable[Path], analyses: Path, settings: Settings) -> list[Task]:
     """The tasks of recordings, the largest first: the last ones to be done are short."""
-    tasks = [Task(path, pieces, settings, size_of(path)) for path in paths]
+    tasks = [Task(path, analyses, settings, size_of(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 
@@ -294,9 +294,9 @@ def workers_for(tasks: Iterable[Task]) -> int:
 
 
 def work_on(task: Task) -> Outcome:
-    """Read, segment and describe a recording, unless its piece is there."""
+    """Read, segment and describe a recording, unless its analysis is there."""
     try:
-        from kineme.library.descriptions import make_piece
+        from kineme.library.descriptions import analysis_of
 
         with warnings.catch_warnings(), threadpool_limits(1):  # sums do not depend on threads
             warnings.simplefilter("ignore", KinemeWarning)
@@ -304,10 +304,10 @@ def work_on(task: Task) -> Outcome:
             with fetched(task.path, options.skeleton) as path:
                 digest = content_digest(path, options.skeleton)
                 key = task.settings.key(digest)
-                if has_piece(task.pieces, key):
+                if has_analysis(task.analyses, key):
                     return Outcome(digest)
                 recording = read_quietly(path, options)
-            write_piece(task.pieces, key, *make_piece(recording, task.settings))
+            write_analysis(task.analyses, key, *analysis_of(recording, task.settings))
     except (WriteError, MissingDependencyError) as error:
         return Outcome(error=_reason(error), fatal=isinstance(error, WriteError))
     except Exception as error:  # noqa: BLE001 (one recording never ends a build)

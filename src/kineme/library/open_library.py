@@ -263,14 +263,14 @@ def numbers_of(tables: OpenTables, cluster: int | str) -> list[int]:
     ParameterError
         There is none.
     """
-    there = sorted(set(tables.columns("words")["cluster"].tolist()))
+    numbers = sorted(set(tables.columns("words")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)
     named = isinstance(cluster, str)  # a whole number is never taken for a name of digits
-    found = [number for number in there if named and edits.name(number) == text]
+    found = [number for number in numbers if named and edits.name(number) == text]
     if not found and text.isdecimal():
-        found = [number for number in there if number == edits.number(int(text))]
+        found = [number for number in numbers if number == edits.number(int(text))]
     if not found:
-        names = ", ".join(edits.name(number) or str(number) for number in there[:20])
+        names = ", ".join(edits.name(number) or str(number) for number in numbers[:20])
         raise ParameterError(f"no cluster is called {text:.60}; there are {names or 'none'}")
     return found
 
@@ -330,11 +330,11 @@ def split_cluster(tables: OpenTables, cluster: int | str, recordings: Sequence[s
     with tables.editing():
         (number, *_) = numbers_of(tables, cluster)
         words = tables.columns("words")
-        there = set(words["recording"][words["cluster"] == number].tolist())
-        if not there.intersection(recordings) or there <= set(recordings):
+        present = set(words["recording"][words["cluster"] == number].tolist())
+        if not present.intersection(recordings) or present <= set(recordings):
             raise ParameterError(
-                f"cluster {number} is split by naming some, not all, of its {len(there)} "
-                f"recordings: {', '.join(sorted(there)[:5])}"
+                f"cluster {number} is split by naming some, not all, of its {len(present)} "
+                f"recordings: {', '.join(sorted(present)[:5])}"
             )
         into: int = max(tables.head["following"], tables.edits.following)
         tables.write(tables.edits.with_split(number, into, recordings))

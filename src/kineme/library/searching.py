@@ -165,5 +165,5 @@ def _union(
     return Matches(starts[chosen], stops[chosen], distances[chosen])
 
 
-def _picked(found: Matches, which: slice | Ints) -> Matches:
-    return Matches(found.starts[which], found.stops[which], found.distances[which])
+def _picked(found: Matches, rows: slice | Ints) -> Matches:
+    return Matches(found.starts[rows], found.stops[rows], found.distances[rows])

@@ -26,8 +26,8 @@ from kineme.methods.constants import (
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.segments.hierarchy import DEFAULT_DETAIL, check_detail
 
-PIECE = "kineme.library.piece/4"
-"""Schema of a piece: a change of what is kept of a recording gets the next number."""
+ANALYSIS = "kineme.library.piece/4"
+"""Schema of an analysis: a change of what is kept of a recording gets the next number."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ class Settings:
             ) from error
 
     def key(self, digest: str) -> str:
-        """The name of the piece of a recording whose files have this digest."""
+        """The name of the analysis of a recording whose files have this digest."""
         return sha256(f"{self._digest} {digest}".encode()).hexdigest()[:32]
 
     @cached_property
@@ -121,7 +121,7 @@ class Settings:
             with suppress(ParameterError):  # constants of one that the other does not have
                 chosen = resolve_preset(self.preset, signals=signals, **self.constants)
                 presets.append([chosen.name, dict(chosen.parameters())])
-        content = [PIECE, __version__, presets, self.to_json()]
+        content = [ANALYSIS, __version__, presets, self.to_json()]
         return sha256(json.dumps(content, sort_keys=True, default=_plain).encode()).hexdigest()
 
 
@@ -144,8 +144,8 @@ class VocabularyConstants:
     farthest: float = constant(
         "no two words are farther apart", limits=SOME_LENGTH, default=2.0, fine=True
     )
-    told_apart: float = constant(
-        "those of one recording are as far apart at least", limits=SOME_LENGTH, default=1.3,
+    same_recording: float = constant(
+        "words of one recording are as far apart at least", limits=SOME_LENGTH, default=1.3,
         fine=True,
     )  # fmt: skip
     longest_example: float = constant(

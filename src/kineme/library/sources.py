@@ -164,9 +164,9 @@ def recordings_under(folder: Path, *, recursive: bool) -> list[Path]:
     """The recordings in a folder; elsewhere, only such as are one file."""
     if not is_remote(folder):
         return recordings_in(folder, recursive=recursive).recordings
-    there: Any = folder
-    inside = there.fs.find(there.path, maxdepth=None if recursive else 1)
-    home = there.path.rstrip("/") + "/"
+    remote: Any = folder
+    inside = remote.fs.find(remote.path, maxdepth=None if recursive else 1)
+    home = remote.path.rstrip("/") + "/"
     paths = [folder / name.removeprefix(home) for name in sorted(inside)]
     return [path for path in paths if not path.name.startswith(".") and holds_recording(path)]
 

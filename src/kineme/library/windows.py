@@ -86,7 +86,7 @@ def length_for(example: Float32s) -> int:
     return min(LENGTHS, key=lambda length: abs(np.log(length / max(len(example), 1))))
 
 
-def wanted(example: Float32s) -> NDArray[np.int32]:
+def parts_at_speeds(example: Float32s) -> NDArray[np.int32]:
     """The middle of an example at each of `SPEEDS`, (speeds, 32), to compare windows with."""
     length = length_for(example)
     parts = []

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kineme.errors import ReadError
-from kineme.library.storage.layout import BODIES, PIECES, TABLES
-from kineme.library.storage.pieces import read_windows
+from kineme.library.storage.analyses import read_windows
+from kineme.library.storage.layout import ANALYSES, BODIES, TABLES
 from kineme.library.storage.places import near, written
 from kineme.library.windows import LENGTHS, NUMBERS, Bytes, Ints, by_length, count
 
@@ -72,7 +72,7 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
         }
         firsts = dict.fromkeys(LENGTHS, 0)
         for row in np.flatnonzero(samples):
-            windows = read_windows(folder / PIECES, recordings["piece"][row])
+            windows = read_windows(folder / ANALYSES, recordings["piece"][row])
             for length, part in by_length(windows, int(samples[row])):
                 drafts[length][firsts[length] : firsts[length] + len(part)] = part
                 firsts[length] += len(part)

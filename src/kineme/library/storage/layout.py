@@ -26,9 +26,9 @@ if sys.platform != "win32":
 
 SCHEMA = "kineme.library/3"
 """Of the folder; a change that old readers would misunderstand gets the next number."""
-HEAD, EDITS, SEEN = "library.json", "edits.json", "seen.json"
+HEAD, EDITS, STATES = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"
-TABLES, PIECES = "tables", "pieces"
+TABLES, ANALYSES = "tables", "pieces"
 EMBEDDED = 32
 """Numbers in an embedding."""
 BODIES = "bodies"

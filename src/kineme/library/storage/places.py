@@ -111,9 +111,9 @@ def written(path: Path) -> Iterator[Path]:
     with TemporaryDirectory(prefix="kineme-") as home:
         draft = Path(home) / path.name
         yield draft
-        there: Any = path
+        remote: Any = path
         try:
-            there.fs.put_file(str(draft), there.path)
+            remote.fs.put_file(str(draft), remote.path)
         except Exception as error:
             reason = " ".join(str(error).split())[:200]
             raise WriteError(path, f"cannot be written: {reason}") from error
@@ -141,7 +141,7 @@ def remove_folder(folder: Path) -> None:
     import shutil
 
     if is_remote(folder):
-        there: Any = folder
-        there.fs.rm(there.path, recursive=True)
+        remote: Any = folder
+        remote.fs.rm(remote.path, recursive=True)
     else:
         shutil.rmtree(folder, ignore_errors=True)

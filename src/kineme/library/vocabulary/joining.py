@@ -122,7 +122,7 @@ class _Pairs:
     others: Sequence[Any]
 
 
-def two_way_distances(crowd: Crowd, executor: Executor, workers: int) -> Floats:
+def mutual_distances(crowd: Crowd, executor: Executor, workers: int) -> Floats:
     """``distances[a, b]``: the mean of a's example found in b's context, and b's in a's.
 
     Parameters
@@ -236,7 +236,7 @@ def joined(
     Parameters
     ----------
     distances : (words, words) array
-        Of each two, by `two_way_distances`.
+        Of each two, by `mutual_distances`.
     recording : (words,) array
         Number of the recording that each is of.
     seconds : (words,) array
@@ -253,7 +253,7 @@ def joined(
         return Joined(alone, alone - 1, np.full(n, np.nan), np.zeros(n))
     distances = np.minimum(distances, constants.farthest)
     same = recording[:, None] == recording
-    distances[same] = np.maximum(distances[same], constants.told_apart)
+    distances[same] = np.maximum(distances[same], constants.same_recording)
     np.fill_diagonal(distances, 0.0)
     tree = linkage(squareform(distances, checks=False), "average")
     labels = fcluster(tree, constants.join, "distance").astype(np.int64) - 1
@@ -345,7 +345,7 @@ def clusters_in(
 def _each_with_each(
     crowd: Crowd, constants: VocabularyConstants, executor: Executor, workers: int
 ) -> Joined:
-    distances = two_way_distances(crowd, executor, workers)
+    distances = mutual_distances(crowd, executor, workers)
     return joined(distances, crowd.recording, crowd.seconds, constants)
 
 
@@ -392,7 +392,7 @@ def _clusters_of(task: _Search) -> Joined:
         context = Contexts([word])
         costs = (forward + [context.costs_of(other)[0] for other in others]) / 2
         same = task.typical.words.recording[at] == crowd.recording[number]
-        costs[same] = np.maximum(costs[same], constants.told_apart)
+        costs[same] = np.maximum(costs[same], constants.same_recording)
         clusters, of = np.unique(labels[at], return_inverse=True)
         costs = np.minimum(costs, constants.farthest)
         means = np.bincount(of, costs) / np.bincount(of)
@@ -402,8 +402,8 @@ def _clusters_of(task: _Search) -> Joined:
             return -1, -1, np.nan, least
         if len(order) == 1:
             return cluster, -1, np.nan, least
-        sure = np.clip(1 - least / max(float(means[order[1]]), 1e-9), 0, 1)
-        return cluster, int(clusters[order[1]]), float(sure), least
+        confidence = np.clip(1 - least / max(float(means[order[1]]), 1e-9), 0, 1)
+        return cluster, int(clusters[order[1]]), float(confidence), least
 
     with threadpool_limits(1):  # sums do not depend on threads
         rows = map_threads(nearest, range(len(crowd)))

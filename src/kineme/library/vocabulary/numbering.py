@@ -28,7 +28,7 @@ Spans = tuple[Floats, Floats, Ints]
 """Starts and stops in seconds, and clusters, of the activities of a recording; apart."""
 REMOVED = "left.json"
 Removed = Mapping[str, Spans]
-"""Starts, stops and clusters of the activities of a recording, by the name of its piece."""
+"""Starts, stops and clusters of the activities of a recording, by the name of its analysis."""
 
 
 def lasting_numbers(
