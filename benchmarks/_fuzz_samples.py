@@ -26,7 +26,7 @@ from kineme.library.storage.layout import STATES
 from kineme.recordings import Motion
 from kineme.reproduction.trials import is_annotations, read_trials
 from kineme.segments import editing
-from kineme.segments.editing.marks import marked
+from kineme.segments.editing.annotating import marked
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.journal import Journal
 from kineme.studio.storage.sidecars import (

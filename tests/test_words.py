@@ -62,12 +62,9 @@ ALLOWED = {
 
 NOT_DONE = {
     "cli": 24,
-    "evaluation": 10,
     "formats": 99,
-    "labels": 25,
     "methods": 87,
     "reproduction": 4,
-    "segments": 14,
     "studio": 46,
     "web": 15,
 }

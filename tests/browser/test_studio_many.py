@@ -9,7 +9,7 @@ from pathlib import Path
 from screen import Screen
 
 import kineme
-from kineme.segments.editing.marks import marked
+from kineme.segments.editing.annotating import marked
 
 
 def saved_table(take: Path) -> kineme.Segmentation:

@@ -104,13 +104,13 @@ def covering(compared: Comparison) -> float:
     >>> covering(Comparison([0, 0, 1, 1], [5, 5, 5, 5], fps=10))
     0.5
     """
-    wanted, found = compared.spans.actions.at_means(), compared.spans.activities.merged()
+    actions, found = compared.spans.actions.at_means(), compared.spans.activities.merged()
     best = []
-    for start, stop in zip(wanted.starts, wanted.stops, strict=True):
+    for start, stop in zip(actions.starts, actions.stops, strict=True):
         inner = np.minimum(stop, found.stops) - np.maximum(start, found.starts)
         union = np.maximum(stop, found.stops) - np.minimum(start, found.starts)
         best.append((np.maximum(inner, 0) / union).max())
-    return float(np.average(best, weights=np.diff(wanted.borders)))
+    return float(np.average(best, weights=np.diff(actions.borders)))
 
 
 def border_ratio(compared: Comparison) -> Ratio:
@@ -133,7 +133,7 @@ def cut_ratio(compared: Comparison) -> Ratio:
     Examples
     --------
     >>> cut_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
-    Ratio(part=3, whole=1)
+    Ratio(part=3, total=1)
     """
     cuts = compared.spans.activities.merged().borders.size - 2
     return Ratio(cuts, compared.spans.actions.mean.size)
@@ -153,7 +153,7 @@ def cluster_ratio(compared: Comparison) -> Ratio:
     Examples
     --------
     >>> cluster_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
-    Ratio(part=2, whole=2)
+    Ratio(part=2, total=2)
     """
     neither = {UNLABELLED} if compared.transitions else set()
     sides = ({*np.unique(side).tolist()} - neither for side in (compared.found, compared.truth))

@@ -322,9 +322,9 @@ def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
 def contingency(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
     """Clusters, classes, and how many frames are of each cluster (row) and class (column)."""
     clusters, given = np.unique(found, return_inverse=True)
-    classes, wanted = np.unique(truth, return_inverse=True)
+    classes, true = np.unique(truth, return_inverse=True)
     frames = np.zeros((len(clusters), len(classes)), np.int64)
-    np.add.at(frames, (given, wanted), 1)
+    np.add.at(frames, (given, true), 1)
     return clusters, classes, frames
 
 

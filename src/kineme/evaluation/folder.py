@@ -254,8 +254,8 @@ def _joined(
     kinds: dict[tuple[str, ...], list[int]] = {}
     for i, (_, answer) in enumerate(answers):
         if answer.sides is not None:
-            moments = answer.sides.moments
-            kinds.setdefault(moments.names if moments else (), []).append(i)
+            samples = answer.sides.samples
+            kinds.setdefault(samples.names if samples else (), []).append(i)
     found: dict[int, tuple[Sides, Segmentation]] = {}
     following = 0
     for rows in kinds.values():
@@ -272,9 +272,9 @@ def _of_one_kind(
     jobs: Sequence[Job], sides: Sequence[Sides], n_clusters: int | None
 ) -> list[Segmentation]:
     segmentations = [one.found for one in sides]
-    moments = [one.moments for one in sides if one.moments is not None]
-    if moments:
-        return share_by_samples(moments, segmentations, n_clusters=n_clusters)
+    samples = [one.samples for one in sides if one.samples is not None]
+    if samples:
+        return share_by_samples(samples, segmentations, n_clusters=n_clusters)
     motions = [motion for job in jobs if isinstance(motion := job.reading.read(job.path), Motion)]
     try:
         return share_clusters(motions, segmentations)

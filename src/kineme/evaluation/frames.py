@@ -24,7 +24,7 @@ def frames_right(compared: Comparison) -> Ratio:
     Examples
     --------
     >>> frames_right(Comparison([0, 0, 1], [4, 4, 4], fps=1))
-    Ratio(part=2, whole=3)
+    Ratio(part=2, total=3)
     """
     return Ratio(int(np.sum(compared.mapped == compared.truth)), compared.truth.size)
 

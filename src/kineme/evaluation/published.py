@@ -82,9 +82,9 @@ def majority_accuracy(compared: Comparison) -> tuple[float, float]:
 
 def _closed_spans(truth: Truth) -> tuple[Ints, Ints, NDArray[np.bool_]]:
     """First and last frames of actions and uncertain spans in turn, and which are actions."""
-    marks = np.stack([truth.earliest, truth.latest], axis=1).ravel()
-    start = np.concatenate([[0], marks])
-    stop = np.concatenate([marks, [truth.frames - 1]])
+    borders = np.stack([truth.earliest, truth.latest], axis=1).ravel()
+    start = np.concatenate([[0], borders])
+    stop = np.concatenate([borders, [truth.frames - 1]])
     certain = np.zeros(start.size, np.bool_)
     certain[::2] = [label != TRANSITION for label in truth.labels]
     return start, stop, certain

@@ -88,10 +88,10 @@ class Reading:
         return [f"{UNMET} {pattern!r:.60}" for pattern in unmet]
 
     def takes(self, name: str) -> bool:
-        """Whether a column is one of those wanted; capitals and small letters are the same."""
+        """Whether a column is one of those to take; capitals and small letters are the same."""
         small = name.lower()
-        wanted = not self.columns or any(fnmatchcase(small, p.lower()) for p in self.columns)
-        return wanted and not any(fnmatchcase(small, p.lower()) for p in self.without)
+        fits = not self.columns or any(fnmatchcase(small, p.lower()) for p in self.columns)
+        return fits and not any(fnmatchcase(small, p.lower()) for p in self.without)
 
 
 def recordings_below(folder: Path) -> list[Path]:
@@ -199,7 +199,7 @@ class Sides:
 
     truth: Segmentation
     found: Segmentation
-    moments: ChannelSamples | None
+    samples: ChannelSamples | None
     """Of signals; motions are read again."""
 
 
@@ -284,8 +284,8 @@ def sides_of(recording: Motion | Signals, truth: Segmentation, found: Segmentati
     -------
     Sides
     """
-    moments = channel_samples(recording) if isinstance(recording, Signals) else None
-    return Sides(truth, replace(found, hierarchy=None), moments)
+    samples = channel_samples(recording) if isinstance(recording, Signals) else None
+    return Sides(truth, replace(found, hierarchy=None), samples)
 
 
 def _failed(error: BaseException) -> Answer:

@@ -2,7 +2,7 @@
 
 A score is a function of a `Comparison`: what people say of a recording, and what a method found
 there. It gives a number for one recording, or None where the two do not tell. Over a folder,
-numbers are averaged; a function that gives a `Ratio` has its parts and wholes summed over the
+numbers are averaged; a function that gives a `Ratio` has its parts and totals summed over the
 recordings first, so that long recordings weigh more.
 
 Other packages add scores by `register`, or by naming them in the entry point group
@@ -31,15 +31,15 @@ Counted = Literal["frames", "segments", "borders", "repetitions", "clusters", "p
 
 
 class Ratio(NamedTuple):
-    """A score that is a part of a whole, such as frames right of all frames."""
+    """A score that is a part of a total, such as frames right of all frames."""
 
     part: float
-    whole: float
+    total: float
 
     @property
     def value(self) -> float:
-        """The part over the whole; nan where there is no whole."""
-        return self.part / self.whole if self.whole else math.nan
+        """The part over the total; nan where there is none."""
+        return self.part / self.total if self.total else math.nan
 
 
 Value = float | Ratio | None
@@ -262,7 +262,7 @@ def over_all(results: Iterable[Value]) -> float:
     kept = list(results)
     ratios = [result for result in kept if isinstance(result, Ratio)]
     if ratios:
-        return Ratio(sum(r.part for r in ratios), sum(r.whole for r in ratios)).value
+        return Ratio(sum(r.part for r in ratios), sum(r.total for r in ratios)).value
     numbers = [value for value in map(value_of, kept) if math.isfinite(value)]
     return sum(numbers) / len(numbers) if numbers else math.nan
 
@@ -280,12 +280,12 @@ def _result(score: Score, compared: Comparison) -> Value:
 
 
 def one_of(
-    measure: Callable[[Comparison], Sequence[float] | None], which: int
+    measure: Callable[[Comparison], Sequence[float] | None], number: int
 ) -> Callable[[Comparison], float | None]:
     """The function of a score that is one of several numbers which are computed together."""
 
     def function(compared: Comparison) -> float | None:
         numbers = compared.once(measure)
-        return None if numbers is None else numbers[which]
+        return None if numbers is None else numbers[number]
 
     return function

@@ -151,15 +151,15 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
 def _hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
     """How many true segments are found."""
     labels, starts, stops = np.array(true).T
-    met: set[int] = set()
+    hits: set[int] = set()
     for label, start, stop in found:
         inner = np.minimum(stops, stop) - np.maximum(starts, start)
         union = np.maximum(stops, stop) - np.minimum(starts, start)
         overlap = np.where(labels == label, inner / union, -1.0)
         best = int(np.argmax(overlap))
         if overlap[best] > 0 and overlap[best] >= least:
-            met.add(best)  # a second one that meets it is wrong
-    return len(met)
+            hits.add(best)  # a second one that meets it is wrong
+    return len(hits)
 
 
 SCORES = (

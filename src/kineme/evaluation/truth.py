@@ -203,12 +203,12 @@ class Truth:
                 f"{len(self.labels)} actions need as many counts, not {len(self.counts)}"
             )
         for name in ("earliest", "mean", "latest"):
-            marks = np.asarray(getattr(self, name), np.int64)
-            object.__setattr__(self, name, marks)
-            if marks.shape != (len(self.labels) - 1,):
+            frames = np.asarray(getattr(self, name), np.int64)
+            object.__setattr__(self, name, frames)
+            if frames.shape != (len(self.labels) - 1,):
                 raise ParameterError(
                     f"{len(self.labels)} actions have {len(self.labels) - 1} borders between "
-                    f"them, not {marks.size} ({name})"
+                    f"them, not {frames.size} ({name})"
                 )
         backwards = np.flatnonzero((self.mean < self.earliest) | (self.latest < self.mean))
         if backwards.size:

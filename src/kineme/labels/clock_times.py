@@ -51,20 +51,21 @@ def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
     """
     if clock is None or labels.unit != "seconds" or not labels.spans:
         return labels
-    given = np.array([span[:2] for span in labels.spans], np.float64)
-    seconds, said = _taken(given, clock, length_s)
+    times = np.array([span[:2] for span in labels.spans], np.float64)
+    seconds, remarks = _seconds(times, clock, length_s)
     begin, end = np.maximum(seconds[:, 0], 0.0), seconds[:, 1]
-    backward = given[:, 1] < given[:, 0]
+    backward = times[:, 1] < times[:, 0]
     meets = backward | ((begin < np.minimum(end, length_s)) & (end > 0))
-    met = [
+    placed = [
         span._replace(start=float(a), stop=float(b))
         for span, a, b in zip(labels.spans, begin, end, strict=True)
     ]
     lost = [span for span, kept in zip(labels.spans, meets, strict=True) if not kept]
     notes = (*labels.notes, *lost_labels(lost, "s"))
-    spans = [span for span, kept in zip(met, meets, strict=True) if kept]
-    remarks = (*labels.remarks, *said)
-    return replace(labels, spans=spans, length=None, notes=notes, remarks=remarks)
+    spans = [span for span, kept in zip(placed, meets, strict=True) if kept]
+    return replace(
+        labels, spans=spans, length=None, notes=notes, remarks=(*labels.remarks, *remarks)
+    )
 
 
 def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
@@ -76,9 +77,9 @@ def lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
     return (f"meeting no frame, left out: {', '.join(named[:NAMED])}{more}",)
 
 
-def _taken(given: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
+def _seconds(times: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[str, ...]]:
     """The seconds that starts and stops stand for, and a note unless they are the clock's own."""
-    ways: tuple[tuple[Callable[[ArrayLike], Floats], tuple[str, ...]], ...] = (
+    candidates: tuple[tuple[Callable[[ArrayLike], Floats], tuple[str, ...]], ...] = (
         (clock.second, ()),
         (
             clock.since_first().second,
@@ -86,11 +87,11 @@ def _taken(given: Floats, clock: Clock, length_s: float) -> tuple[Floats, tuple[
         ),
         (np.asarray, ("times taken as frames over the rate, without pauses",)),
     )
-    taken = [(way(given), note) for way, note in ways]
-    return max(taken, key=lambda one: _met(one[0], length_s))
+    answers = [(seconds(times), remark) for seconds, remark in candidates]
+    return max(answers, key=lambda answer: _shared_seconds(answer[0], length_s))
 
 
-def _met(seconds: Floats, length_s: float) -> float:
+def _shared_seconds(seconds: Floats, length_s: float) -> float:
     """Seconds of the recording that labels meet, to the millisecond."""
     inside = np.clip(seconds, 0.0, length_s)
     return round(float(np.maximum(inside[:, 1] - inside[:, 0], 0.0).sum()), 3)

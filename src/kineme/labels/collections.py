@@ -72,13 +72,13 @@ class LabelSource:
         content: Labels | Segmentation | None = self.labels
         name = csv_table.FORMAT.name
         if content is None:
-            known, content = read_content(self.path)
-            name = known.name
+            label_format, content = read_content(self.path)
+            name = label_format.name
         if isinstance(content, Labels):
-            told = content.fps or fps
-            timed = by_clock(content, clock, length_s=n_frames / told)
-            labels = in_frames(timed, told, n_frames=n_frames)
-            return as_segmentation(labels, self.path, name, fps=told, n_frames=n_frames)[0]
+            rate = content.fps or fps
+            timed = by_clock(content, clock, length_s=n_frames / rate)
+            labels = in_frames(timed, rate, n_frames=n_frames)
+            return as_segmentation(labels, self.path, name, fps=rate, n_frames=n_frames)[0]
         if content.n_frames != n_frames:
             raise ReadError(
                 self.path, f"is of {content.n_frames} frames, but the recording has {n_frames}"
@@ -120,9 +120,9 @@ def labels_of(
     found = {path: source for path, source in pairs if source is not None}
     if not found:
         first = files[0].stem if files else "none"
-        whose = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
+        owners = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
         of = ", ".join(map(repr, named)) or "none"
-        raise ReadError(labels, f"has no labels of {whose}{first!r}, but of {of:.60}")
+        raise ReadError(labels, f"has no labels of {owners}{first!r}, but of {of:.60}")
     return found
 
 
@@ -178,8 +178,8 @@ def strays_of(recordings: Iterable[Path], labels: str | PathLike[str]) -> list[s
         As the table names them.
     """
     home = Path(labels)
-    there = {name for path in recordings for name in (path.name, path.stem)}
-    return [] if home.is_dir() else [name for name in _in_table(home) if name not in there]
+    present = {name for path in recordings for name in (path.name, path.stem)}
+    return [] if home.is_dir() else [name for name in _in_table(home) if name not in present]
 
 
 def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
@@ -210,15 +210,15 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     """
     rate = fps if labels.unit == "seconds" else 1.0
     backward = sum(span.stop < span.start for span in labels.spans)
-    whole = [
+    rounded = [
         span._replace(
             start=max(0, _first_frame(span.start * rate, n_frames)),
             stop=_first_frame(span.stop * rate, n_frames),
         )
         for span in labels.spans
     ]
-    forward = [span for span in whole if span.start < span.stop]
-    pairs = list(zip(labels.spans, whole, strict=True))
+    forward = [span for span in rounded if span.start < span.stop]
+    pairs = list(zip(labels.spans, rounded, strict=True))
     lost = [old for old, new in pairs if old.start <= old.stop and new.start >= new.stop]
     beyond = sum(old.stop * rate > n_frames + 1 for old, new in pairs if new.start < new.stop)
     before = sum(old.start * rate < -1 for old, new in pairs if new.start < new.stop)
@@ -228,13 +228,13 @@ def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
         apart = [cut for old in kept for cut in _cut(old, new)]
         overlaps += apart != kept
         kept = [*apart, new]
-    told = {
+    counts = {
         "overlapping others": overlaps,
         "running backwards, left out": backward,
         "beginning before the start, cut off there": before,
         "reaching beyond the end, cut off there": beyond,
     }
-    notes = [f"{what}: {counted(count, 'label')}" for what, count in told.items() if count]
+    notes = [f"{what}: {counted(count, 'label')}" for what, count in counts.items() if count]
     notes += lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
     return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
 

@@ -59,7 +59,7 @@ ABOUT = (
 )
 """The head of the schema."""
 OLDER = ("kineme.segments/1",)
-HELD = tuple(name for name, column in COLUMNS.items() if not column.derived)
+INDEPENDENT = tuple(name for name, column in COLUMNS.items() if not column.derived)
 """Of the tables at other details; the rest follows from these."""
 
 
@@ -171,7 +171,7 @@ def json_schema() -> dict[str, Any]:
         "notes": {"type": "array", "items": text},
     }
     positive = {"type": "number", "exclusiveMinimum": 0}
-    needed = [name for name in HELD if COLUMNS[name].default is None] + ["cluster"]
+    needed = [name for name in INDEPENDENT if COLUMNS[name].default is None] + ["cluster"]
     lists = {"type": "object", "required": needed, "additionalProperties": {"type": "array"}}
     level = _object({"detail": positive, "columns": lists}, required=["detail"])
     levels = {"type": "array", "minItems": 1, "items": level}
@@ -182,15 +182,15 @@ def json_schema() -> dict[str, Any]:
         "provenance": _object(provenance),
         "timings": {"type": "object", "additionalProperties": number},
     }
-    of, whole = {"enum": [*COLUMNS["level"].allowed]}, {"type": "integer", "minimum": 0}
-    span = {"type": "array", "prefixItems": [of, whole, whole], "minItems": 3}
-    comment = {"type": "array", "prefixItems": [of, whole, text], "minItems": 3}
+    of, count = {"enum": [*COLUMNS["level"].allowed]}, {"type": "integer", "minimum": 0}
+    span = {"type": "array", "prefixItems": [of, count, count], "minItems": 3}
+    comment = {"type": "array", "prefixItems": [of, count, text], "minItems": 3}
     annotation = {
         "checked": {"type": "array", "items": span},
         "by_hand": {"type": "array", "items": span},
         "comments": {"type": "array", "items": comment},
         "cluster_names": {"type": "object", "additionalProperties": text},
-        "corrections": whole,
+        "corrections": count,
     }
     rows = {"type": "array", "minItems": 1, "items": _object(columns, required=lacking(()))}
     return {
@@ -237,7 +237,7 @@ def _levels(hierarchy: Hierarchy) -> dict[str, Any]:
         if detail != hierarchy.detail:
             columns = table.columns()
             levels[-1]["columns"] = {
-                name: [_cell(value) for value in columns[name].tolist()] for name in HELD
+                name: [_cell(value) for value in columns[name].tolist()] for name in INDEPENDENT
             }
     return {"detail": hierarchy.detail, "levels": levels}
 

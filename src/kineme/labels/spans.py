@@ -125,8 +125,8 @@ def as_segmentation(
         No spans, an unknown frame rate, or spans that overlap or lie outside.
     """
     if not labels.spans:
-        which = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
-        raise ReadError(path, f"has no labels{which}")
+        recording = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
+        raise ReadError(path, f"has no labels{recording}")
     rate = fps or labels.fps
     if rate is None:
         raise ReadError(

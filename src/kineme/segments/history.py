@@ -32,7 +32,7 @@ class History(Generic[State]):
 
     Examples
     --------
-    >>> history = History("cut").then("merged").then("named")
+    >>> history = History("cut").followed_by("merged").followed_by("named")
     >>> history.undone().present
     'merged'
     >>> history.undone().redone().present
@@ -43,7 +43,7 @@ class History(Generic[State]):
     past: tuple[State, ...] = ()
     future: tuple[State, ...] = ()
 
-    def then(self, state: State) -> History[State]:
+    def followed_by(self, state: State) -> History[State]:
         """The history with a new present; what was undone cannot be redone any more.
 
         Parameters

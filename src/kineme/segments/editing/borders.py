@@ -114,12 +114,12 @@ def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Se
     """
     rows = list(segmentation.level(level))
     chosen = [i for i, row in enumerate(rows) if start <= row.start_frame < stop]
-    whole = (
+    at_borders = (
         len(chosen) > 1
         and rows[chosen[0]].start_frame == start
         and rows[chosen[-1]].stop_frame == stop
     )
-    if not whole:
+    if not at_borders:
         raise ParameterError(
             f"frames {start} to {stop} are not two or more whole segments of level {level!r}"
         )

@@ -1,6 +1,6 @@
 """A new segmentation of a recording that takes over what people did to the one before.
 
-Segments made by hand or checked (`kineme.segments.editing.marks`) are in it as they were;
+Segments made by hand or checked (`kineme.segments.editing.annotating`) are in it as they were;
 the new ones give way. Clusters are matched by the frames that they share: an old cluster is
 the new one that holds more than half of it, unless that has more of another. What matches keeps
 its number, and so its colour; other new clusters get numbers that the table so far has not. Names
@@ -19,9 +19,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.segments.annotation import Span
-from kineme.segments.editing.comments import comments, with_comments
+from kineme.segments.editing.annotating import (
+    Mark,
+    comments,
+    marked,
+    span_of,
+    with_comments,
+    with_marked,
+)
 from kineme.segments.editing.imposing import imposed, in_the_middle, overlap
-from kineme.segments.editing.marks import Mark, marked, span_of, with_marks
 from kineme.segments.editing.naming import cluster_names, name_cluster, with_cluster_names
 from kineme.segments.editing.rows import Rows, length, with_rows
 from kineme.segments.segmentation import Segmentation
@@ -64,15 +70,15 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
     -------
     Carried
     """
-    marks = {mark: marked(before, mark) for mark in get_args(Mark)}
-    fixed = [row for row in before if span_of(row) in set().union(*marks.values())]
+    flags = {mark: marked(before, mark) for mark in get_args(Mark)}
+    fixed = [row for row in before if span_of(row) in set().union(*flags.values())]
     if not len(found.primitives):
         fixed = [row for row in fixed if row.level == "activity"]
-    singles = {span_of(row) for row in _with_own_name(before)}
+    singles = {span_of(row) for row in _singly_named(before)}
     placed = [row if span_of(row) in singles else replace(row, label="") for row in fixed]
     now = imposed(_numbered_like(before, found), placed)
-    for mark, spans in marks.items():
-        now = with_marks(now, mark, spans)
+    for mark, spans in flags.items():
+        now = with_marked(now, mark, spans)
     now = with_comments(now, comments(before))
     if fixed:
         corrections = before.annotation.corrections
@@ -82,10 +88,10 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
 
 def names_of(segmentation: Segmentation) -> int:
     """How many names there are: of clusters, and of segments that have their own."""
-    return len(cluster_names(segmentation)) + len(_with_own_name(segmentation))
+    return len(cluster_names(segmentation)) + len(_singly_named(segmentation))
 
 
-def _with_own_name(segmentation: Segmentation) -> Rows:
+def _singly_named(segmentation: Segmentation) -> Rows:
     names = cluster_names(segmentation)
     return [row for row in segmentation if row.label not in ("", names.get(row.cluster, ""))]
 
@@ -93,8 +99,8 @@ def _with_own_name(segmentation: Segmentation) -> Rows:
 def _numbered_like(before: Segmentation, found: Segmentation) -> Segmentation:
     """The new segments, with the old numbers of the clusters that match."""
     match = _matching_clusters(before, found)
-    taken = set(before.table.cluster.tolist())
-    free = (number for number in count() if number not in taken)
+    used = set(before.table.cluster.tolist())
+    free = (number for number in count() if number not in used)
     number = {-1: -1}
     for cluster in sorted(set(found.table.cluster.tolist()) - {-1}):
         number[cluster] = match[cluster] if cluster in match else next(free)
@@ -137,12 +143,12 @@ def _counts(pairs: NDArray[np.int64]) -> tuple[list[list[int]], list[int]]:
 def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
     """The new table with the names of the old one, and the names that found no place."""
     lost, new_names = [], dict[int, str]()
-    there = set(now.table.cluster.tolist())
-    names, singles = cluster_names(before), _with_own_name(before)
+    present = set(now.table.cluster.tolist())
+    names, singles = cluster_names(before), _singly_named(before)
     if not names and not singles:
         return Carried(now, fixed, 0, [])
     for cluster, name in names.items():
-        if cluster in there:
+        if cluster in present:
             new_names[cluster] = name
         else:
             lost.append(f"the name “{name}” of cluster {cluster}: no cluster matches it")
@@ -157,7 +163,7 @@ def _named(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
         else:
             labels[span_of(twin)] = row.label
     rows = [replace(row, label=labels.get(span_of(row), row.label)) for row in now]
-    now = with_cluster_names(with_rows(now, rows, []), dict.fromkeys(there, "") | new_names)
+    now = with_cluster_names(with_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
     return Carried(now, fixed, len(names) + len(singles), lost)
 
 

@@ -10,8 +10,8 @@ from typing import get_args
 from kineme.errors import ParameterError
 from kineme.segments.editing.naming import (
     changed,
-    known_names,
     members_of,
+    names_by_cluster,
     with_cluster_names,
 )
 from kineme.segments.editing.rows import as_movement, as_transition, joined, starting, with_rows
@@ -109,18 +109,20 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     chosen, rows = set(frames), members_of(segmentation, cluster)
     level: Level = "primitive" if any(row.level == "primitive" for row in rows) else "activity"
     members = [row for row in rows if row.level == level]
-    gone = [row for row in members if row.start_frame in chosen]
-    if not gone or len(gone) == len(members):
+    leavers = [row for row in members if row.start_frame in chosen]
+    if not leavers or len(leavers) == len(members):
         raise ParameterError(
-            f"{len(gone)} of {len(members)} segments of cluster {cluster} are chosen: "
+            f"{len(leavers)} of {len(members)} segments of cluster {cluster} are chosen: "
             "choose some of them, not all"
         )
     staying = {row.activity for row in members if row.start_frame not in chosen}
-    leaving = {row.activity for row in gone} - staying
-    moved: list[tuple[Level, Segment]] = [(row.level, row) for row in gone]
+    leaving = {row.activity for row in leavers} - staying
+    moved: list[tuple[Level, Segment]] = [(row.level, row) for row in leavers]
     if level == "primitive":
-        whole = enumerate(segmentation.activities)
-        moved += [("activity", row) for i, row in whole if i in leaving and row.cluster == cluster]
+        numbered = enumerate(segmentation.activities)
+        moved += [
+            ("activity", row) for i, row in numbered if i in leaving and row.cluster == cluster
+        ]
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
     return _moved_to(segmentation, moved, following)
 
@@ -143,11 +145,11 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
     ParameterError
         They are not the clusters of the table.
     """
-    there = sorted(set(segmentation.table.cluster.tolist()) - {-1})
-    if sorted(order) != there:
-        raise ParameterError(f"name each cluster once: {', '.join(map(str, there))}")
+    present = sorted(set(segmentation.table.cluster.tolist()) - {-1})
+    if sorted(order) != present:
+        raise ParameterError(f"name each cluster once: {', '.join(map(str, present))}")
     new = {cluster: number for number, cluster in enumerate(order)} | {-1: -1}
-    names = known_names(segmentation)
+    names = names_by_cluster(segmentation)
     rows = [replace(row, cluster=new[row.cluster]) for row in segmentation]
     renamed = {new[cluster]: name for cluster, name in names.items()}
     return with_cluster_names(with_rows(segmentation, rows, []), renamed)
@@ -202,7 +204,7 @@ def _moved_to(
     cluster: int,
 ) -> Segmentation:
     """The members in another cluster, called by its name unless they have their own."""
-    names = known_names(segmentation)
+    names = names_by_cluster(segmentation)
     moved = segmentation
     for inherits in (True, False):
         some = [

@@ -107,6 +107,6 @@ def _edges(row: Segment) -> tuple[int, int]:
 
 
 def _spanning(row: Segment, start: int, stop: int) -> Segment:
-    """The row with other frames; where it starts anew nobody says how sure that is."""
-    sure = row.border_confidence if start == row.start_frame else math.nan
-    return replace(row, start_frame=start, stop_frame=stop, border_confidence=sure)
+    """The row with other frames; where it starts anew its border has no confidence."""
+    confidence = row.border_confidence if start == row.start_frame else math.nan
+    return replace(row, start_frame=start, stop_frame=stop, border_confidence=confidence)

@@ -40,7 +40,7 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     ParameterError
         No segment starts there, or the label is more than a line of text.
     """
-    row, names = starting(segmentation, level, frame), known_names(segmentation)
+    row, names = starting(segmentation, level, frame), names_by_cluster(segmentation)
     label = label or names.get(row.cluster, "")
     named = changed(segmentation, [(level, row)], label=label)
     return named if row.cluster < 0 else with_cluster_names(named, {row.cluster: ""} | names)
@@ -67,7 +67,7 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
     """
     if not members_of(segmentation, cluster):
         raise ParameterError(f"no segment is in cluster {cluster}")
-    names = known_names(segmentation)
+    names = names_by_cluster(segmentation)
     called = [
         (row.level, row)
         for row in members_of(segmentation, cluster)
@@ -95,7 +95,7 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
     >>> cluster_names(kineme.read_segments(bundled_truth(), fps=60))[0]
     'walk'
     """
-    return {cluster: name for cluster, name in known_names(segmentation).items() if name}
+    return {cluster: name for cluster, name in names_by_cluster(segmentation).items() if name}
 
 
 def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
@@ -111,13 +111,13 @@ def with_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> 
     -------
     Segmentation
     """
-    there = set(segmentation.table.cluster.tolist())
-    kept = {cluster: names[cluster] for cluster in sorted(names) if cluster in there}
+    present = set(segmentation.table.cluster.tolist())
+    kept = {cluster: names[cluster] for cluster in sorted(names) if cluster in present}
     annotation = replace(segmentation.annotation, cluster_names=kept)
     return replace(segmentation, annotation=annotation)
 
 
-def known_names(segmentation: Segmentation) -> dict[int, str]:
+def names_by_cluster(segmentation: Segmentation) -> dict[int, str]:
     """The names of clusters by number; empty for those that are said to have none."""
     entries = segmentation.annotation.cluster_names
     labels: dict[int, Counter[str]] = {}
