@@ -75,13 +75,7 @@ class Part:
 
 
 def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) -> list[Part]:
-    """The actions one after the other, each repetition a little shorter or longer.
-
-    Raises
-    ------
-    ParameterError
-        A repetition would last fewer than three frames.
-    """
+    """The actions one after the other, each repetition a little shorter or longer."""
     parts: list[Part] = []
     now, fade_in = 0, 0
     for place, action in enumerate(actions):

@@ -291,16 +291,6 @@ def best_mapping(comparisons: Sequence[Comparison]) -> dict[int, int]:
 
     One-to-one: of more clusters than classes, those that would add least stand for none.
 
-    Parameters
-    ----------
-    comparisons : sequence of Comparison
-        Equal numbers mean the same cluster, and the same class, in all of them.
-
-    Returns
-    -------
-    dict of int to int
-        Clusters that stand for no class are missing.
-
     Examples
     --------
     >>> best_mapping([Comparison([0, 0, 1], [4, 4, 4], fps=1), Comparison([1], [9], fps=1)])
@@ -330,14 +320,6 @@ def contingency(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
 
 def runs(labels: ArrayLike) -> list[Run]:
     """The runs of equal labels, in order.
-
-    Parameters
-    ----------
-    labels : array_like of int, (frames,)
-
-    Returns
-    -------
-    list of Run
 
     Examples
     --------

@@ -81,18 +81,7 @@ class FolderScores:
     mapping: Mapped
 
     def over_all(self, method: str) -> dict[str, float]:
-        """The scores of a method over the recordings that it has scores of.
-
-        Parameters
-        ----------
-        method : str
-
-        Returns
-        -------
-        dict of str to float
-            By the names of the scores, nan where none can be had; and ``seconds_per_hour`` of
-            recording.
-        """
+        """The scores of a method over its recordings by name, and ``seconds_per_hour``."""
         good = [one for one in self.methods[method] if not one.error]
         found = {n: over_all(one.results.get(n) for one in good) for n in scores() if good}
         length = sum(one.length_s for one in good)
@@ -202,20 +191,7 @@ def evaluate_folder(
 def joined_comparisons(
     answers: Sequence[tuple[Job, Answer]], n_clusters: int | None = None
 ) -> list[Comparison | None]:
-    """The comparisons of what one method found, by one mapping of joined clusters.
-
-    Parameters
-    ----------
-    answers : sequence of Job and Answer
-        Of jobs that join.
-    n_clusters : int, optional
-        Of signals, how many there are of each kind; found out by default.
-
-    Returns
-    -------
-    list of Comparison or None
-        None where a job failed.
-    """
+    """The comparisons of one method by one mapping of joined clusters; None where a job failed."""
     classes: dict[str, int] = {}
     compared = {
         i: compare(sides.truth, found, classes=classes)

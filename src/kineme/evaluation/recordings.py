@@ -51,23 +51,7 @@ class Reading:
     options: dict[str, Any] = field(default_factory=dict)
 
     def read(self, path: Path) -> Motion | Signals:
-        """The recording in a file.
-
-        Parameters
-        ----------
-        path : Path
-
-        Returns
-        -------
-        Motion or Signals
-
-        Raises
-        ------
-        ReadError
-            Missing or damaged.
-        ParameterError
-            No column is left.
-        """
+        """The recording in a file."""
         from kineme.formats import read
 
         if not (self.columns or self.without):
@@ -95,22 +79,7 @@ class Reading:
 
 
 def recordings_below(folder: Path) -> list[Path]:
-    """The recordings in a folder and in the folders in it.
-
-    Parameters
-    ----------
-    folder : Path
-
-    Returns
-    -------
-    list of Path
-        In the order of their names, those of a folder before those deeper in it.
-
-    Raises
-    ------
-    ReadError
-        There are none.
-    """
+    """The recordings in a folder and in the folders in it, one at least, by name."""
     from kineme.formats.listing import recordings_in
 
     found = recordings_in(folder, recursive=True).recordings
@@ -123,27 +92,6 @@ def segment_by(
     name: str, recording: Motion | Signals, *, n_classes: int, **constants: Any
 ) -> Segmentation:
     """The segments that a method finds in a recording.
-
-    Parameters
-    ----------
-    name : str
-        Of a preset, see `kineme.PRESETS`.
-    recording : Motion or Signals
-        What is segmented.
-    n_classes : int
-        The true number of classes, for methods that have to be told.
-    **constants
-        Of the preset to change.
-
-    Returns
-    -------
-    Segmentation
-        In frames of the recording.
-
-    Raises
-    ------
-    ParameterError
-        There is no such preset, or the recording is too short for it.
 
     Examples
     --------
@@ -161,17 +109,7 @@ def segment_by(
 
 
 def check_method(name: str) -> None:
-    """Refuse what is no method.
-
-    Parameters
-    ----------
-    name : str
-
-    Raises
-    ------
-    ParameterError
-        The message lists those there are.
-    """
+    """ParameterError for what is no method."""
     if name not in PRESETS:
         raise ParameterError(f"no method {name!r}; there are {', '.join(PRESETS)}")
 
@@ -217,19 +155,7 @@ class Answer:
 
 
 def answers_to(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
-    """Each job and its answer, as they come.
-
-    Parameters
-    ----------
-    jobs : sequence of Job
-    processes : int
-        How many at once; 1 stays in this process.
-
-    Yields
-    ------
-    job : Job
-    answer : Answer
-    """
+    """Each job and its answer, as they come."""
     if processes == 1:
         for job in jobs:
             yield job, _answer(job)
@@ -273,17 +199,7 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
 
 
 def sides_of(recording: Motion | Signals, truth: Segmentation, found: Segmentation) -> Sides:
-    """Both sides as they can be joined with others.
-
-    Parameters
-    ----------
-    recording : Motion or Signals
-    truth, found : Segmentation
-
-    Returns
-    -------
-    Sides
-    """
+    """Both sides as they can be joined with others."""
     samples = channel_samples(recording) if isinstance(recording, Signals) else None
     return Sides(truth, replace(found, hierarchy=None), samples)
 

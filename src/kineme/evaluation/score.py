@@ -139,15 +139,6 @@ def results_of(compared: Comparison) -> dict[str, float | Ratio]:
     """All scores of a comparison by name, those left out that cannot be had.
 
     A score that fails costs itself only: a `KinemeWarning` names it.
-
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    dict of str to float or Ratio
-        In the order in which they are shown.
     """
     found = {name: _result(score, compared) for name, score in scores().items()}
     return {name: result for name, result in found.items() if result is not None}
@@ -243,16 +234,6 @@ def value_of(result: Value) -> float:
 
 def over_all(results: Iterable[Value]) -> float:
     """One number for many recordings: of ratios the sums' ratio, of numbers the mean.
-
-    Parameters
-    ----------
-    results : iterable
-        What a score's function gave for each recording; nan and None are left out.
-
-    Returns
-    -------
-    float
-        nan where there is nothing to average.
 
     Examples
     --------

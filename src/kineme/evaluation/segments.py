@@ -53,15 +53,6 @@ def edit_score(compared: Comparison) -> float:
 def edit_distance(a: Sequence[int], b: Sequence[int]) -> int:
     """The fewest insertions, deletions and exchanges that turn one sequence into another.
 
-    Parameters
-    ----------
-    a, b : sequence of int
-
-    Returns
-    -------
-    int
-        Levenshtein's distance.
-
     Examples
     --------
     >>> edit_distance([1, 2, 3], [1, 3, 3, 4])
@@ -107,18 +98,6 @@ def found_counts(truth: Truth, primitives: Labelling) -> list[int]:
     """How many primitives have their middle in each action of the truth.
 
     Actions are cut at the mean marks; transitions are no primitives.
-
-    Parameters
-    ----------
-    truth : Truth
-        Of one recording at one frame rate.
-    primitives : Labelling
-        See `truth`.
-
-    Returns
-    -------
-    list of int
-        One per action.
     """
     kept = np.array([label != TRANSITION for label in primitives.labels])
     middles = (primitives.starts + primitives.stops)[kept] / 2

@@ -27,19 +27,6 @@ NAMED = 4
 def by_clock(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
     """The labels in seconds of the recording, and notes on how they were taken.
 
-    Parameters
-    ----------
-    labels : Labels
-        Those that count frames stay as they are.
-    clock : Clock or None
-        Of the recording; None where its seconds are those of its frames.
-    length_s : float
-        Of the recording: frames over the rate.
-
-    Returns
-    -------
-    Labels
-
     Examples
     --------
     >>> labels = Labels([Span(50, 60, "walk"), Span(100, 130, "rest"), Span(660, 700, "run")])

@@ -50,25 +50,7 @@ class LabelSource:
     labels: Labels | None = None
 
     def of(self, *, n_frames: int, fps: float, clock: Clock | None = None) -> Segmentation:
-        """The labels in frames of their recording.
-
-        Parameters
-        ----------
-        n_frames, fps : int and float
-            Of the recording.
-        clock : Clock, optional
-            The one by which seconds are counted, where frames over the rate are not.
-
-        Returns
-        -------
-        Segmentation
-            What no label covers is a transition.
-
-        Raises
-        ------
-        ReadError
-            The file is damaged, or its labels are not of such a recording.
-        """
+        """The labels in frames of their recording; what none covers is a transition."""
         content: Labels | Segmentation | None = self.labels
         name = csv_table.FORMAT.name
         if content is None:
@@ -96,23 +78,8 @@ def labels_of(
 ) -> Mapping[Path, LabelSource]:
     """Where the labels of each recording are; recordings that have none are left out.
 
-    Parameters
-    ----------
-    recordings : iterable of Path
-        Their files.
-    labels : path-like
-        A table with a column ``recording``, or a folder with a file for each.
-
-    Returns
-    -------
-    Mapping of Path to LabelSource
-        In the order of the recordings.
-
-    Raises
-    ------
-    ReadError
-        There is no such file or folder, the table cannot be understood, or nothing in it is
-        of any of the recordings.
+    They are in a table with a column ``recording``, or in a folder with a file for each. ReadError
+    where nothing there is of any of the recordings.
     """
     files, home = list(recordings), Path(labels)
     named = _in_folder(home) if home.is_dir() else _in_table(home)
@@ -134,27 +101,7 @@ def labels_for(
     fps: float,
     clock: Clock | None = None,
 ) -> Segmentation:
-    """What a label file says of a recording: its own rows, where others are in the table, too.
-
-    Parameters
-    ----------
-    recording : Path
-        Its file.
-    labels : path-like
-        A file of any label format, or a table with a column ``recording``.
-    n_frames, fps, clock : int, float and Clock
-        Of the recording.
-
-    Returns
-    -------
-    Segmentation
-        What no label covers is a transition.
-
-    Raises
-    ------
-    ReadError
-        The file cannot be understood, is of another length, or names other recordings only.
-    """
+    """What a label file says of a recording: its own rows, where others are in the table, too."""
     table = format_to_read(labels) is csv_table.FORMAT and "recording" in columns(Path(labels))
     if not table:
         return read_segments(labels, fps=fps, n_frames=n_frames, clock=clock)
@@ -163,20 +110,7 @@ def labels_for(
 
 
 def strays_of(recordings: Iterable[Path], labels: str | PathLike[str]) -> list[str]:
-    """The recordings that a table has labels of and that are not there.
-
-    Parameters
-    ----------
-    recordings : iterable of Path
-        Those that are there.
-    labels : path-like
-        As for `labels_of`; a folder has none.
-
-    Returns
-    -------
-    list of str
-        As the table names them.
-    """
+    """The recordings that a table names and that are not there; of a folder none."""
     home = Path(labels)
     present = {name for path in recordings for name in (path.name, path.stem)}
     return [] if home.is_dir() else [name for name in _in_table(home) if name not in present]
@@ -184,21 +118,6 @@ def strays_of(recordings: Iterable[Path], labels: str | PathLike[str]) -> list[s
 
 def in_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     """The labels as spans of a recording's frames that neither overlap nor run backwards.
-
-    Parameters
-    ----------
-    labels : Labels
-        In seconds or frames.
-    fps : float
-        Of the recording, whose frame i is at i / fps seconds.
-    n_frames : int
-        Its length; labels that reach beyond are cut off there.
-
-    Returns
-    -------
-    Labels
-        In frames, with a note where labels were cut or left out: those that meet no frame by
-        their names.
 
     Examples
     --------

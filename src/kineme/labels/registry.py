@@ -85,15 +85,7 @@ def written_suffixes() -> tuple[str, ...]:
 
 
 def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
-    """The format in which a file is read: the one named, else by its content and suffix.
-
-    Raises
-    ------
-    ParameterError
-        There is no format of this name.
-    ReadError
-        No format has the file's suffix.
-    """
+    """The format in which a file is read: the one named, else by its content and suffix."""
     if name is not None:
         return _named(name)
     suffix = Path(path).suffix.lower()
@@ -106,15 +98,7 @@ def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelF
 
 
 def format_to_write(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
-    """The format in which a file is written: the one named, else the first with its suffix.
-
-    Raises
-    ------
-    ParameterError
-        There is no format of this name.
-    WriteError
-        No format is written with the file's suffix, or the named one is only read.
-    """
+    """The format in which a file is written: the one named, else the first with its suffix."""
     if name is not None:
         chosen = _named(name)
         if chosen.write is None:

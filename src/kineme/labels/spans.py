@@ -95,34 +95,11 @@ def meaning(text: str) -> tuple[Kind, int, str]:
 def as_segmentation(
     labels: Labels, path: Path, name: str, *, fps: float | None = None, n_frames: int | None = None
 ) -> tuple[Segmentation, tuple[str, ...]]:
-    """The segmentation that labels speak of, and what of it is worth a warning.
+    """The segmentation that labels speak of, and sentences on what of it is worth a warning.
 
-    Where all spans are of the primitive level they become activities, which every
-    segmentation has. Counts of repetitions, where the labels have some, are kept in the
-    provenance, ``["labels"]["counts"]``: one per row of the activity level, or None.
-
-    Parameters
-    ----------
-    labels : Labels
-        What a file holds.
-    path : Path
-        Where it was read, for messages and the provenance.
-    name : str
-        Of the format.
-    fps, n_frames : float and int, optional
-        Of the recording, where the labels leave them out.
-
-    Returns
-    -------
-    Segmentation
-        Tiled: what no label covers is a transition.
-    tuple of str
-        Sentences for a `KinemeWarning`; they are in the provenance's notes, too.
-
-    Raises
-    ------
-    ReadError
-        No spans, an unknown frame rate, or spans that overlap or lie outside.
+    What no label covers is a transition. Where all spans are of the primitive level they become
+    activities, which every segmentation has. Counts of repetitions, where the labels have some, are
+    kept in the provenance, ``["labels"]["counts"]``: one per row of the activity level, or None.
     """
     if not labels.spans:
         recording = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""

@@ -45,28 +45,10 @@ def compiled(
     executor: Executor,
     progress: Progress,
 ) -> tuple[dict[str, Any], int]:
-    """The tables of a library.
+    """The tables of a library by name, and the first number that no cluster was given.
 
-    Parameters
-    ----------
-    folder : Path
-    entries : sequence of (str, Path, str)
-        The recordings in the order of their names.
-    before : mapping of str to (starts, stops, clusters)
-        By recording, the activities that it had, see `activities_in`: clusters that are found
-        again keep their numbers.
-    following : int
-        The first number of a cluster that was never given.
-    executor : Executor
-        Where clusters are compared.
-    progress : callable
-        Called with a sentence on how far it is.
-
-    Returns
-    -------
-    tables : dict of str to pyarrow.Table
-    following : int
-        The first number that was not given now either.
+    ``entries`` are in the order of their names, ``before`` are the activities that recordings had,
+    see `activities_in`: clusters that are found again keep their numbers.
     """
     analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
     words = _joined_words(folder, entries, analyses, executor, progress)
@@ -89,18 +71,7 @@ def compiled(
 
 
 def activities_in(folder: Path, tables: str | None) -> dict[str, Spans]:
-    """The activities of each recording with their clusters, in tables of a library.
-
-    Parameters
-    ----------
-    folder : Path
-    tables : str, optional
-        None where there are none yet.
-
-    Returns
-    -------
-    dict of str to (starts, stops, clusters)
-    """
+    """The activities of each recording with their clusters, in tables of a library."""
     if tables is None:
         return {}
     table = read_table(folder, tables, "segments")

@@ -92,24 +92,9 @@ def describe(
 ) -> Description:
     """The features of a recording; none, with the reason, where it has no body.
 
-    Parameters
-    ----------
-    recording : Motion or Signals
-    effectors : joints, optional
-        To take for head, hands and feet where names do not tell.
-    emg : bool
-        Take the envelopes of muscle signals.
-    mirrored : bool
-        Left and right exchanged; of a motion only.
-
-    Returns
-    -------
-    Description
-
-    Raises
-    ------
-    ParameterError
-        Mirrored signals.
+    ``effectors`` are joints to take for head, hands and feet where names do not tell. With ``emg``
+    the envelopes of muscle signals are taken, with ``mirrored`` left and right of a body are
+    exchanged.
     """
     if isinstance(recording, Signals):
         if mirrored:
@@ -126,18 +111,7 @@ def describe(
 
 
 def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
-    """Features (samples, dims) of channels, `SENSORS.rate` a second.
-
-    Parameters
-    ----------
-    signals : Signals
-    emg : bool
-        Take the envelopes of muscle signals.
-
-    Returns
-    -------
-    ndarray of float32
-    """
+    """Features (samples, dims) of channels, `SENSORS.rate` a second."""
     preset = SENSORS.at_most(signals.fps)
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     spans = signals.spans()
@@ -168,19 +142,9 @@ def signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
 def analysis_of(
     recording: Motion | Signals, settings: Settings
 ) -> tuple[Analysis, NDArray[np.float32], NDArray[np.float32] | None]:
-    """What is kept of a recording, its features, and the samples of its channels.
+    """What is kept of a recording, its features (samples, dims), and samples of its channels.
 
-    Parameters
-    ----------
-    recording : Motion or Signals
-    settings : Settings
-
-    Returns
-    -------
-    analysis : Analysis
-    features : (samples, dims) array
-    channel_samples : (channel_samples, 1 + 2 · channels) array, or None
-        Of signals: the second of each, means and deviations.
+    These are of signals only: a row each of second, means and deviations.
     """
     from kineme.segmentation.segmenter import segment
 

@@ -250,13 +250,6 @@ def connected(client: Any) -> Iterator[Executor]:
     """The cluster of a client, or of the scheduler at an address such as ``tcp://10.0.0.1:8786``.
 
     An executor is taken as it is.
-
-    Raises
-    ------
-    ParameterError
-        No scheduler answers there; or as `Cluster`.
-    MissingDependencyError
-        dask is not installed.
     """
     if isinstance(client, Executor):
         yield client

@@ -44,32 +44,7 @@ def hits_like(
     mirror: bool,
     executor: Executor | None = None,
 ) -> list[Hit]:
-    """Where the recordings of a library are like one of the examples, the nearest first.
-
-    Parameters
-    ----------
-    tables : OpenTables
-        Of the library.
-    examples, counterexamples : sequence of Example
-        What is more like a counter-example than like any example is left out.
-    threshold : float
-        Largest distance.
-    top : int, optional
-        Hits at most.
-    max_per_recording : int, optional
-        Of one recording at most.
-    mirror : bool
-        Search for the mirror images of the examples as well.
-    executor : Executor, optional
-        Where it is searched; threads of this process by default.
-
-    Raises
-    ------
-    ParameterError
-        A limit is below 1, or the examples do not compare with each other, or with no recording.
-    ReadError
-        One cannot be read, or has no body.
-    """
+    """Where the recordings of a library are like one of the examples, the nearest first."""
     for name, value in (("top", top), ("max_per_recording", max_per_recording)):
         if value is not None and not (is_number(value) and value >= 1):
             raise ParameterError(f"{name} must be a whole number above 0, not {value!r:.60}")
@@ -184,22 +159,7 @@ def as_examples(
 def features_of(
     tables: OpenTables, examples: Sequence[Example], *, mirror: bool = False
 ) -> list[tuple[str, Float32s]]:
-    """Vocabulary and features of each example, and of its mirror image.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    examples : sequence of Example
-    mirror : bool
-        The mirror images, too.
-
-    Raises
-    ------
-    ParameterError
-        An example starts where its recording has ended.
-    ReadError
-        It cannot be read, or has no body.
-    """
+    """Vocabulary and features of each example, and of its mirror image."""
     found = []
     for example in examples:
         for mirrored in (False, True)[: 1 + mirror]:

@@ -68,21 +68,6 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     """The analyses of recordings, made where there is none.
 
     Files that look as they did when they were last read are not read again.
-
-    Parameters
-    ----------
-    plan : Plan
-    found : sequence of Path
-        The recordings.
-    executor : Executor
-        Where they are made.
-    progress : callable
-        Called with a sentence on how far it is.
-
-    Raises
-    ------
-    WriteError
-        The folder cannot be written.
     """
     former = _former_states(plan.folder / STATES, progress)
     file_states = FileStates(plan.settings.options().skeleton)
@@ -168,19 +153,7 @@ class Group(NamedTuple):
 
 
 def by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Group]:
-    """Groups of equal content, the largest first, as their tasks.
-
-    Parameters
-    ----------
-    tasks : iterable of Task
-    skeleton : path-like, optional
-        That all of them are read with.
-
-    Returns
-    -------
-    list of Group
-        What is elsewhere, and what cannot be read, is alone.
-    """
+    """Groups of equal content, the largest first; what is elsewhere or cannot be read is alone."""
     criteria: tuple[Callable[[Task], str], ...] = (
         lambda task: "" if is_remote(task.path) else f"{task.size}",
         _sample,
@@ -271,19 +244,7 @@ def tasks_for(paths: Iterable[Path], analyses: Path, settings: Settings) -> list
 
 
 def outcomes_of(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
-    """Each task and what came of it, as they come.
-
-    Parameters
-    ----------
-    tasks : sequence of Task
-    executor : Executor
-        Where they are worked on.
-
-    Yields
-    ------
-    task : Task
-    outcome : Outcome
-    """
+    """Each task and what came of it, as they come."""
     for task, outcome in executor.completed(work_on, tasks, workers=workers_for(tasks)):
         yield task, outcome or Outcome(error=DIED)
 

@@ -84,16 +84,7 @@ class Task:
 
 
 def parts_like(windows: Windows, example: Float32s, top: int) -> Parts:
-    """The parts of recordings around the windows that are nearest to an example.
-
-    Parameters
-    ----------
-    windows : Windows
-        Of the length that `length_for` gives.
-    example : (samples, dims) array
-    top : int
-        Hits that are wanted.
-    """
+    """The parts of recordings around the windows that are nearest to an example."""
     near = _nearest(windows, parts_at_speeds(example), top)
     rows = np.searchsorted(windows.firsts, near, side="right") - 1
     middles = (near - windows.firsts[rows]) * step(windows.length) + windows.length // 2
@@ -124,19 +115,7 @@ def matches_in(
     sought: Sought,
     executor: Executor | None,
 ) -> dict[int, Matches]:
-    """The matches in parts of recordings by row, the best of each first.
-
-    Parameters
-    ----------
-    folder : Path
-        That holds the analyses.
-    analyses : sequence of str
-        Of all recordings.
-    parts : Parts
-    sought : Sought
-    executor : Executor, optional
-        Threads of this process by default.
-    """
+    """The matches in parts of recordings by row, the best of each first."""
     tasks = [
         Task(folder, {row: analyses[row] for row in set(batch.rows.tolist())}, batch, sought)
         for batch in _batches(parts)

@@ -251,18 +251,7 @@ def unsure_words(tables: OpenTables) -> list[Word]:
 
 
 def numbers_of(tables: OpenTables, cluster: int | str) -> list[int]:
-    """The numbers of the clusters of that number or name, one at least.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    cluster : int or str
-
-    Raises
-    ------
-    ParameterError
-        There is none.
-    """
+    """The numbers of the clusters of that number or name, one at least."""
     numbers = sorted(set(tables.columns("words")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)
     named = isinstance(cluster, str)  # a whole number is never taken for a name of digits
@@ -285,20 +274,7 @@ def name_cluster(tables: OpenTables, cluster: int | str, name: str) -> None:
 
 
 def merge_clusters(tables: OpenTables, cluster: int | str, others: Sequence[int | str]) -> None:
-    """Make other clusters part of one, which keeps its number and name.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    cluster : int or str
-        By number or name.
-    others : sequence of int or str
-
-    Raises
-    ------
-    ParameterError
-        There are no others, or no cluster is called so.
-    """
+    """Make other clusters part of one, which keeps its number and name."""
     if not others:
         raise ParameterError("nothing to merge: name two clusters at least")
     with tables.editing():
@@ -308,25 +284,7 @@ def merge_clusters(tables: OpenTables, cluster: int | str, others: Sequence[int 
 
 
 def split_cluster(tables: OpenTables, cluster: int | str, recordings: Sequence[str]) -> int:
-    """Make what a cluster has in some recordings a cluster of its own.
-
-    Parameters
-    ----------
-    tables : OpenTables
-    cluster : int or str
-        By number or name.
-    recordings : sequence of str
-
-    Returns
-    -------
-    int
-        The number of the new cluster.
-
-    Raises
-    ------
-    ParameterError
-        It is in none of these recordings, or in no other.
-    """
+    """Make what a cluster has in some recordings a cluster of its own."""
     with tables.editing():
         (number, *_) = numbers_of(tables, cluster)
         words = tables.columns("words")

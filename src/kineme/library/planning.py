@@ -58,13 +58,7 @@ def plan_of(
     recursive: bool | None,
     settings: Settings | None,
 ) -> Plan:
-    """The plan of a build; what was not said is as it was the last time.
-
-    Raises
-    ------
-    ParameterError
-        There is nothing to build from, or what is to be removed is not known.
-    """
+    """The plan of a build; what was not said is as it was the last time."""
     every = sources_after(folder, sources, remove)
     if not every and not head:
         raise ParameterError(NOTHING.format(folder))

@@ -97,16 +97,6 @@ def spans_like(
     """Spans of a recording that are like one of the examples, apart from each other.
 
     A span goes that is more like a counter-example.
-
-    Parameters
-    ----------
-    features : (samples, dims) array
-        Of the recording.
-    examples, counterexamples : sequence of (samples, dims) array
-    threshold : float
-        Largest distance.
-    top : int, optional
-        Spans at most.
     """
     found = _union(features, examples, threshold, None if counterexamples else top)
     if counterexamples and len(found.starts):
@@ -123,22 +113,7 @@ def spans_like(
 def best(
     found: Sequence[Matches], *, top: int | None, most: int | None
 ) -> list[tuple[int, tuple[int, int, float]]]:
-    """The nearest spans of several recordings.
-
-    Parameters
-    ----------
-    found : sequence of Matches
-        Of each recording.
-    top : int, optional
-        Spans at most.
-    most : int, optional
-        Of one recording at most.
-
-    Returns
-    -------
-    list of (int, (int, int, float))
-        Which recording, and start, stop and distance; the nearest first.
-    """
+    """Which recording, and start, stop and distance, of the nearest spans; ``most`` of each."""
     spans = [
         (distance, i, start, stop)
         for i, each in enumerate(found)

@@ -49,13 +49,7 @@ def size_of(path: Path) -> int:
 
 
 def content_digest(path: Path, skeleton: AnyPath | None) -> str:
-    """SHA-256 of what a recording is read from, and of its suffix, which tells the format.
-
-    Raises
-    ------
-    ReadError
-        A file cannot be opened.
-    """
+    """SHA-256 of what a recording is read from, and of its suffix, which tells the format."""
     digest = sha256(path.suffix.lower().encode())
     try:
         for file in files_of(path, skeleton):
@@ -93,21 +87,9 @@ class FileStates:
 
 
 def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:
-    """Each recording in the sources that are there, and the source it was found in.
+    """Each recording in the sources, an absolute path, and the first source it was found in.
 
-    Parameters
-    ----------
-    sources : iterable of Path
-        Recordings, and folders of them.
-    recursive : bool
-        Look into the folders of a folder, too.
-    without : Path
-        A folder whose files are none: the library itself.
-
-    Returns
-    -------
-    dict of Path to Path
-        Absolute paths; the first source counts.
+    Files ``without`` are left out: those of the library itself.
     """
     found: dict[Path, Path] = {}
     for source in sources:
@@ -123,16 +105,7 @@ def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[P
 def names_of(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Path, str]:
     """A name for each recording: its path in its source, with more folders where two are equal.
 
-    Parameters
-    ----------
-    found : mapping of Path to Path
-        Recordings and their sources.
-    former : mapping of Path to str
-        Names that are given already; they stay.
-
-    Returns
-    -------
-    dict of Path to str
+    Names that are given already stay.
     """
     names = {path: former[path] for path in found if path in former}
     used = set(names.values())

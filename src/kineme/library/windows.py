@@ -46,19 +46,7 @@ def count(samples: Ints, length: int) -> Ints:
 
 
 def windows_of(features: Float32s, length: int) -> Bytes:
-    """The windows of a recording in 32 numbers each.
-
-    Parameters
-    ----------
-    features : (samples, dims) array
-    length : int
-        Samples of a window.
-
-    Returns
-    -------
-    (windows, 32) array of int8
-        Means, and what tells of the two halves.
-    """
+    """The windows of a recording in 32 numbers each: means, and what tells of the two halves."""
     if len(features) == 0:
         return np.empty((0, NUMBERS), np.int8)
     if len(features) < length:

@@ -14,20 +14,7 @@ COLUMNS = ("kind", "start s", "stop s", "duration s", "cluster", "label", "confi
 
 
 def page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
-    """HTML of a title, timelines below each other, and the first rows of a table.
-
-    Parameters
-    ----------
-    title : str
-    timelines : sequence of SegmentTable
-        From the top, over the time that they reach together.
-    rows : SegmentTable
-        Whose first rows are shown.
-
-    Returns
-    -------
-    str
-    """
+    """HTML of a title, timelines below each other, and the first rows of a table."""
     shown = [table for table in timelines if len(table)]
     picture = ""
     if shown:

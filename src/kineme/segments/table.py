@@ -320,24 +320,7 @@ class SegmentTable:
 
 
 def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
-    """A table from columns in any row order; see `Segmentation.from_columns`.
-
-    Parameters
-    ----------
-    columns : mapping of str to array_like
-        By name, today's or that of older files, one value for each segment.
-    fps : float
-        Frames per second.
-
-    Returns
-    -------
-    SegmentTable
-
-    Raises
-    ------
-    ParameterError
-        A column is missing, of another length, or holds what it cannot.
-    """
+    """A table from columns in any row order; see `Segmentation.from_columns`."""
     present = present_names(columns)
     needed = {name: column for name, column in COLUMNS.items() if not column.derived}
     for name, column in needed.items():
@@ -360,13 +343,7 @@ def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
 
 
 def kinds_of(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.str_]:
-    """The kinds of segments of these levels; a primitive of older files is an activity there.
-
-    Raises
-    ------
-    ParameterError
-        A primitive on the activity level.
-    """
+    """The kinds of segments of these levels; a primitive of older files is an activity there."""
     if ((levels == "activity") & (kinds == "primitive")).any():
         raise ParameterError(
             "a segment of level 'activity' is an activity or a transition, not a primitive"

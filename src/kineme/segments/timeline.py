@@ -79,23 +79,7 @@ def draw_timeline(
     colors: Sequence[Sequence[str]] | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Rows of segments below each other, each with its name at the left.
-
-    Parameters
-    ----------
-    rows : mapping of str to SegmentTable
-        By the names shown, from the top.
-    seconds : float
-        End of the line.
-    colors : sequence of sequences of str, optional
-        Of each segment of each row; by default those of `segment_color`.
-    ax : Axes, optional
-        Where to draw; Axes of a new figure of pyplot by default.
-
-    Returns
-    -------
-    Axes
-    """
+    """Rows of segments below each other, each with its name at the left."""
     axes = new_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
     if colors is None:
         labels = label_colors(segment for table in rows.values() for segment in table)
@@ -121,19 +105,7 @@ def draw_timeline(
 
 
 def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
-    """The same as an ``<svg>``: never more bars in a row than it has pixels.
-
-    Parameters
-    ----------
-    rows : sequence of SegmentTable
-        From the top.
-    start_s, stop_s : float
-        Ends of the line.
-
-    Returns
-    -------
-    str
-    """
+    """The same as an ``<svg>``: never more bars in a row than it has pixels."""
     height = HEIGHT * len(rows)
     labels = label_colors(segment for table in rows for segment in table)
     bars = [

@@ -71,19 +71,8 @@ def label_costs(
 ) -> Floats:
     """``costs[u, c]``: of the cheapest match of primitive u with one of label c; inf without.
 
-    Parameters
-    ----------
-    unknown, examples : Primitives
-        Features of both in the same unit.
-    codes : (known primitives,) array of int
-        The label of each, from 0, one for all of a run.
-    n_labels : int
-    radius : float
-        Dearer matches are none.
-
-    Returns
-    -------
-    (unknown primitives, n_labels) array
+    ``codes`` are the labels of the examples, from 0, one for all of a run; a match that costs more
+    than the radius is none.
     """
     costs = np.full((len(unknown), n_labels), np.inf)
     of_run = np.empty(int(examples.runs[-1]) + 1, np.int64)

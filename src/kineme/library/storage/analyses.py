@@ -95,13 +95,7 @@ def has_analysis(folder: Path, key: str) -> bool:
 
 
 def read_analysis(folder: Path, key: str) -> Analysis:
-    """The analysis of that name.
-
-    Raises
-    ------
-    ReadError
-        It is gone or damaged.
-    """
+    """The analysis of that name."""
     pa, parquet = arrow()
     path = folder / f"{key}.parquet"
     with reading(path):
@@ -115,13 +109,7 @@ def read_analysis(folder: Path, key: str) -> Analysis:
 
 
 def read_features(folder: Path, key: str) -> NDArray[np.float32]:
-    """The matching features in an analysis, float32 (samples, dims).
-
-    Raises
-    ------
-    ReadError
-        They are gone, as after a build that took the recording out, or damaged.
-    """
+    """The matching features in an analysis, float32 (samples, dims)."""
     features: NDArray[np.float32] = _read_array(folder / f"{key}{FEATURES}", np.float32)
     return features
 
@@ -135,13 +123,7 @@ def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
 def read_parts(
     folder: Path, key: str, starts: Iterable[int], into: Iterable[NDArray[np.float32]]
 ) -> None:
-    """Fill arrays (samples, dims) with the features in an analysis, each from a sample on.
-
-    Raises
-    ------
-    ReadError
-        They are gone or damaged.
-    """
+    """Fill arrays (samples, dims) with the features in an analysis, each from a sample on."""
     with _features(folder, key) as (file, start, _):
         _fill(file, start, starts, into)
 
@@ -149,13 +131,7 @@ def read_parts(
 def read_spans(
     folder: Path, key: str, spans: Sequence[tuple[int, int]]
 ) -> list[NDArray[np.float32]]:
-    """The features in an analysis from some samples to others.
-
-    Raises
-    ------
-    ReadError
-        They are gone or damaged.
-    """
+    """The features in an analysis from some samples to others."""
     with _features(folder, key) as (file, start, dims):
         parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
         _fill(file, start, [first for first, _ in spans], parts)
@@ -163,13 +139,7 @@ def read_spans(
 
 
 def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
-    """The samples of channels in an analysis, one of each ``step``: second, means, deviations.
-
-    Raises
-    ------
-    ReadError
-        They are gone or damaged.
-    """
+    """The samples of channels in an analysis, one of each ``step``: second, means, deviations."""
     path = folder / f"{key}{SAMPLES}"
     with _opening(path):
         rows: NDArray[np.float32] = np.load(near(path), mmap_mode="r", allow_pickle=False)

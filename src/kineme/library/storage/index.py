@@ -43,16 +43,7 @@ class Windows(NamedTuple):
 
 
 def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> None:
-    """Leave the index of a library beside its tables, where it is large enough to have one.
-
-    Parameters
-    ----------
-    folder : Path
-    named : str
-        The tables.
-    recordings : dict of str to list
-        The table of recordings by column.
-    """
+    """Leave an index beside the tables of that name, where the library is large enough."""
     samples = _indexed(recordings)
     rates = zip(samples.tolist(), recordings["features_fps"], strict=True)
     if sum(n / fps for n, fps in rates if n) < FROM_HOURS * 3600:
@@ -83,13 +74,7 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
 def open_index(
     folder: Path, named: str, recordings: dict[str, list[Any]], length: int
 ) -> Windows | None:
-    """The windows of one length, or None where the library has no index.
-
-    Raises
-    ------
-    ReadError
-        It is damaged.
-    """
+    """The windows of one length, or None where the library has no index."""
     path = _place(folder / TABLES / named, length)
     try:
         embedded: Bytes = np.load(near(path), mmap_mode="r", allow_pickle=False)

@@ -109,17 +109,7 @@ def segments_of(table: Any) -> Any:
 
 
 def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
-    """Leave tables in the folder of a library; the name under which they lie there.
-
-    Parameters
-    ----------
-    folder : Path
-    tables : mapping of str to pyarrow.Table
-
-    Returns
-    -------
-    str
-    """
+    """Leave tables in the folder of a library; the name under which they lie there."""
     _, parquet = arrow()
     home = folder / TABLES
     if is_remote(home):
@@ -153,21 +143,7 @@ def _put(home: Path, tables: Mapping[str, Any]) -> str:
 
 
 def read_table(folder: Path, named: str, name: str) -> Any:
-    """One of the tables, a pyarrow.Table.
-
-    Parameters
-    ----------
-    folder : Path
-    named : str
-        The tables that the head of the library names.
-    name : str
-        Of the table.
-
-    Raises
-    ------
-    ReadError
-        It is gone or damaged.
-    """
+    """A table of those that the head of the library names, a pyarrow.Table."""
     pa, parquet = arrow()
     path = folder / TABLES / named / f"{name}.parquet"
     with reading(path):

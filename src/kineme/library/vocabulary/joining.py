@@ -123,16 +123,7 @@ class _Pairs:
 
 
 def mutual_distances(crowd: Crowd, executor: Executor, workers: int) -> Floats:
-    """``distances[a, b]``: the mean of a's example found in b's context, and b's in a's.
-
-    Parameters
-    ----------
-    crowd : Crowd
-    executor : Executor
-        Where words are compared.
-    workers : int
-        How many processes are worth to be started for it.
-    """
+    """``distances[a, b]``: the mean of a's example found in b's context, and b's in a's."""
     n = len(crowd)
     blocks = [slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK)]
     tasks = [
@@ -150,13 +141,7 @@ def mutual_distances(crowd: Crowd, executor: Executor, workers: int) -> Floats:
 def results(
     executor: Executor, work: Callable[[Task], Outcome], tasks: Sequence[Task], workers: int
 ) -> Iterator[tuple[Task, Outcome]]:
-    """What comes of tasks that compare words, as they come.
-
-    Raises
-    ------
-    KinemeError
-        A process that worked on one of them died, and another one did, too.
-    """
+    """What comes of tasks that compare words, as they come; KinemeError where processes died."""
     for task, outcome in executor.completed(work, tasks, workers=workers):
         if outcome is None:
             raise KinemeError(
@@ -231,22 +216,7 @@ class Joined:
 def joined(
     distances: Floats, recording: Ints, seconds: Floats, constants: VocabularyConstants
 ) -> Joined:
-    """The clusters of words.
-
-    Parameters
-    ----------
-    distances : (words, words) array
-        Of each two, by `mutual_distances`.
-    recording : (words,) array
-        Number of the recording that each is of.
-    seconds : (words,) array
-        Of all segments of each.
-    constants : VocabularyConstants
-
-    Returns
-    -------
-    Joined
-    """
+    """The clusters of words of these recordings, by `mutual_distances` and seconds of each."""
     n = len(distances)
     if n < 2:
         alone = np.zeros(n, np.int64)
@@ -300,20 +270,8 @@ def clusters_in(
 ) -> Joined:
     """The clusters of words, however many.
 
-    Parameters
-    ----------
-    crowd : Crowd
-    constants : VocabularyConstants
-    executor : Executor
-        Where words are compared.
-    progress : callable
-        Called with a sentence on how far it is.
-
-    Returns
-    -------
-    Joined
-        As if each had been compared with each where there are no more than ``most``. Of more,
-        spread and confidence are those in the turn in which a word found its cluster.
+    Up to ``most`` are compared each with each. Of more, spread and confidence are those in the turn
+    in which a word found its cluster.
     """
     n = len(crowd)
     workers = n // PER_WORKER

@@ -36,17 +36,6 @@ def lasting_numbers(
 ) -> dict[int, int]:
     """The number of each new cluster.
 
-    Parameters
-    ----------
-    old, new : mapping of str to (starts, stops, clusters)
-        By recording, those of -1 in no cluster.
-    following : int
-        The first number that was never given.
-
-    Returns
-    -------
-    dict of int to int
-
     Examples
     --------
     >>> import numpy as np
@@ -74,13 +63,7 @@ def lasting_numbers(
 
 
 def read_removed(folder: Path) -> dict[str, Spans]:
-    """What a library remembers of recordings that are not in it.
-
-    Raises
-    ------
-    ReadError
-        The file is damaged.
-    """
+    """What a library remembers of recordings that are not in it."""
     path = folder / REMOVED
     return {key: _spans(columns, path) for key, columns in read_json(path).items()}
 

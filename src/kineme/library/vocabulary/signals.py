@@ -53,26 +53,7 @@ def clusters_of_signals(
     keys: Sequence[str],
     executor: Executor,
 ) -> Joined:
-    """The clusters of words of signals.
-
-    Parameters
-    ----------
-    places : sequence of Place
-        Of words of one vocabulary, recording by recording.
-    analyses : sequence of Analysis
-        Of all recordings.
-    folder : Path
-        That holds them.
-    keys : sequence of str
-        Their names there.
-    executor : Executor
-        Where words are compared.
-
-    Returns
-    -------
-    Joined
-        Spread is the distance from the cluster's centre.
-    """
+    """The clusters of words of signals; spread is the distance from the centre of the cluster."""
     from kineme.transfer.vocabulary import centres_of, likely_number  # scikit-learn takes a second
 
     numbers = sorted({place.recording for place in places})

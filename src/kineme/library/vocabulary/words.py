@@ -91,18 +91,7 @@ class _Spans(NamedTuple):
 def crowd_of(
     places: Sequence[Place], analyses: Sequence[Analysis], folder: Path, keys: Sequence[str]
 ) -> Crowd:
-    """The words at these places, drawn in an order that depends on each of them alone.
-
-    Parameters
-    ----------
-    places : sequence of Place
-    analyses : sequence of Analysis
-        Of all recordings.
-    folder : Path
-        That holds them.
-    keys : sequence of str
-        Their names there.
-    """
+    """The words at these places, drawn in an order that depends on each of them alone."""
     names = [f"{keys[place.recording]} {place.cluster}" for place in places]
     drawn = b"".join(sha256(name.encode()).digest()[:8] for name in names)
     spans = [
