@@ -21,7 +21,13 @@ SHORT_TRANSITION_S = 1.0
 
 
 class BorderScore(NamedTuple):
-    """Shares of the found borders that are right, of the true ones met, and their harmonic mean."""
+    """Shares of the found borders that are right, of the true ones met, and their harmonic mean.
+
+    Examples
+    --------
+    >>> border_score(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10))
+    BorderScore(precision=1.0, recall=1.0, f1=1.0)
+    """
 
     precision: float
     recall: float
@@ -114,7 +120,13 @@ def covering(compared: Comparison) -> float:
 
 
 def border_ratio(compared: Comparison) -> Ratio:
-    """Borders found over true borders: 1 is as many, above is too many."""
+    """Borders found over true borders: 1 is as many, above is too many.
+
+    Examples
+    --------
+    >>> border_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
+    Ratio(part=3, total=1)
+    """
     found = border_frames(compared.spans.activities)
     return Ratio(found.size, compared.spans.actions.mean.size)
 

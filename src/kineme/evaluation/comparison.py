@@ -61,6 +61,12 @@ class Spans:
         Of the recording: metres, y up.
     features : array_like, (frames, dims), optional
         Of the recording, stacked.
+
+    Examples
+    --------
+    >>> spans = Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10).spans
+    >>> spans.actions.labels, spans.activities.borders.tolist()
+    (('0', '1'), [0, 3, 4])
     """
 
     actions: Truth
@@ -347,6 +353,14 @@ def labelling_of(rows: SegmentTable, *, fps: float) -> Labelling:
     Returns
     -------
     Labelling
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> labelling_of(found.activities, fps=found.fps).labels[:4]
+    ('0', 'transition', '1', 'transition')
     """
     labels = [
         TRANSITION

@@ -36,6 +36,15 @@ def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:
     Returns
     -------
     strict, tolerant : float
+
+    Examples
+    --------
+    >>> from kineme.evaluation import Labelling
+    >>> truth = Truth(("walk", "run"), [40], [50], [60], frames=100, fps=30)
+    >>> found = Labelling.from_cuts([50], ["0", "1"], frames=100, fps=30)
+    >>> strict, tolerant = strict_and_tolerant(Comparison.of(truth, found))
+    >>> round(strict, 2), round(tolerant, 2)
+    (0.79, 1.0)
     """
     start, stop, certain = _closed_spans(compared.spans.actions)
     found = compared.spans.activities
@@ -72,6 +81,11 @@ def majority_accuracy(compared: Comparison) -> tuple[float, float]:
     Returns
     -------
     everywhere, agreed : float
+
+    Examples
+    --------
+    >>> majority_accuracy(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10))
+    (0.75, 0.75)
     """
     clusters, classes, frames = contingency(compared.found, compared.truth)
     most = frames.max(axis=1)

@@ -192,16 +192,13 @@ def worked_out(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answ
     found = segment_by(job.method, recording, n_classes=len(classes), **job.constants)
     seconds = clock() - start
     compared = compare(truth, found, classes=classes)
-    sides = sides_of(recording, truth, found) if job.joins else None
+    sides = None
+    if job.joins:
+        samples = channel_samples(recording) if isinstance(recording, Signals) else None
+        sides = Sides(truth, replace(found, hierarchy=None), samples)
     unmet = (str(note) for note in recording.provenance.notes if note.startswith(UNMET))
     notes = (*unmet, *truth.provenance.get("notes", ()))
     return Answer(compared, sides, classes, seconds, recording.duration, notes)
-
-
-def sides_of(recording: Motion | Signals, truth: Segmentation, found: Segmentation) -> Sides:
-    """Both sides as they can be joined with others."""
-    samples = channel_samples(recording) if isinstance(recording, Signals) else None
-    return Sides(truth, replace(found, hierarchy=None), samples)
 
 
 def _failed(error: BaseException) -> Answer:

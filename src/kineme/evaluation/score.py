@@ -31,7 +31,13 @@ Counted = Literal["frames", "segments", "borders", "repetitions", "clusters", "p
 
 
 class Ratio(NamedTuple):
-    """A score that is a part of a total, such as frames right of all frames."""
+    """A score that is a part of a total, such as frames right of all frames.
+
+    Examples
+    --------
+    >>> Ratio(9, 12).value
+    0.75
+    """
 
     part: float
     total: float
@@ -131,6 +137,16 @@ def register(new: Score, *, replace: bool = False) -> None:
     ------
     ParameterError
         There is a score of this name, or it is none.
+
+    Examples
+    --------
+    >>> def cuts_per_minute(compared):
+    ...     return 60 * (len(compared.found_runs) - 1) * compared.fps / len(compared.found)
+    >>> title, help = "cuts a minute", "how often the result changes"
+    >>> register(Score("cuts", title, help, "borders", cuts_per_minute))
+    >>> value_of(scores()["cuts"].function(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=2)))
+    30.0
+    >>> SCORES.remove("cuts")
     """
     SCORES.register(new, replace=replace)
 
@@ -186,6 +202,14 @@ def evaluate(
     ------
     ParameterError
         Labels or data of another length than the truth.
+
+    Examples
+    --------
+    >>> truth = Truth(("walk", "run"), [40], [50], [60], frames=100, fps=30)
+    >>> found = Labelling.from_cuts([48], ["0", "1"], frames=100, fps=30)
+    >>> result = evaluate(truth, found)
+    >>> result["border_f1"], round(result["strict"], 2)
+    (1.0, 0.79)
     """
     compared = Comparison.of(
         truth,
@@ -210,6 +234,16 @@ def evaluate_segmentation(
     Its clusters are those of its activities where they have any (or labels), else those
     of its primitives. A segment in no cluster goes by its label, and without one is a cluster
     of its own.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> from kineme.evaluation.inputs import truth_of
+    >>> labels = kineme.read_segments(bundled_truth())
+    >>> truth = truth_of(labels, n_frames=labels.n_frames, fps=labels.fps)
+    >>> evaluate_segmentation(truth, labels)["one_to_one"]
+    1.0
     """
     rows = found.activities
     activities = labelling_of(rows, fps=found.fps)

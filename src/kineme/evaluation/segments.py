@@ -116,6 +116,13 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
     -------
     error, exact : float
         None where the truth knows no count.
+
+    Examples
+    --------
+    >>> truth = Truth(("jump", "rest"), [60], [60], [60], frames=90, fps=30, counts=(3, None))
+    >>> found = Labelling.from_cuts([15, 30, 60], ["0", "0", "0", "1"], frames=90, fps=30)
+    >>> count_errors(Comparison.of(truth, found))
+    (0.0, 1.0)
     """
     truth = compared.spans.actions
     found = found_counts(truth, compared.spans.primitives)

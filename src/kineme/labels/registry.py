@@ -68,6 +68,12 @@ def register(new: LabelFormat, *, replace: bool = False) -> None:
     ------
     ParameterError
         There is a format of this name, or it is none.
+
+    Examples
+    --------
+    >>> register(label_formats()["csv"], replace=True)
+    >>> label_formats()["csv"].suffixes
+    ('.csv', '.tsv')
     """
     FORMATS.register(new, replace=replace)
 
@@ -79,6 +85,11 @@ def written_suffixes() -> tuple[str, ...]:
     -------
     tuple of str
         Lower case, with the dot, each once.
+
+    Examples
+    --------
+    >>> written_suffixes()[:3]
+    ('.csv', '.json', '.parquet')
     """
     writers = [candidate for candidate in label_formats().values() if candidate.write]
     return tuple(dict.fromkeys(candidate.written_suffix.lower() for candidate in writers))

@@ -36,7 +36,13 @@ Row = tuple[Level, Kind, int, int, int, str, float]
 
 
 class Span(NamedTuple):
-    """From ``start`` to ``stop``, in the unit of its `Labels`, something was called ``text``."""
+    """From ``start`` to ``stop``, in the unit of its `Labels`, something was called ``text``.
+
+    Examples
+    --------
+    >>> Span(1.5, 4.0, "walk").level
+    'activity'
+    """
 
     start: float
     stop: float
@@ -65,6 +71,12 @@ class Labels:
         What is worth a warning, such as labels that had to be joined.
     remarks : tuple of str
         What was inferred, for the provenance alone.
+
+    Examples
+    --------
+    >>> labels = Labels([Span(0, 4, "walk"), Span(5, 9, "run")], fps=30, length=10)
+    >>> [span.text for span in labels.spans]
+    ['walk', 'run']
     """
 
     spans: Sequence[Span]

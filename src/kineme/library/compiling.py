@@ -17,7 +17,7 @@ from kineme.library.settings import VOCABULARY
 from kineme.library.storage.analyses import Analysis, read_analysis
 from kineme.library.storage.layout import ANALYSES, BODIES, EMBEDDED, arrow, as_array, as_column
 from kineme.library.storage.tables import read_table, table_of
-from kineme.library.vocabulary.joining import clusters_in
+from kineme.library.vocabulary.joining import Joined, clusters_in
 from kineme.library.vocabulary.numbering import Spans, lasting_numbers
 from kineme.library.vocabulary.words import Place, crowd_of, places_in
 from kineme.segments.table import COLUMNS
@@ -31,10 +31,7 @@ class _Words:
     """The words of all recordings, and what became of them."""
 
     places: list[Place]
-    labels: Ints
-    following: Ints
-    confidence: NDArray[np.float64]
-    spread: NDArray[np.float64]
+    joined: Joined
 
 
 def compiled(
@@ -95,7 +92,7 @@ def _joined_words(
 ) -> _Words:
     """The words of each vocabulary, joined; clusters are counted on from one to the next."""
     places: list[Place] = []
-    parts: list[tuple[Ints, Ints, Any, Any]] = []
+    parts: list[Joined] = []
     count = 0
     for vocabulary in sorted({analysis.facts["vocabulary"] for analysis in analyses} - {""}):
         words = [
@@ -116,19 +113,19 @@ def _joined_words(
             found = clusters_of_signals(words, analyses, folder / ANALYSES, keys, executor)
         following = np.where(found.following < 0, -1, found.following + count)
         places += words
-        parts.append((found.labels + count, following, found.confidence, found.spread))
+        parts.append(found._replace(labels=found.labels + count, following=following))
         count += int(found.labels.max()) + 1
     if not places:
-        none = np.empty(0)
-        return _Words([], none.astype(np.int64), none.astype(np.int64), none, none)
-    return _Words(places, *map(np.concatenate, zip(*parts, strict=True)))
+        none = np.empty(0, np.int64)
+        return _Words([], Joined(none, none, np.empty(0), np.empty(0)))
+    return _Words(places, Joined(*map(np.concatenate, zip(*parts, strict=True))))
 
 
 def _shared(analyses: Sequence[Analysis], words: _Words) -> list[Ints]:
     """The cluster of each segment of each analysis in the common vocabulary, -1 in none."""
     label = {
         (place.recording, place.cluster): cluster
-        for place, cluster in zip(words.places, words.labels.tolist(), strict=True)
+        for place, cluster in zip(words.places, words.joined.labels.tolist(), strict=True)
     }
     return [
         np.array(
@@ -148,15 +145,12 @@ def _spans(columns: Columns, clusters: Ints) -> Spans:
 def _recordings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
     facts = [analysis.facts for analysis in analyses]
     names = ("vocabulary", "format", "n_frames", "fps", "features_fps", "samples")
-    columns: Columns = {name: [each[name] for each in facts] for name in names}
     return {
         "recording": [name for name, _, _ in entries],
         "path": [str(path) for _, path, _ in entries],
-        **{name: columns[name] for name in ("vocabulary", "format", "n_frames", "fps")},
+        **{name: [each[name] for each in facts] for name in names},
         "duration_s": [each["n_frames"] / each["fps"] for each in facts],
         "piece": [key for _, _, key in entries],
-        "features_fps": columns["features_fps"],
-        "samples": columns["samples"],
         "notes": ["\n".join(each["notes"]) for each in facts],
     }
 
@@ -183,10 +177,10 @@ def _word_table(entries: Sequence[Entry], words: _Words, numbers: Ints) -> Colum
     return {
         "recording": [entries[place.recording][0] for place in words.places],
         "own_cluster": [place.cluster for place in words.places],
-        "cluster": numbers[words.labels],
-        "following": numbers[words.following],
-        "confidence": words.confidence,
-        "spread": words.spread,
+        "cluster": numbers[words.joined.labels],
+        "following": numbers[words.joined.following],
+        "confidence": words.joined.confidence,
+        "spread": words.joined.spread,
         "start_s": [place.start_s for place in words.places],
         "stop_s": [place.stop_s for place in words.places],
         "seconds": [place.seconds for place in words.places],

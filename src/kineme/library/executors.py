@@ -96,12 +96,7 @@ class InProcess:
 
 
 class Processes:
-    """So many processes of this machine at most, which go on from one work to the next.
-
-    Parameters
-    ----------
-    jobs : int
-    """
+    """So many processes of this machine at most, which go on from one work to the next."""
 
     def __init__(self, jobs: int):
         self._jobs = jobs
@@ -191,17 +186,6 @@ class Cluster:
     They see the recordings and the library at the same places as the client does. A worker has one
     task at a time, and as many threads for it as dask gave it. Dask tries a task anew whose worker
     died, three times by default (``distributed.scheduler.allowed-failures``).
-
-    Parameters
-    ----------
-    client : distributed.Client
-
-    Raises
-    ------
-    ParameterError
-        It is none, or workers have another version of kineme, or none.
-    MissingDependencyError
-        dask is not installed.
     """
 
     def __init__(self, client: Any):
@@ -307,16 +291,7 @@ def _alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
 class Watch:
     """Tells how many things are done, and for how many seconds the work on the others goes on.
 
-    Parameters
-    ----------
-    progress : callable
-        Called with each sentence.
-    things : int
-        That there are.
-    work : float
-        That they make, in any unit.
-    what : str
-        Said before the numbers.
+    So many things make so much work, in any unit. ``what`` stands before the numbers.
     """
 
     def __init__(self, progress: Progress, things: int, work: float, what: str = ""):

@@ -30,7 +30,7 @@ from kineme.formats.options import AnyPath
 from kineme.library.executors import Executor, InProcess, Progress, Watch
 from kineme.library.planning import Plan
 from kineme.library.settings import Settings
-from kineme.library.sources import FileStates, content_digest, fetched, size_of
+from kineme.library.sources import content_digest, fetched, size_of, states_of
 from kineme.library.storage.analyses import has_analysis, write_analysis
 from kineme.library.storage.layout import STATES, read_json, write_json
 from kineme.library.storage.places import is_remote
@@ -70,9 +70,8 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     Files that look as they did when they were last read are not read again.
     """
     former = _former_states(plan.folder / STATES, progress)
-    file_states = FileStates(plan.settings.options().skeleton)
     readable = [path for path in found if is_text(str(path))]
-    states = {path: file_states.of(path) for path in readable}
+    states = states_of(readable, plan.settings.options().skeleton)
     unreadable = [path for path in found if path not in states]
     gathered = Gathered(_unchanged(plan, states, former), failed=dict.fromkeys(unreadable, UNNAMED))
     waiting = [path for path in readable if path not in gathered.digests]

@@ -76,6 +76,12 @@ class Hit(NamedTuple):
         Of the segment that covers most of it, -1 in none.
     label : str
         The name of that cluster.
+
+    Examples
+    --------
+    >>> hit = Hit("walk.bvh", 2.0, 3.2, 0.4, 7, "step")
+    >>> round(hit.stop_s - hit.start_s, 1), hit.label
+    (1.2, 'step')
     """
 
     recording: str

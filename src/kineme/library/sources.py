@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cache
 from hashlib import sha256
@@ -63,27 +63,29 @@ def content_digest(path: Path, skeleton: AnyPath | None) -> str:
     return digest.hexdigest()
 
 
-class FileStates:
-    """Sizes and times of files: whether they changed, without reading them."""
+def states_of(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, str]:
+    """Sizes and times of the files of recordings: whether they changed, without reading them.
 
-    def __init__(self, skeleton: AnyPath | None):
-        self._skeleton = None if skeleton is None else Path(skeleton)
-        self._near = cache(_skeletons_in)
+    Empty where that cannot be told. With an AMC go the skeletons near it.
+    """
+    skeletons_in = cache(_skeletons_in)
 
-    def of(self, path: Path) -> str:
-        """Sizes and times of a recording's files, and of the skeletons near an AMC."""
-        try:
-            if path.is_dir():
-                return _state(sorted(path.iterdir()))
-            if self._skeleton is not None:
-                return _state([path, self._skeleton])
-            if path.suffix.lower() != _AMC:
-                return _state([path])
-            home = path.parent
-            near = [self._near(each) for each in (home, home / "asf", home.parent / "asf")]
-            return " ".join([_state([path]), *near]).strip()
-        except OSError:
-            return ""
+    def state(path: Path) -> str:
+        if path.is_dir():
+            return _state(sorted(path.iterdir()))
+        if skeleton is not None:
+            return _state([path, Path(skeleton)])
+        if path.suffix.lower() != _AMC:
+            return _state([path])
+        home = path.parent
+        near = [skeletons_in(each) for each in (home, home / "asf", home.parent / "asf")]
+        return " ".join([_state([path]), *near]).strip()
+
+    states = dict.fromkeys(paths, "")
+    for path in states:
+        with suppress(OSError):
+            states[path] = state(path)
+    return states
 
 
 def listed(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:

@@ -82,7 +82,17 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """One row of the table: a span ``[start_frame, stop_frame)`` and what it is."""
+    """One row of the table: a span ``[start_frame, stop_frame)`` and what it is.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> walk = found.activities[0]
+    >>> walk.kind, walk.label, walk.start_frame, walk.stop_frame, round(walk.duration_s, 2)
+    ('activity', 'walk', 0, 326, 5.43)
+    """
 
     level: Annotated[Level, Column("which rows of the table: `activity` or `primitive`")]
     kind: Annotated[Kind, Column("`activity` or `primitive`, as its level, or `transition`")]

@@ -28,7 +28,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -167,12 +167,7 @@ def _all_costs(words: Sequence[Word], contexts: Contexts) -> Floats:
 
 
 class Contexts:
-    """The contexts of several words, to look for examples in.
-
-    Parameters
-    ----------
-    words : sequence of Word
-    """
+    """The contexts of several words, to look for examples in."""
 
     def __init__(self, words: Sequence[Word]):
         gap = np.full((1, words[0].example.shape[1]), APART, np.float32)
@@ -190,8 +185,7 @@ class Contexts:
         return least
 
 
-@dataclass(frozen=True, eq=False)
-class Joined:
+class Joined(NamedTuple):
     """The cluster of each word, and how well it fits there.
 
     Attributes
@@ -235,16 +229,19 @@ def joined(
 def _fitted(distances: Floats, labels: Ints) -> Joined:
     """Labels, and how well each word fits its own."""
     members = np.eye(int(labels.max()) + 1)[labels]
-    words = np.arange(len(labels))
     sums, sizes = distances @ members, members.sum(axis=0)
-    spread = sums[words, labels] / np.maximum(sizes[labels] - 1, 1)
-    if len(sizes) == 1:
+    spread = sums[np.arange(len(labels)), labels] / np.maximum(sizes[labels] - 1, 1)
+    return beside_others(labels, spread, sums / sizes)
+
+
+def beside_others(labels: Ints, spread: Floats, distances: Floats) -> Joined:
+    """Words with the next cluster of each, by their distances (words, clusters) from all."""
+    if distances.shape[1] == 1:
         return Joined(labels, labels - 1, np.full(len(labels), np.nan), spread)
-    means = sums / sizes
-    means[words, labels] = np.inf
-    nearest = means.min(axis=1)
-    confidence = np.clip(1 - spread / np.maximum(nearest, 1e-9), 0, 1)
-    return Joined(labels, means.argmin(axis=1), confidence, spread)
+    others = distances.copy()
+    others[np.arange(len(labels)), labels] = np.inf
+    confidence = np.clip(1 - spread / np.maximum(others.min(axis=1), 1e-9), 0, 1)
+    return Joined(labels, others.argmin(axis=1), confidence, spread)
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from kineme.library.executors import Executor
 from kineme.library.storage.analyses import Analysis, read_channel_samples
-from kineme.library.vocabulary.joining import Joined, results
+from kineme.library.vocabulary.joining import Joined, beside_others, results
 from kineme.library.vocabulary.words import Place
 from kineme.transfer.channel_samples import Units
 
@@ -117,11 +117,4 @@ def _nearest_clusters(distances: Floats, seconds: Floats) -> Joined:
     lasts = np.round(np.bincount(distances.argmin(axis=1), seconds), 6)
     order = np.argsort(-lasts, kind="stable")
     distances = distances[:, order]
-    labels, words = distances.argmin(axis=1), np.arange(len(distances))
-    spread = distances[words, labels]
-    if len(clusters) == 1:
-        return Joined(labels, labels - 1, np.full(len(labels), np.nan), spread)
-    others = distances.copy()
-    others[words, labels] = np.inf
-    confidence = np.clip(1 - spread / np.maximum(others.min(axis=1), 1e-9), 0, 1)
-    return Joined(labels, others.argmin(axis=1), confidence, spread)
+    return beside_others(distances.argmin(axis=1), distances.min(axis=1), distances)

@@ -69,6 +69,15 @@ def carried(before: Segmentation, found: Segmentation) -> Carried:
     Returns
     -------
     Carried
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> anew = kineme.segment(kineme.read(kineme.bundled_recording()))
+    >>> "squat" in carried(found, anew).segmentation.activities.label.tolist()
+    True
     """
     flags = {mark: marked(before, mark) for mark in get_args(Mark)}
     fixed = [row for row in before if span_of(row) in set().union(*flags.values())]

@@ -41,6 +41,15 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     ------
     ParameterError
         No segment starts there, or the cluster is neither there nor the next new one.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> again = set_cluster(found, "activity", 2494, 3)
+    >>> again.activities[-1].label, again.repetitions()[3]
+    ('jump', 8)
     """
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
     if not -1 <= cluster <= following:
@@ -75,6 +84,14 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
     ------
     ParameterError
         One of them has no segments, or they are the same.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> merge_clusters(found, 4, 0).repetitions()
+    {0: 15, 1: 4, 2: 5, 3: 4, 5: 4}
     """
     for each in (cluster, into):
         if not members_of(segmentation, each):
@@ -105,6 +122,14 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     ------
     ParameterError
         None of these is in the cluster, or all are.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> split_cluster(found, 0, [962, 1027]).repetitions()
+    {0: 7, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4, 6: 2}
     """
     chosen, rows = set(frames), members_of(segmentation, cluster)
     level: Level = "primitive" if any(row.level == "primitive" for row in rows) else "activity"
@@ -144,6 +169,14 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
     ------
     ParameterError
         They are not the clusters of the table.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> order_clusters(found, [5, 4, 3, 2, 1, 0]).activities.cluster[-1].item()
+    0
     """
     present = sorted(set(segmentation.table.cluster.tolist()) - {-1})
     if sorted(order) != present:
@@ -177,6 +210,14 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     ------
     ParameterError
         No segment starts there, or no such kind.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> set_kind(found, "activity", 2494, "transition").activities[-1].kind
+    'transition'
     """
     if kind not in get_args(Kind):
         raise ParameterError(f"kind must be {' or '.join(get_args(Kind))}, not {kind!r}")

@@ -39,6 +39,14 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     ------
     ParameterError
         No segment starts there, or the label is more than a line of text.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> name_segment(found, "primitive", 61, "limp").primitives[:3].label.tolist()
+    ['walk', 'limp', 'walk']
     """
     row, names = starting(segmentation, level, frame), names_by_cluster(segmentation)
     label = label or names.get(row.cluster, "")
@@ -64,6 +72,14 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
     ------
     ParameterError
         No segment is in that cluster, or the label is more than a line of text.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.datasets import bundled_truth
+    >>> found = kineme.read_segments(bundled_truth())
+    >>> name_cluster(found, 0, "stroll").activities[[0, 4]].label.tolist()
+    ['stroll', 'stroll']
     """
     if not members_of(segmentation, cluster):
         raise ParameterError(f"no segment is in cluster {cluster}")
