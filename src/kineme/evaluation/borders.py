@@ -40,14 +40,6 @@ def border_score(compared: Comparison) -> BorderScore:
     As many pairs are made as can be: in time order each true border takes the first found one
     that is right. With nothing to find and nothing found all three are 1.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    BorderScore
-
     Examples
     --------
     >>> border_score(Comparison([0, 0, 1, 1], [5, 5, 5, 3], fps=10)).f1
@@ -97,14 +89,6 @@ def covering(compared: Comparison) -> float:
     intersection over union with any found interval. Source: Arbeláez et al.
     2011, equation 4; used for change points by van den Burg and Williams 2020.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    float
-
     Examples
     --------
     >>> covering(Comparison([0, 0, 1, 1], [5, 5, 5, 5], fps=10))
@@ -134,14 +118,6 @@ def border_ratio(compared: Comparison) -> Ratio:
 def cut_ratio(compared: Comparison) -> Ratio:
     """The same where both sides of any found transition are cuts.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    Ratio
-
     Examples
     --------
     >>> cut_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
@@ -153,14 +129,6 @@ def cut_ratio(compared: Comparison) -> Ratio:
 
 def cluster_ratio(compared: Comparison) -> Ratio:
     """Clusters found over classes: 1 is as many, above is too many; transitions are no classes.
-
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    Ratio
 
     Examples
     --------

@@ -11,8 +11,9 @@ There are two ways to put the two sides together, by what the truth is:
   is usual in action segmentation; transitions of the result are one more cluster. Borders are
   right within 0.5 s.
 - a `Truth` with uncertain borders (`Comparison.of`): every frame counts, and where people
-  disagree is a class of its own. A result that names transitions means them; one that does not
-  may use up a cluster for them. Borders are right within the truth's own tolerance.
+  disagree is a class of its own. Transitions of the result must match those of the truth;
+  where it has none, one of its clusters may stand for them. Borders are right within the truth's
+  own tolerance.
 """
 
 from __future__ import annotations
@@ -142,24 +143,7 @@ class Comparison:
     ) -> Comparison:
         """A result beside a truth whose borders are uncertain, at the truth's frame rate.
 
-        Parameters
-        ----------
-        truth : Truth
-            What people say.
-        clusters : Labelling
-            Which frames are the same thing.
-        activities : Labelling, optional
-            Which spans are one activity; by default ``clusters``.
-        primitives : Labelling, optional
-            Single repetitions; by default ``clusters``.
-        positions : array_like, (frames, joints, 3), optional
-            Metres, y up, at the truth's frame rate.
-        features : array_like, (frames, dims), optional
-            Stacked, at the truth's frame rate.
-
-        Returns
-        -------
-        Comparison
+        Parameters are those of `kineme.evaluation.evaluate`.
 
         Raises
         ------

@@ -29,14 +29,6 @@ def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:
     sum of these intersections over the sum of all lengths. Tolerant: the same
     over the actions alone. Labels play no part.
 
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    strict, tolerant : float
-
     Examples
     --------
     >>> from kineme.evaluation import Labelling
@@ -73,14 +65,6 @@ def majority_accuracy(compared: Comparison) -> tuple[float, float]:
 
     A cluster takes the class that more than half of its frames have, else
     none. Cutting into many clusters is not punished.
-
-    Parameters
-    ----------
-    compared : Comparison
-
-    Returns
-    -------
-    everywhere, agreed : float
 
     Examples
     --------

@@ -118,7 +118,7 @@ def feature_variance(features: ArrayLike, found: Labelling) -> list[ClusterVaria
 def overall(clusters: list[ClusterVariance]) -> tuple[float, float]:
     """Mean distance and mean variance over the clusters of at least two segments.
 
-    Clusters weigh alike, as bars of a figure do; nan where there is none.
+    Clusters weigh the same, as bars of a figure do; nan where there is none.
 
     Examples
     --------

@@ -2,9 +2,9 @@
 
 A recording that pauses has fewer seconds than its clock, and one that begins at half past nine
 has none of those that its clock shows. People label by the clock: of the time column, of the day,
-since 1970. Where more of the labels' time meets the recording if they are counted from its first
-frame, pauses included, or if they count frames as the package's own tables do, they are taken so,
-and a note says it. Labels that meet nothing are left out by name.
+since 1970. They may also be counted from the first frame, pauses included, or without
+pauses, as the package's own tables do. That by which most of their time lies in the recording is
+taken, and a note says so. Labels that meet nothing are left out by name.
 """
 
 from __future__ import annotations

@@ -29,7 +29,7 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment, kind_of
 
 TOO_FAR = 2**53
-"""Frames that a float no longer tells from their neighbours."""
+"""Frames from which a float cannot tell neighbours apart."""
 COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "confidence")
 
 Row = tuple[Level, Kind, int, int, int, str, float]

@@ -37,7 +37,7 @@ Floats = NDArray[np.float64]
 UNIT = 0.5
 """Of the root mean square over channels; a distance of 0.85 then is where right matches end."""
 NOWHERE = 100.0
-"""In each feature of channels that were not recorded: farther from anything than a match can be."""
+"""Value of each feature in gaps: too far from all others for a match."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -62,7 +62,7 @@ class Edits:
 
     @property
     def following(self) -> int:
-        """The first number that no edit speaks of."""
+        """The first number above those of all clusters in the edits."""
         return max([-1, *self.names, *self.merged, *(split.into for split in self.splits)]) + 1
 
     def number(self, cluster: int) -> int:

@@ -29,7 +29,7 @@ TYPICAL = 5
 """Words that stand for a cluster in a search, the most typical ones."""
 
 BEYOND = 0.1
-"""Seconds: an example that stops so much after the end of its recording is rounded."""
+"""Seconds by which an example may stop after the end of its recording without a warning."""
 LARGEST, MOST_HITS = 1e6, 1 << 31
 
 

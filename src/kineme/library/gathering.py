@@ -1,11 +1,10 @@
-"""The analyses of the recordings of a build: those that are there, and those to be made.
+"""The analyses of the recordings of a build: those that exist are kept, the others are made.
 
-Any executor makes them; whatever happens to one recording costs it only. What makes them takes a
-second to import, so that is left to the processes that do it: the one that waits for them has
-started them by then.
+Any executor makes them; an error costs one recording only. To import what makes them takes a
+second, so that is left to the processes of the executor.
 
-Recordings of the same content are worked on once. Whole files are read for that only where sizes
-and a sample are equal, so few are that are not equal.
+Recordings of the same content are analysed once. Files are compared by their sizes, then by a
+sample, and read as a whole only where both are equal.
 """
 
 from __future__ import annotations
@@ -37,7 +36,7 @@ from kineme.library.storage.places import is_remote
 
 States = dict[str, tuple[str, str]]
 UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
-"""What is said of such a file."""
+"""The error of such a file."""
 SAMPLE = 4096
 """Bytes from the middle of a file."""
 PER_WORKER = 1 << 20
@@ -88,7 +87,7 @@ def _former_states(path: Path, progress: Progress) -> States:
     try:
         return read_json(path, tuple[str, str])
     except ReadError as error:
-        progress(f"{path.name} is left alone, all recordings are looked at anew: it {error.reason}")
+        progress(f"{path.name} is not used, all recordings are read again: it {error.reason}")
         return {}
 
 
@@ -134,7 +133,7 @@ def _make(
 
 
 def _note(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
-    """What came of a task; WriteError where others will fail alike."""
+    """Note what came of a task; WriteError for an error that all others will have, too."""
     if outcome.fatal:
         raise WriteError(plan.folder, outcome.error)
     if outcome.error:
@@ -227,7 +226,7 @@ class Outcome:
         Whether it was not there before.
     error : str
     fatal : bool
-        Whether others will fail alike, as on a full disk.
+        Whether all others will fail, too, as on a full disk.
     """
 
     digest: str = ""

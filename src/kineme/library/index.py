@@ -44,7 +44,7 @@ BLOCK = 1 << 16
 AT_ONCE = 1 << 15
 """Samples that are searched in one go."""
 APART = 1e3
-"""In each feature of a sample between two parts: no match reaches over it."""
+"""Value of each feature between two parts: no match crosses it."""
 
 
 class Parts(NamedTuple):

@@ -105,7 +105,7 @@ class Library:
         return clusters_of(self._tables)
 
     def unsure(self) -> list[Word]:
-        """The words that may as well be in another cluster, the least sure first."""
+        """The words whose cluster is uncertain, those of least confidence first."""
         words, most = self._tables.columns("words"), self.head["vocabulary"]["unsure"]
         confidence = words["confidence"]
         rows = np.flatnonzero((confidence < most) & (words["cluster"] != words["following"]))

@@ -3,7 +3,7 @@
 A search compares samples along a warping. The mean of a window, and how its second half differs
 from the first (the first two terms of a cosine transform), are near where all samples are. Features
 are ordered by how much they tell, so the first of them do. Each number takes a byte: those of unit
-vectors lie between -1 and 1, and what rounding adds is little beside what is left out.
+vectors lie between -1 and 1, and rounding errs less than the numbers that are left out.
 """
 
 from __future__ import annotations

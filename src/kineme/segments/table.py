@@ -227,10 +227,6 @@ class SegmentTable:
     def to_dataframe(self) -> pd.DataFrame:
         """One row per segment: the columns in the documented order, and ``duration_s``.
 
-        Returns
-        -------
-        pandas.DataFrame
-
         Raises
         ------
         MissingDependencyError

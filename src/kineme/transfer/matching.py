@@ -2,8 +2,8 @@
 
 A primitive u matches a run L of labelled ones if all of u can be warped onto successive samples
 of L, at half to twice its speed (subsequence warping), and all of a primitive of L onto the run
-of u. The match costs the dearer of the two. With one of them alone, a part of a movement would
-pass for the whole.
+of u. The match costs the larger of the two. With one of them alone, a part of a movement would
+match the whole.
 
 A *run* is of primitives that touch and are of one kind. Cyclic movements may be cut at another
 phase, so a warping may lead from one primitive to the next of its run, but never into another.

@@ -46,7 +46,7 @@ Ints = NDArray[np.int64]
 Float32s = NDArray[np.float32]
 
 APART = 1e3
-"""In each feature of a sample between two contexts: no match reaches over it."""
+"""Value of each feature between two contexts: no match crosses it."""
 BLOCK = 100
 """Words that a task compares with as many others."""
 AT_ONCE = 200

@@ -92,14 +92,6 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
 def comments(segmentation: Segmentation) -> list[Comment]:
     """Level, frame and text of each, in time order.
 
-    Parameters
-    ----------
-    segmentation : Segmentation
-
-    Returns
-    -------
-    list of (level, frame, text)
-
     Examples
     --------
     >>> import kineme
