@@ -319,7 +319,7 @@ class SegmentTable:
         return f"<SegmentTable of {of}{span}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.notebook import page
+        from kineme.segments.timeline import page
 
         levels = [self[self.level == level] for level in get_args(Level)]
         return page(repr(self).strip("<>"), levels, self)

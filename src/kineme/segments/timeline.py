@@ -1,4 +1,4 @@
-"""A segment table along a line of seconds: on Axes of matplotlib, and as SVG for notebooks.
+"""A segment table along a line of seconds: on Axes of matplotlib, and as HTML for notebooks.
 
 Each level is a row, each segment a bar in the colour of its cluster, the same
 in every picture; grey is what is in no cluster, lighter grey a transition.
@@ -6,6 +6,7 @@ in every picture; grey is what is in no cluster, lighter grey a transition.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any, Protocol, Self
@@ -28,6 +29,9 @@ TRANSITION = "#F0F0F0"
 NO_LABELS: Mapping[str, str] = {}
 WIDTH, HEIGHT = 720, 16
 """Pixels of a row in a notebook."""
+FIRST_ROWS = 8
+"""Rows of a table that a notebook shows."""
+HEADER = ("kind", "start s", "stop s", "duration s", "cluster", "label", "confidence")
 
 
 class Row(Protocol):
@@ -119,6 +123,39 @@ def timeline_svg(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
         f'<svg viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
         f'style="max-width:100%" role="img" aria-label="timeline">{"".join(bars)}</svg>'
     )
+
+
+def page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
+    """HTML of a title, timelines below each other, and the first rows of a table."""
+    shown = [table for table in timelines if len(table)]
+    picture = ""
+    if shown:
+        start = min(float(table.start_s.min()) for table in shown)
+        stop = max(float(table.stop_s.max()) for table in shown)
+        picture = timeline_svg(shown, start, stop)
+    more = len(rows) - FIRST_ROWS
+    below = f"<p>and {more} more</p>" if more > 0 else ""
+    return f"<div><p>{escape(title)}</p>{picture}{_rows(rows)}{below}</div>"
+
+
+def _rows(table: Rows) -> str:
+    head = "".join(f"<th>{name}</th>" for name in HEADER)
+    body = "".join(f"<tr>{_cells(segment)}</tr>" for segment in table.select(slice(FIRST_ROWS)))
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _cells(segment: Row) -> str:
+    square = f'<span style="color:{segment_color(segment)}">■</span>'
+    cells = (
+        segment.kind,
+        f"{segment.start_s:.2f}",
+        f"{segment.stop_s:.2f}",
+        f"{segment.duration_s:.2f}",
+        f"{square} {segment.cluster}" if segment.cluster >= 0 else "",
+        escape(segment.label),
+        "" if math.isnan(segment.confidence) else f"{segment.confidence:.2f}",
+    )
+    return "".join(f"<td>{cell}</td>" for cell in cells)
 
 
 def _pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float, float]]:
